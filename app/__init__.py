@@ -1,0 +1,8 @@
+"""Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
+
+- `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there.
+- `api`: HTTP only. `schemas`: what travels. `store`: robots on disk.
+- `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
+
+Arrows point down only; `./dev lint` checks it.
+"""

@@ -1,0 +1,189 @@
+"""A chain: the way from a base frame to a tip frame through a description, as flat arrays for the kernels.
+
+The way may lead up the tree and down again, so base and tip are any two frames. Between the n joints of the way
+(mimic joints included) stand n + 1 constant placements, each turned so that its joint turns about or slides along
+its local z axis; a joint passed from child to parent turns the other way, which the axis takes up. A chain is built
+from the description alone: Pinocchio is its judge, not its source.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from app.model.arrays import Array, Indices
+from app.model.description import MOVABLE, Description, Drive, Joint, Triple
+from app.model.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
+from app.model.poses import inverse, placement, transform
+
+
+class FlatChain(NamedTuple):
+    """The numbers of a chain for the kernels; m joints on the way, mimic ones included.
+
+    Attributes:
+        translations: Constant placements before each joint and after the last; shape (m + 1, 3), [m].
+        rotations: Their rotations; shape (m + 1, 3, 3).
+        prismatic: 1 where the joint slides, 0 where it turns; shape (m,).
+        variables: Which variable moves the joint; shape (m,).
+        multipliers: Joint position = multiplier · variable + offset; shape (m,).
+        offsets: See `multipliers`; shape (m,), [rad or m].
+    """
+
+    translations: Array
+    rotations: Array
+    prismatic: Indices
+    variables: Indices
+    multipliers: Array
+    offsets: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Chain:
+    """Base → tip of a robot.
+
+    Attributes:
+        base_frame: Where poses are expressed.
+        tip_frame: What poses are of.
+        joint_names: The chain's n variables, base to tip; the order of a configuration.
+        lower: Lower bound of each variable, [rad or m], -inf where there is none; shape (n,).
+        upper: Upper bound likewise, inf where there is none; shape (n,).
+        flat: The kernels' view of it.
+    """
+
+    base_frame: str
+    tip_frame: str
+    joint_names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    flat: FlatChain
+
+    def __len__(self) -> int:
+        return len(self.joint_names)
+
+
+def build_chain(description: Description, base_frame: str, tip_frame: str) -> Chain:
+    """The chain between two frames of a robot.
+
+    Raises:
+        UnknownFrame: One of the two is no frame of the robot.
+        UnsupportedJoint: A floating or planar joint lies on the way.
+    """
+    upwards, downwards = _way(description, base_frame, tip_frame)
+    steps = [(joint, True) for joint in upwards] + [(joint, False) for joint in downwards]
+    for joint, _ in steps:
+        if joint.type in {"floating", "planar"}:
+            raise UnsupportedJoint(joint.name, joint.type, base_frame, tip_frame)
+    moving = [joint for joint, _ in steps if joint.type in MOVABLE]
+    drives = [description.drives[joint.name] for joint in moving]
+    names = _variables(moving, drives)
+    placements = _placements(steps)
+    bounds = [_bounds(description.joint[name]) for name in names]
+    return Chain(
+        base_frame,
+        tip_frame,
+        names,
+        np.array([lower for lower, _ in bounds], dtype=float),
+        np.array([upper for _, upper in bounds], dtype=float),
+        FlatChain(
+            np.array([T[:3, 3] for T in placements]),
+            np.array([T[:3, :3] for T in placements]),
+            np.array([joint.type == "prismatic" for joint in moving], dtype=np.int64),
+            np.array([names.index(drive.leader) for drive in drives], dtype=np.int64),
+            np.array([drive.multiplier for drive in drives], dtype=float),
+            np.array([drive.offset for drive in drives], dtype=float),
+        ),
+    )
+
+
+def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[Chain, Indices]:
+    """The chain from the same base to another frame that the same variables move.
+
+    Returns:
+        That chain, and for each of its variables the index in the configuration of `chain`.
+
+    Raises:
+        UnknownFrame: It is no frame of the robot.
+        FrameNotOnChain: Joints that are no variables of the chain move it.
+        UnsupportedJoint: A floating or planar joint lies on the way.
+    """
+    part = build_chain(description, chain.base_frame, frame)
+    missing = tuple(name for name in part.joint_names if name not in chain.joint_names)
+    if missing:
+        raise FrameNotOnChain(frame, missing, chain.base_frame, chain.tip_frame)
+    return part, np.array([chain.joint_names.index(name) for name in part.joint_names], dtype=np.int64)
+
+
+def default_ends(description: Description) -> tuple[str, str]:
+    """Root link → the leaf with the longest movable chain; of equals the first in the document."""
+    best, most = description.root, -1
+    for leaf in description.leaves:
+        joints = list(description.path_to_root(leaf))
+        if any(joint.type in {"floating", "planar"} for joint in joints):
+            continue
+        count = len({description.drives[joint.name].leader for joint in joints if joint.type in MOVABLE})
+        if count > most:
+            best, most = leaf, count
+    return description.root, best
+
+
+def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[list[Joint], list[Joint]]:
+    """The joints up from the base to the common ancestor, and those down from there to the tip."""
+    for frame in (base_frame, tip_frame):
+        if frame not in description.joints_below:
+            raise UnknownFrame(frame, description.frames)
+    upwards = list(description.path_to_root(base_frame))
+    downwards = list(description.path_to_root(tip_frame))
+    while upwards and downwards and upwards[-1] is downwards[-1]:
+        upwards.pop()
+        downwards.pop()
+    return upwards, downwards[::-1]
+
+
+def _variables(moving: list[Joint], drives: list[Drive]) -> tuple[str, ...]:
+    """The names of the variables in the order of the way.
+
+    A joint of its own stands where it is; the leader of a mimic joint that is not on the way itself stands where
+    it is first needed.
+    """
+    on_the_way = {joint.name for joint in moving}
+    names = [
+        drive.leader
+        for joint, drive in zip(moving, drives, strict=True)
+        if drive.leader == joint.name or drive.leader not in on_the_way
+    ]
+    return tuple(dict.fromkeys(names))
+
+
+def _placements(steps: list[tuple[Joint, bool]]) -> list[Array]:
+    """The constant placements between the moving joints of the way, each ending in an axis along z."""
+    placements = []
+    T = np.eye(4)
+    for joint, reversed_ in steps:
+        origin = placement(joint.origin.xyz, joint.origin.rpy)
+        if joint.type not in MOVABLE:
+            T = T @ (inverse(origin) if reversed_ else origin)
+            continue
+        to_axis = transform(np.zeros(3), rotation_to_axis(joint.axis))
+        if reversed_:
+            # child → parent: the joint's motion comes first, the other way round, then the origin is undone.
+            flip = np.diag([1.0, -1.0, -1.0, 1.0])
+            placements.append(T @ to_axis @ flip)
+            T = flip @ inverse(to_axis) @ inverse(origin)
+        else:
+            placements.append(T @ origin @ to_axis)
+            T = inverse(to_axis)
+    return [*placements, T]
+
+
+def rotation_to_axis(axis: Triple) -> Array:
+    """A rotation whose z axis is the given unit vector, exact for the coordinate axes; shape (3, 3)."""
+    z = np.array(axis)
+    smallest = int(np.argmin(np.abs(z)))
+    x = np.cross(np.eye(3)[smallest], z)
+    x /= np.linalg.norm(x)
+    return np.column_stack((x, np.cross(z, x), z))
+
+
+def _bounds(joint: Joint) -> tuple[float, float]:
+    lower, upper = joint.limits.lower, joint.limits.upper
+    return (-np.inf if lower is None else lower), (np.inf if upper is None else upper)

@@ -1,0 +1,392 @@
+"""Everything the core refuses to do, with typed data and no HTTP status.
+
+    KinematicsError
+    ├── InvalidInput
+    │   ├── InvalidUrdf              a description that is not a robot
+    │   ├── InvalidDhTable           a table that is not a robot
+    │   ├── InvalidPose              an orientation that is not one
+    │   ├── InvalidArchive           a zip that is not one URDF and its meshes
+    │   ├── InvalidName              a robot's name with other characters
+    │   ├── InvalidArray             an array of the wrong shape, type or size
+    │   ├── WrongJointCount          a configuration with too many or too few numbers
+    │   ├── MissingJoint             a configuration by name that leaves a joint out
+    │   ├── UnknownJoint             a configuration by name with a joint not on the chain
+    │   ├── OutsideLimits            a configuration beyond a joint's limits, where asked to respect them
+    │   ├── UnsupportedJoint         a chain across a floating or planar joint
+    │   ├── FrameNotOnChain          a frame that moves with joints the chain does not have
+    │   └── RepresentationSingularity  Euler angles without a rate at this orientation
+    ├── NotFound
+    │   ├── UnknownRobot
+    │   ├── UnknownFrame
+    │   └── UnknownMesh
+    ├── TooLarge                     more than the service is set up to take
+    ├── RobotExists                  the name stands for something else
+    ├── ReadOnlyRobot                a robot of the catalogue
+    └── CertificationFailed          two computations of the same number disagree: never sent
+
+Not converging, or a target out of reach, is a result with a reason and no error.
+"""
+
+from dataclasses import dataclass, fields
+
+_QUOTED_LENGTH = 80
+
+
+def quoted(name: str) -> str:
+    """A name from outside, fit for a sentence: quoted, escaped, shortened."""
+    shown = name if len(name) <= _QUOTED_LENGTH else name[: _QUOTED_LENGTH - 1] + "…"
+    return "'" + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in shown) + "'"
+
+
+def listed(names: tuple[str, ...], most: int = 12) -> str:
+    """The first names of a list, quoted, and how many more there are."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return (", ".join(quoted(name) for name in names[:most]) or "none") + more
+
+
+@dataclass(eq=False)
+class KinematicsError(Exception):
+    """The root: anything the core can refuse. `detail` is one sentence for the person who asked."""
+
+    def __str__(self) -> str:
+        return self.detail
+
+    @property
+    def detail(self) -> str:
+        """What is wrong, why, and what is allowed."""
+        raise NotImplementedError
+
+    def facts(self) -> dict[str, object]:
+        """The typed data of the error, by field name."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), tuple(self.facts().values())
+
+
+class InvalidInput(KinematicsError):
+    """Something is wrong in what was sent."""
+
+
+@dataclass(eq=False)
+class InvalidUrdf(InvalidInput):
+    """The description is not a robot: why, in which element, on which line (1-based)."""
+
+    reason: str
+    element: str | None = None
+    line: int | None = None
+
+    @property
+    def detail(self) -> str:
+        """The reason behind the place."""
+        where = [f"line {self.line}"] if self.line is not None else []
+        where += [self.element] if self.element is not None else []
+        return ": ".join([*where, self.reason])
+
+
+@dataclass(eq=False)
+class InvalidDhTable(InvalidInput):
+    """The table is not a robot: why, in which joint (0-based) and which parameter."""
+
+    reason: str
+    joint: int | None = None
+    parameter: str | None = None
+
+    @property
+    def detail(self) -> str:
+        """The reason behind the place."""
+        where = [f"joint {self.joint + 1} of the table"] if self.joint is not None else []
+        where += [self.parameter] if self.parameter is not None else []
+        return ": ".join([*where, self.reason])
+
+
+@dataclass(eq=False)
+class InvalidPose(InvalidInput):
+    """The orientation is further from a rotation than rounding explains."""
+
+    reason: str
+    distance: float | None = None
+
+    @property
+    def detail(self) -> str:
+        """The reason, with the distance where one was measured."""
+        return self.reason if self.distance is None else f"{self.reason} (distance {self.distance:.3g})"
+
+
+@dataclass(eq=False)
+class InvalidArchive(InvalidInput):
+    """The archive is not one URDF and its meshes: why, and which entry."""
+
+    reason: str
+    entry: str | None = None
+
+    @property
+    def detail(self) -> str:
+        """The reason behind the entry."""
+        return self.reason if self.entry is None else f"entry {quoted(self.entry)}: {self.reason}"
+
+
+@dataclass(eq=False)
+class InvalidName(InvalidInput):
+    """A robot's name must be fit for a path and a URL."""
+
+    name: str
+
+    @property
+    def detail(self) -> str:
+        """What a name may hold."""
+        return (
+            f"{quoted(self.name)} is not a robot's name: 1 to 64 letters, digits, '_', '.' or '-', "
+            "the first one a letter or digit"
+        )
+
+    def facts(self) -> dict[str, object]:
+        """Nothing beyond the sentence: the name is the caller's own text."""
+        return {}
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.name,)
+
+
+@dataclass(eq=False)
+class InvalidArray(InvalidInput):
+    """An array of numbers is not of the shape, type or size that is asked for."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """The reason."""
+        return self.reason
+
+
+@dataclass(eq=False)
+class WrongJointCount(InvalidInput):
+    """A configuration has not one number a joint of the chain."""
+
+    given: int
+    expected: tuple[str, ...]
+    index: int | None = None
+
+    @property
+    def detail(self) -> str:
+        """Both counts, and the names in order."""
+        which = "a configuration" if self.index is None else f"configuration {self.index}"
+        return (
+            f"{which} has {self.given} numbers where the chain has {len(self.expected)} joints, "
+            f"in this order: {listed(self.expected)}"
+        )
+
+
+@dataclass(eq=False)
+class MissingJoint(InvalidInput):
+    """A configuration given by name leaves a joint of the chain out."""
+
+    joint: str
+    expected: tuple[str, ...]
+    index: int
+
+    @property
+    def detail(self) -> str:
+        """The joint that is missing."""
+        return f"configuration {self.index} gives no value for joint {quoted(self.joint)} of the chain"
+
+
+@dataclass(eq=False)
+class UnknownJoint(InvalidInput):
+    """A configuration given by name has a joint that the chain does not have."""
+
+    joint: str
+    expected: tuple[str, ...]
+    index: int
+
+    @property
+    def detail(self) -> str:
+        """The joint, and those that are allowed."""
+        return (
+            f"configuration {self.index} gives a value for {quoted(self.joint)}, which is no joint of the chain; "
+            f"its joints are {listed(self.expected)}"
+        )
+
+
+@dataclass(eq=False)
+class OutsideLimits(InvalidInput):
+    """A configuration lies beyond a joint's limits, and the call asked to respect them."""
+
+    joint: str
+    value: float
+    lower: float
+    upper: float
+    index: int
+
+    @property
+    def detail(self) -> str:
+        """The joint, its value and its limits."""
+        return (
+            f"configuration {self.index}: joint {quoted(self.joint)} at {self.value:.17g} "
+            f"is outside its limits [{self.lower:.17g}, {self.upper:.17g}]"
+        )
+
+
+@dataclass(eq=False)
+class UnsupportedJoint(InvalidInput):
+    """A chain would lead across a joint with more than one degree of freedom."""
+
+    joint: str
+    joint_type: str
+    base_frame: str
+    tip_frame: str
+
+    @property
+    def detail(self) -> str:
+        """The joint in the way, and what to do."""
+        return (
+            f"the way from {quoted(self.base_frame)} to {quoted(self.tip_frame)} leads across joint "
+            f"{quoted(self.joint)} of type {self.joint_type}, which has more than one degree of freedom: choose a base "
+            "and a tip on the same side of it, or describe it by revolute and prismatic joints"
+        )
+
+
+@dataclass(eq=False)
+class FrameNotOnChain(InvalidInput):
+    """The pose of a frame depends on joints that the chain does not have."""
+
+    frame: str
+    missing_joints: tuple[str, ...]
+    base_frame: str
+    tip_frame: str
+
+    @property
+    def detail(self) -> str:
+        """The joints that would be needed."""
+        return (
+            f"frame {quoted(self.frame)} also moves with {listed(self.missing_joints)}, which the chain from "
+            f"{quoted(self.base_frame)} to {quoted(self.tip_frame)} does not have: ask for it as a tip_frame"
+        )
+
+
+@dataclass(eq=False)
+class RepresentationSingularity(InvalidInput):
+    """Euler angles have no rate at this orientation, though the robot may move there."""
+
+    representation: str
+    angle: str
+    value: float
+    index: int
+
+    @property
+    def detail(self) -> str:
+        """The angle at which the representation degenerates."""
+        return (
+            f"configuration {self.index}: the {self.representation} angles have no unique rate at "
+            f"{self.angle} = {self.value:.6g} rad, a singularity of the representation and not of the robot: "
+            "use the geometric Jacobian here"
+        )
+
+
+class NotFound(KinematicsError):
+    """What the caller names does not exist."""
+
+
+@dataclass(eq=False)
+class UnknownRobot(NotFound):
+    """No robot of this name."""
+
+    robot: str
+    close: tuple[str, ...] = ()
+
+    @property
+    def detail(self) -> str:
+        """The name, and the nearest known ones."""
+        hint = f"; did you mean {listed(self.close)}?" if self.close else ""
+        return f"there is no robot named {quoted(self.robot)}{hint}"
+
+    def facts(self) -> dict[str, object]:
+        """The nearest names only: the given one is the caller's own text."""
+        return {"close": self.close}
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.robot, self.close)
+
+
+@dataclass(eq=False)
+class UnknownFrame(NotFound):
+    """The robot has no frame of this name."""
+
+    frame: str
+    known: tuple[str, ...]
+
+    @property
+    def detail(self) -> str:
+        """The name, and the frames that exist."""
+        return f"the robot has no frame {quoted(self.frame)}; its frames are {listed(self.known)}"
+
+
+@dataclass(eq=False)
+class UnknownMesh(NotFound):
+    """The robot's description came without this mesh file."""
+
+    path: str
+
+    @property
+    def detail(self) -> str:
+        """The path."""
+        return f"the robot has no mesh file {quoted(self.path)}"
+
+
+@dataclass(eq=False)
+class TooLarge(KinematicsError):
+    """More than the service is set up to take in one call."""
+
+    what: str
+    given: int
+    allowed: int
+
+    @property
+    def detail(self) -> str:
+        """Both numbers."""
+        return f"{self.what}: {self.given} is more than the {self.allowed} allowed"
+
+
+@dataclass(eq=False)
+class RobotExists(KinematicsError):
+    """The name stands for another robot already."""
+
+    robot: str
+
+    @property
+    def detail(self) -> str:
+        """The name, and the ways out."""
+        return (
+            f"the name {quoted(self.robot)} stands for another robot: choose another name, "
+            "or replace an uploaded one with PUT"
+        )
+
+
+@dataclass(eq=False)
+class ReadOnlyRobot(KinematicsError):
+    """Robots of the catalogue can be neither replaced nor removed."""
+
+    robot: str
+
+    @property
+    def detail(self) -> str:
+        """The name."""
+        return f"{quoted(self.robot)} belongs to the catalogue and is read-only"
+
+
+@dataclass(eq=False)
+class CertificationFailed(KinematicsError):
+    """Two computations that share no code disagree: the answer is withheld."""
+
+    quantity: str
+    error: float
+    tolerance: float
+
+    @property
+    def detail(self) -> str:
+        """What disagrees, and by how much."""
+        return (
+            f"the answer was withheld: {self.quantity} computed in two independent ways differs by "
+            f"{self.error:.3g}, more than {self.tolerance:.3g}"
+        )
