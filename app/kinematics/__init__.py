@@ -1,0 +1,8 @@
+"""What a robot does: NumPy, numba and Pinocchio; no HTTP, no settings.
+
+- `kernels`: compiled batches of poses, Jacobians and Hessians on flat arrays; never Pinocchio.
+- `forward`: poses of tips and frames.
+- `jacobian`: Jacobians in every reference and representation, with derivatives.
+- `certify`: the same numbers through Pinocchio, and how far the two are apart.
+- `configuration`: configurations as callers give them → one array in the chain's order.
+"""

@@ -1,0 +1,184 @@
+"""The same numbers through Pinocchio, and how far the two computations are apart.
+
+Kernels and Pinocchio share nothing but the checked description. What differs by more than rounding is never sent.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from app.model.arrays import Array, Indices
+from app.model.chain import Chain
+from app.model.errors import CertificationFailed
+from app.model.poses import Poses, pose_errors
+from app.model.robot import Robot
+
+MAX_SAMPLES = 16
+"""Configurations of a batch that are recomputed; all of a smaller one."""
+TOLERANCE = 1e-9
+"""Allowed difference, absolute and relative to the largest number compared."""
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """How good an answer is.
+
+    Attributes:
+        samples: Configurations that were recomputed through Pinocchio.
+        max_position_error: Largest distance between the two, [m].
+        max_orientation_error: Largest angle between the two, [rad].
+        seed: Of the choice of samples.
+    """
+
+    samples: int
+    max_position_error: float
+    max_orientation_error: float
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class JacobianCertificate:
+    """How good a Jacobian is.
+
+    Attributes:
+        samples: Configurations that were recomputed through Pinocchio.
+        max_error: Largest difference of an entry of the geometric Jacobian, [m, rad per rad or m].
+        max_time_variation_error: The same of J̇, where derivatives were asked for.
+        seed: Of the choice of samples.
+    """
+
+    samples: int
+    max_error: float
+    max_time_variation_error: float | None
+    seed: int
+
+
+def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Poses], seed: int = 0) -> Certificate:
+    """Compare poses with Pinocchio's.
+
+    Args:
+        robot: The robot.
+        chain: The chain whose base they are expressed in.
+        qs: Its configurations; shape (N, n).
+        frames: Poses of one or more frames at these configurations, N each.
+        seed: Chooses the samples of a large batch.
+
+    Raises:
+        CertificationFailed: The two differ by more than `TOLERANCE`.
+    """
+    rows = _samples(len(qs), seed)
+    worst_distance, worst_angle = 0.0, 0.0
+    for name, poses in frames.items():
+        positions, rotations = _poses(robot, chain, name, qs, rows)
+        distance, angle, extent = pose_errors(poses.positions[rows], poses.rotations[rows], positions, rotations)
+        worst_distance = max(worst_distance, _demand("a position", distance, extent))
+        worst_angle = max(worst_angle, _demand("an orientation", angle, 1.0))
+    return Certificate(len(rows), worst_distance, worst_angle, seed)
+
+
+def certify_jacobians(
+    robot: Robot, chain: Chain, qs: Array, Js: Array, hessians: Array | None = None, seed: int = 0
+) -> JacobianCertificate:
+    """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q by way of J̇.
+
+    Args:
+        robot: The robot.
+        chain: The chain.
+        qs: Its configurations; shape (N, n).
+        Js: Jacobians; shape (N, 6, n).
+        hessians: ∂J/∂q; shape (N, 6, n, n).
+        seed: Chooses the samples of a large batch, and the joint velocities for J̇.
+
+    Raises:
+        CertificationFailed: The two differ by more than `TOLERANCE`.
+    """
+    rows = _samples(len(qs), seed)
+    speeds = np.random.default_rng(seed).uniform(-1.0, 1.0, len(chain))
+    worst, worst_rate = 0.0, 0.0
+    for row in rows:
+        J, J_dot = _jacobian(robot, chain, qs[row], speeds, with_rate=hessians is not None)
+        worst = max(worst, _demand("the Jacobian", _largest(J - Js[row]), _largest(J)))
+        if hessians is not None:
+            error = _largest(J_dot - hessians[row] @ speeds)
+            worst_rate = max(worst_rate, _demand("the Jacobian's derivative", error, _largest(J_dot)))
+    return JacobianCertificate(len(rows), worst, worst_rate if hessians is not None else None, seed)
+
+
+def _samples(count: int, seed: int) -> Indices:
+    if count <= MAX_SAMPLES:
+        return np.arange(count)
+    return np.sort(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False))
+
+
+def _largest(difference: Array) -> float:
+    return float(np.abs(difference).max(initial=0.0))
+
+
+def _demand(quantity: str, error: float, scale: float) -> float:
+    """The error, where it is no larger than rounding of numbers of that scale explains; NaN never is."""
+    tolerance = TOLERANCE * max(1.0, scale)
+    if not error <= tolerance:
+        raise CertificationFailed(quantity, error, tolerance)
+    return error
+
+
+def _poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Indices) -> tuple[Array, Array]:
+    """Pinocchio's T_base_frame at some of the configurations; shapes (k, 3) and (k, 3, 3)."""
+    model, data = robot.model, robot.data
+    expansion = robot.expansion(chain)
+    base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
+    positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
+    with robot.lock:
+        for k, row in enumerate(rows):
+            pin.forwardKinematics(model, data, expansion.offset + expansion.matrix @ qs[row])
+            T_world_base = pin.updateFramePlacement(model, data, base)
+            T_base_frame = T_world_base.actInv(pin.updateFramePlacement(model, data, tip))
+            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
+    return positions, rotations
+
+
+def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate: bool) -> tuple[Array, Array]:
+    """Pinocchio's geometric Jacobian of the chain and its time variation at given joint velocities, both (6, n).
+
+    Pinocchio gives both for each frame against the world. With r from base to tip, in the world's axes, the relative
+    Jacobian is Rᵀ(J_tip - J_base - ω_base × r) in its linear rows and Rᵀ(J_tip - J_base) in the angular ones, R the
+    base's rotation; its time variation follows by the product rule.
+    """
+    expansion = robot.expansion(chain)
+    full_q, full_speeds = expansion.offset + expansion.matrix @ q, expansion.matrix @ speeds
+    with robot.lock:
+        R, r, J_base, J_tip = _world_jacobians(robot, chain, full_q)
+        D_base, D_tip = _world_variations(robot, chain, full_q, full_speeds) if with_rate else (J_base, J_tip)
+    J_base, J_tip, D_base, D_tip = (columns @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip))
+    J_world = J_tip - J_base
+    J_world[:3] -= np.cross(J_base[3:], r, axis=0)
+    r_dot = (J_tip[:3] - J_base[:3]) @ speeds
+    D_world = D_tip - D_base
+    D_world[:3] -= np.cross(D_base[3:], r, axis=0) + np.cross(J_base[3:], r_dot, axis=0)
+    omega = J_base[3:] @ speeds
+    D_world[:3] -= np.cross(omega, J_world[:3], axisa=0, axisb=0, axisc=0)
+    D_world[3:] -= np.cross(omega, J_world[3:], axisa=0, axisb=0, axisc=0)
+    return np.vstack((R.T @ J_world[:3], R.T @ J_world[3:])), np.vstack((R.T @ D_world[:3], R.T @ D_world[3:]))
+
+
+def _world_jacobians(robot: Robot, chain: Chain, q: Array) -> tuple[Array, Array, Array, Array]:
+    """The base's rotation (3, 3), base → tip (3,), and both frames' Jacobians (6, nv), all in the world's axes."""
+    pin.computeJointJacobians(robot.model, robot.data, q)
+    frames = robot.frame_id(chain.base_frame), robot.frame_id(chain.tip_frame)
+    T_base, T_tip = (pin.updateFramePlacement(robot.model, robot.data, frame) for frame in frames)
+    J_base, J_tip = (pin.getFrameJacobian(robot.model, robot.data, frame, pin.LOCAL_WORLD_ALIGNED) for frame in frames)
+    return T_base.rotation.copy(), T_tip.translation - T_base.translation, J_base, J_tip
+
+
+def _world_variations(robot: Robot, chain: Chain, q: Array, speeds: Array) -> tuple[Array, Array]:
+    """Time variation of both frames' Jacobians in the world's axes, (6, nv) each."""
+    pin.computeJointJacobiansTimeVariation(robot.model, robot.data, q, speeds)
+    frames = robot.frame_id(chain.base_frame), robot.frame_id(chain.tip_frame)
+    for frame in frames:
+        pin.updateFramePlacement(robot.model, robot.data, frame)
+    D_base, D_tip = (
+        pin.getFrameJacobianTimeVariation(robot.model, robot.data, frame, pin.LOCAL_WORLD_ALIGNED) for frame in frames
+    )
+    return D_base, D_tip

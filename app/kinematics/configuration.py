@@ -1,0 +1,85 @@
+"""Configurations as callers give them, by order or by name → one array in the chain's order, checked."""
+
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import InvalidArray, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
+
+Configuration: TypeAlias = Sequence[float] | Mapping[str, float]
+
+MAX_POSITION = 1e6
+"""Largest joint position, [rad or m]: beyond it a double no longer resolves a nanoradian."""
+
+
+def configurations(chain: Chain, values: Sequence[Configuration] | Array) -> Array:
+    """One row a configuration, in the chain's order; shape (N, n), [rad or m].
+
+    An array is taken as such rows already.
+
+    Raises:
+        WrongJointCount: One of them has not one number a joint.
+        MissingJoint: One given by name leaves a joint out.
+        UnknownJoint: One given by name has a joint that is not on the chain.
+        InvalidArray: A number is beyond `MAX_POSITION`.
+    """
+    if isinstance(values, np.ndarray):
+        return checked_positions(chain, values)
+    rows = [_by_name(chain, i, value) if isinstance(value, Mapping) else value for i, value in enumerate(values)]
+    for i, row in enumerate(rows):
+        if len(row) != len(chain):
+            raise WrongJointCount(len(row), chain.joint_names, i)
+    return checked_positions(chain, np.array(rows, dtype=float).reshape(len(rows), len(chain)))
+
+
+def checked_positions(chain: Chain, qs: Array) -> Array:
+    """The same array, where it is one row of numbers of sensible size a configuration.
+
+    Raises:
+        WrongJointCount: It has not one column a joint.
+        InvalidArray: It is no table, or a number is not finite or beyond `MAX_POSITION`.
+    """
+    if qs.ndim != 2:
+        raise InvalidArray(
+            f"configurations form an array of shape (N, {len(chain)}); this one has {qs.ndim} dimensions"
+        )
+    if qs.shape[1] != len(chain):
+        raise WrongJointCount(qs.shape[1], chain.joint_names)
+    if qs.size and not np.abs(qs).max() <= MAX_POSITION:
+        row, column = np.argwhere(~(np.abs(qs) <= MAX_POSITION))[0]
+        raise InvalidArray(
+            f"configuration {row}: the position of joint {chain.joint_names[column]!r} must be a finite number of "
+            f"magnitude ≤ {MAX_POSITION:g}"
+        )
+    return qs
+
+
+def check_limits(chain: Chain, qs: Array) -> None:
+    """Refuse configurations beyond the limits of the chain's joints; qs has shape (N, n).
+
+    Raises:
+        OutsideLimits: The first joint that is beyond its limits.
+    """
+    outside = (qs < chain.lower) | (qs > chain.upper)
+    if outside.any():
+        row, column = (int(index) for index in np.argwhere(outside)[0])
+        raise OutsideLimits(
+            chain.joint_names[column],
+            float(qs[row, column]),
+            float(chain.lower[column]),
+            float(chain.upper[column]),
+            row,
+        )
+
+
+def _by_name(chain: Chain, index: int, value: Mapping[str, float]) -> list[float]:
+    for name in value:
+        if name not in chain.joint_names:
+            raise UnknownJoint(name, chain.joint_names, index)
+    for name in chain.joint_names:
+        if name not in value:
+            raise MissingJoint(name, chain.joint_names, index)
+    return [value[name] for name in chain.joint_names]
