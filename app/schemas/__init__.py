@@ -1,0 +1,9 @@
+"""What travels over the wire: units in every description, finite numbers only, unknown fields refused.
+
+- `common`: the strict base of all payloads, names, chains.
+- `pose`: poses in every notation.
+- `dh`: Denavit-Hartenberg tables.
+- `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.
+- `kinematics`: requests and answers of forward kinematics and the Jacobian.
+- `problem`: an error.
+"""

@@ -1,0 +1,135 @@
+"""Requests and answers of forward kinematics and the Jacobian."""
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import Discriminator, Field, Tag
+
+from app.schemas.common import Answer, ChainOptions, FrameName
+from app.schemas.pose import Pose, PoseFormat
+
+
+def _kind(value: Any) -> str:
+    return "<object>" if isinstance(value, dict) else "<list>"
+
+
+ByOrder: TypeAlias = Annotated[list[float], Field(max_length=128)]
+ByName: TypeAlias = Annotated[dict[str, float], Field(max_length=128)]
+Configuration = Annotated[
+    Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")],
+    Discriminator(_kind),
+]
+"""One number a joint, base to tip, or a value by joint name. Tags in angle brackets never show in a pointer."""
+
+Configurations = Annotated[
+    list[Configuration],
+    Field(
+        description="Configurations: each one number a joint of the chain, base to tip, or an object of values by "
+        "joint name; [rad] for revolute and continuous joints, [m] for prismatic ones.",
+        examples=[[[0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.8]]],
+    ),
+]
+
+
+class ForwardOptions(ChainOptions):
+    """How forward kinematics are wanted."""
+
+    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
+    frames: list[FrameName] | Literal["all"] | None = Field(
+        None, description='Further frames that the chain moves, by name, or "all" of them.'
+    )
+    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+
+
+class ForwardRequest(ForwardOptions):
+    """Forward kinematics of a batch of configurations."""
+
+    joint_positions: Configurations
+
+
+class CertificateInfo(Answer):
+    """How far the same poses computed through Pinocchio are from these."""
+
+    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
+    max_position_error: float = Field(description="Largest distance, [m].")
+    max_orientation_error: float = Field(description="Largest angle, [rad].")
+    seed: int = Field(description="Of the choice of samples.")
+
+
+class ForwardAnswer(Answer):
+    """Poses, one entry a configuration, in order."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Frame in which the poses are expressed.")
+    tip_frame: str = Field(description="Frame whose poses they are.")
+    poses: list[Pose] = Field(description="T_base_tip at each configuration.")
+    frames: list[dict[str, Pose]] | None = Field(
+        None, description="Where frames were asked for: T_base_frame by name, one entry a configuration."
+    )
+    certificate: CertificateInfo
+
+
+class JacobianOptions(ChainOptions):
+    """How a Jacobian is wanted."""
+
+    reference: Literal["local_world_aligned", "local", "world"] = Field(
+        "local_world_aligned",
+        description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
+        "axes, at the tip. `world`: the spatial twist, base axes, at the base origin.",
+    )
+    representation: Literal["geometric", "zyz", "rpy"] = Field(
+        "geometric",
+        description="`geometric`: angular rows give the angular velocity. `zyz`, `rpy`: they give the rates of these "
+        "angles (analytic Jacobian), with reference `local_world_aligned` only.",
+    )
+    derivatives: list[Literal["time_variation", "hessian"]] = Field(
+        default_factory=list,
+        description="`time_variation`: dJ/dt at `joint_velocities`. `hessian`: ∂J/∂q.",
+        max_length=2,
+    )
+    rank_tolerance: float = Field(
+        1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
+    )
+    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+
+
+class JacobianRequest(JacobianOptions):
+    """Jacobians of a batch of configurations."""
+
+    joint_positions: Configurations
+    joint_velocities: Configurations | None = Field(
+        None, description="For `time_variation`: one entry a configuration, [rad/s or m/s]."
+    )
+
+
+class JacobianCertificateInfo(Answer):
+    """How far the same Jacobians computed through Pinocchio are from these."""
+
+    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
+    max_error: float = Field(description="Largest difference of an entry of the geometric Jacobian.")
+    max_time_variation_error: float | None = Field(
+        description="Largest difference of an entry of dJ/dt at random joint velocities, where asked for."
+    )
+    seed: int = Field(description="Of the choice of samples.")
+
+
+Matrix = list[list[float]]
+
+
+class JacobianAnswer(Answer):
+    """Jacobians, one entry a configuration; rows linear (x, y, z), then angular; columns as joint_names."""
+
+    joint_names: list[str] = Field(description="The chain's joints: the columns.")
+    base_frame: str
+    tip_frame: str
+    reference: Literal["local_world_aligned", "local", "world"]
+    representation: Literal["geometric", "zyz", "rpy"]
+    jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
+    ranks: list[int]
+    singular_values: list[list[float]] = Field(description="Largest first; metres and radians are mixed.")
+    condition_numbers: list[float | None] = Field(
+        description="Largest over smallest singular value; null where the Jacobian has not full rank."
+    )
+    rank_tolerance: float = Field(description="Relative to the largest singular value.")
+    time_variations: list[Matrix] | None = Field(None, description="dJ/dt, 6 rows, n columns.")
+    hessians: list[list[Matrix]] | None = Field(None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j.")
+    certificate: JacobianCertificateInfo

@@ -1,0 +1,139 @@
+"""Robots on the wire: listed, described, uploaded; and the `robot.json` of a folder."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from app.schemas.common import Answer, ChainEnds, Payload, RobotName
+from app.schemas.dh import DhTablePayload
+from app.schemas.pose import Pose
+
+Text = Annotated[str, Field(max_length=2000)]
+
+
+class PackagedFile(Payload):
+    """A file of an installed package."""
+
+    package: Literal["example-robot-data"]
+    path: str
+
+
+class RobotFile(Payload):
+    """The `robot.json` of a robot's folder, written by the service or by hand."""
+
+    description: Text = ""
+    format: Literal["urdf", "dh"]
+    model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
+    meshes: str | None = Field(None, description="Folder of the mesh files, in this folder.")
+    urdf_folder: str = Field("", description="Where the URDF stood among the mesh files.")
+    digest: str | None = Field(None, description="SHA-256 of the model and its meshes, of an uploaded robot.")
+    default_chain: ChainEnds | None = None
+    chains: dict[str, ChainEnds] = Field(default_factory=dict)
+    licence: str | None = None
+    source: str | None = None
+
+
+class RobotReplacement(Payload):
+    """A robot as URDF text or as a DH table: exactly one of the two."""
+
+    urdf: str | None = Field(None, description="The URDF as text, xacro expanded.")
+    dh: DhTablePayload | None = Field(None, description="The robot as a Denavit-Hartenberg table.")
+    description: Text = Field("", description="One sentence for people.")
+    default_chain: ChainEnds | None = Field(
+        None, description="Chain of calls that name none; root link → leaf with the longest movable chain if left out."
+    )
+
+    @model_validator(mode="after")
+    def _one_description(self) -> "RobotReplacement":
+        if (self.urdf is None) == (self.dh is None):
+            raise ValueError("give exactly one of `urdf` and `dh`")
+        return self
+
+
+class NewRobot(RobotReplacement):
+    """A robot to add, under a name."""
+
+    name: RobotName
+
+
+class RobotSummary(Answer):
+    """A robot in the list."""
+
+    name: str
+    description: str
+    source: Literal["catalogue", "uploaded"]
+    format: Literal["urdf", "dh"]
+    default_chain: ChainEnds
+
+
+class RobotList(Answer):
+    """All robots, the catalogue's first, each part by name."""
+
+    robots: list[RobotSummary]
+
+
+class LimitsInfo(Answer):
+    """Limits of a joint; null where there is none."""
+
+    lower: float | None = Field(description="[rad or m]")
+    upper: float | None = Field(description="[rad or m]")
+    velocity: float | None = Field(description="[rad/s or m/s]")
+    effort: float | None = Field(description="[Nm or N]")
+
+
+class MimicInfo(Answer):
+    """The joint's position is `multiplier` · position of `joint` + `offset`."""
+
+    joint: str
+    multiplier: float
+    offset: float = Field(description="[rad or m]")
+
+
+class JointInfo(Answer):
+    """A joint of a robot."""
+
+    name: str
+    type: Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+    parent: str
+    child: str
+    origin: Pose = Field(description="Pose of the joint's frame in the parent link, at position zero.")
+    axis: list[float] | None = Field(description="Unit vector in the joint's frame; null where a joint has none.")
+    limits: LimitsInfo
+    mimic: MimicInfo | None
+
+
+class MeshInfo(Answer):
+    """A mesh file that the description names."""
+
+    reference: str = Field(description="As the description writes it.")
+    path: str | None = Field(description="Below `…/meshes/`; null where the file is missing.")
+
+
+class RobotInfo(RobotSummary):
+    """Everything about a robot but its poses."""
+
+    chains: dict[str, ChainEnds] = Field(description="Named chains, such as the arms of a two-armed robot.")
+    root: str = Field(description="The link without a parent.")
+    joints: list[JointInfo]
+    joint_names: list[str] = Field(description="The default chain's joints, base to tip: the order of a configuration.")
+    degrees_of_freedom: int = Field(description="Joints of the whole robot with a position of their own.")
+    links: list[str]
+    frames: list[str]
+    leaf_tips: list[str] = Field(description="Links without children.")
+    meshes: list[MeshInfo]
+    licence: str | None
+    provenance: str | None = Field(description="Where the description comes from.")
+    warnings: list[str] = Field(description="What is odd about the description, though accepted.")
+
+
+EXAMPLE_DH: dict[str, Any] = {
+    "name": "my_planar_arm",
+    "description": "Two links of 1 m and 0.7 m in a plane",
+    "dh": {
+        "convention": "standard",
+        "joints": [
+            {"name": "shoulder", "type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+            {"name": "elbow", "type": "revolute", "a": 0.7, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+        ],
+    },
+}

@@ -1,0 +1,7 @@
+"""Robots on disk: the catalogue, read-only, and the uploaded ones, one folder each.
+
+- `folders`: durable writing: what is acknowledged is on disk, what is not is invisible.
+- `archive`: a zip of one URDF and its meshes, unpacked with suspicion.
+- `records`: a robot's folder, read: what it is, where its files are.
+- `library`: all robots by name; loaded once, and anew when their folder has changed.
+"""

@@ -1,0 +1,126 @@
+"""A zip of one URDF and its meshes, unpacked with suspicion: names, counts and real bytes are checked.
+
+The sizes that a zip states are not believed: bytes are counted while they are unpacked. Nothing here looks inside
+a mesh; kinematics need none, and the browser gets them as they came.
+"""
+
+import stat
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
+from typing import BinaryIO
+
+from app.model.errors import InvalidArchive, TooLarge
+from app.model.xml import MAX_BYTES
+
+MAX_ENTRIES = 2000
+MAX_UNPACKED = 256 * 1024 * 1024
+MAX_PATH_LENGTH = 200
+MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae", ".mtl", ".png", ".jpg", ".jpeg"})
+"""Meshes, and the materials and pictures that they refer to."""
+_CHUNK = 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class UnpackedRobot:
+    """What an archive held.
+
+    Attributes:
+        urdf: The description's bytes.
+        urdf_folder: Where it stood in the archive, "" at the top.
+        meshes: Mesh files by their path in the archive; they live as long as the context they were unpacked in.
+    """
+
+    urdf: bytes
+    urdf_folder: str
+    meshes: dict[str, Path]
+
+
+@contextmanager
+def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[UnpackedRobot]:
+    """Unpack an archive for as long as the context lasts.
+
+    Args:
+        file: The zip.
+        max_unpacked: Bytes that may come out of it.
+
+    Raises:
+        InvalidArchive: Not a zip, not one URDF, or an entry that has no place in one.
+        TooLarge: More entries or bytes than allowed.
+    """
+    try:
+        archive = zipfile.ZipFile(file)
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
+        raise InvalidArchive("the file is not a zip archive") from error
+    with archive, TemporaryDirectory(prefix="gelenk-") as folder:
+        yield _unpack(archive, Path(folder), max_unpacked)
+
+
+def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> UnpackedRobot:
+    entries = [entry for entry in archive.infolist() if not entry.is_dir()]
+    if len(archive.infolist()) > MAX_ENTRIES:
+        raise TooLarge("entries in the archive", len(archive.infolist()), MAX_ENTRIES)
+    _check_overlap(entries)
+    descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
+    if len(descriptions) != 1:
+        raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
+    seen: set[str] = set()
+    meshes: dict[str, Path] = {}
+    left = max_unpacked
+    for number, entry in enumerate(entries):
+        _check_entry(entry, seen)
+        if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in MESH_SUFFIXES:
+            continue
+        target = folder / str(number)
+        left -= _copy(archive, entry, target, left, max_unpacked)
+        meshes[entry.filename] = target
+    urdf = folder / "urdf"
+    _copy(archive, descriptions[0], urdf, MAX_BYTES, MAX_BYTES)
+    parent = PurePosixPath(descriptions[0].filename).parent
+    return UnpackedRobot(urdf.read_bytes(), "" if str(parent) == "." else str(parent), meshes)
+
+
+def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
+    name = entry.filename
+    parts = name.split("/")
+    if name.startswith("/") or "\\" in name or ":" in name or any(part in {"", ".", ".."} for part in parts):
+        raise InvalidArchive("its path must stay inside the archive", name)
+    if len(name) > MAX_PATH_LENGTH or not name.isprintable():
+        raise InvalidArchive(f"its path must be at most {MAX_PATH_LENGTH} printable characters", name)
+    if stat.S_ISLNK(entry.external_attr >> 16):
+        raise InvalidArchive("links are not allowed", name)
+    if entry.compress_type not in {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}:
+        raise InvalidArchive("its compression is not known: stored or deflated", name)
+    if entry.flag_bits & 0x1:
+        raise InvalidArchive("encrypted entries are not allowed", name)
+    if name.lower() in seen:
+        raise InvalidArchive("it stands in the archive twice", name)
+    seen.add(name.lower())
+
+
+def _check_overlap(entries: list[zipfile.ZipInfo]) -> None:
+    """Entries that share compressed bytes are how a small zip becomes a huge one."""
+    end = -1
+    for entry in sorted(entries, key=lambda entry: entry.header_offset):
+        if entry.header_offset < end:
+            raise InvalidArchive("it overlaps another entry", entry.filename)
+        end = entry.header_offset + entry.compress_size
+
+
+def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, left: int, allowed: int) -> int:
+    """Unpack one entry, counting; returns its bytes."""
+    count = 0
+    try:
+        with archive.open(entry) as source, target.open("wb") as sink:
+            while chunk := source.read(_CHUNK):
+                count += len(chunk)
+                if count > left:
+                    raise TooLarge(f"bytes unpacked up to {entry.filename[:80]!r}", allowed - left + count, allowed)
+                sink.write(chunk)
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, OSError) as error:
+        raise InvalidArchive("it cannot be unpacked", entry.filename) from error
+    return count
