@@ -1,0 +1,7 @@
+"""HTTP only: parse, call the core, shape the answer.
+
+- `problems`: every error as RFC 9457; the one table from error class to status.
+- `payloads`: bodies in: JSON and NumPy's npy, strictly.
+- `routes`: a route that FastAPI documents and that runs without its overhead.
+- `robots`, `kinematics`, `service`, `documentation`: the resources.
+"""

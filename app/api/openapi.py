@@ -1,0 +1,61 @@
+"""What the schema says beside what FastAPI reads from the signatures: problems, npy bodies, examples."""
+
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from app.api.payloads import NPY
+from app.api.problems import MEDIA_TYPE
+from app.schemas.problem import Problem
+
+_PROBLEM = {"$ref": "#/components/schemas/Problem"}
+
+
+def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """Answers of these statuses, as problems."""
+    return {
+        status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": _PROBLEM}}}
+        for status in statuses
+    }
+
+
+def npy_content(description: str) -> dict[str, Any]:
+    """An array as a further media type of a body."""
+    schema = {"type": "string", "format": "binary", "description": description}
+    return {"content": {NPY: {"schema": schema}}}
+
+
+def describe(app: FastAPI) -> None:
+    """Make the application write its schema once, with problems in the place of FastAPI's own validation error."""
+
+    def openapi() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            schema = get_openapi(
+                title=app.title,
+                version=app.version,
+                summary=app.summary,
+                description=app.description,
+                routes=app.routes,
+                tags=app.openapi_tags,
+            )
+            components = schema.setdefault("components", {}).setdefault("schemas", {})
+            for name in ("HTTPValidationError", "ValidationError"):
+                components.pop(name, None)
+            problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+            components.update(problem.pop("$defs"))
+            components["Problem"] = problem
+            for path in schema["paths"].values():
+                for operation in path.values():
+                    _replace_validation_error(operation)
+            app.openapi_schema = schema
+        return app.openapi_schema
+
+    app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _replace_validation_error(operation: dict[str, Any]) -> None:
+    answer = operation.get("responses", {}).get("422", {})
+    if "application/json" in answer.get("content", {}):
+        operation["responses"]["422"] = problems(422)[422]

@@ -1,0 +1,99 @@
+"""Bodies in, answers out: JSON and NumPy's npy, strictly."""
+
+from io import BytesIO
+from typing import Any, TypeVar
+
+import numpy as np
+import orjson
+from starlette.requests import Request
+from starlette.responses import Response
+
+from app.api.problems import UnsupportedMediaType
+from app.model.arrays import Array
+from app.model.errors import InvalidArray
+from app.schemas.common import Payload
+
+JSON = "application/json"
+NPY = "application/x-npy"
+
+_Model = TypeVar("_Model", bound=Payload)
+
+
+def media_type(request: Request) -> str:
+    """The media type of the body, lower case, without parameters; "" where none is given."""
+    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+
+
+def require_json(request: Request) -> None:
+    """Refuse a body that says it is something else than JSON.
+
+    Raises:
+        UnsupportedMediaType: It does.
+    """
+    given = media_type(request)
+    if given != JSON and not (given.startswith("application/") and given.endswith("+json")):
+        raise UnsupportedMediaType(given, (JSON,))
+
+
+def wants_npy(request: Request) -> bool:
+    """Whether the caller asks for the answer as npy."""
+    return NPY in request.headers.get("accept", "").lower()
+
+
+def json_response(content: Any, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """Python objects and NumPy arrays as JSON, numbers at full double precision."""
+    body = orjson.dumps(content, option=orjson.OPT_SERIALIZE_NUMPY)
+    return Response(body, status, headers, JSON)
+
+
+def npy_response(array: Array) -> Response:
+    """An array as npy."""
+    buffer = BytesIO()
+    np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
+    return Response(buffer.getvalue(), media_type=NPY)
+
+
+def read_npy(body: bytes) -> Array:
+    """The array in an npy body, as native float64.
+
+    The header is checked against the bytes that are there before anything is allocated, and no object is unpickled.
+
+    Raises:
+        InvalidArray: Not npy, not numbers, or not as many bytes as its header says.
+    """
+    stream = BytesIO(body)
+    try:
+        version = np.lib.format.read_magic(stream)
+        if version == (1, 0):
+            shape, fortran_order, dtype = np.lib.format.read_array_header_1_0(stream)
+        else:
+            shape, fortran_order, dtype = np.lib.format.read_array_header_2_0(stream)
+    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError) as error:
+        raise InvalidArray("the body is not an npy array of version 1 or 2") from error
+    if dtype.kind not in "fiu" or dtype.itemsize > 8 or dtype.hasobject:
+        raise InvalidArray(f"the array holds {dtype.str}; allowed are integers and floats of up to 64 bits")
+    if any(size < 0 for size in shape) or len(shape) > 4:
+        raise InvalidArray("the array's shape is not one: at most 4 dimensions, none negative")
+    count = 1
+    for size in shape:
+        count *= size
+    if len(body) - stream.tell() != count * dtype.itemsize:
+        raise InvalidArray(
+            f"the array of shape {shape} needs {count * dtype.itemsize} bytes of data, no more, no fewer"
+        )
+    flat = np.frombuffer(body, dtype, count, stream.tell())
+    shaped = flat.reshape(shape, order="F" if fortran_order else "C")
+    return np.ascontiguousarray(shaped, dtype=np.float64)
+
+
+def from_query(model: type[_Model], request: Request) -> _Model:
+    """A model from the query string, where the body is an array; repeated keys make a list.
+
+    Raises:
+        ValidationError: A value is not what the model asks for.
+    """
+    values: dict[str, Any] = {}
+    for key in request.query_params:
+        items = request.query_params.getlist(key)
+        values[key] = items if len(items) > 1 else items[0]
+    return model.model_validate_strings(values)

@@ -1,0 +1,156 @@
+"""Every error as `application/problem+json` (RFC 9457); the one table from error class to status.
+
+A problem never repeats the payload: names from outside are shortened and escaped where they are quoted at all.
+"""
+
+import logging
+import re
+from collections.abc import Mapping, Sequence
+from http import HTTPStatus
+from typing import Any
+
+import orjson
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+
+from app.model import errors
+
+MEDIA_TYPE = "application/problem+json"
+
+STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
+    errors.InvalidInput: HTTPStatus.UNPROCESSABLE_ENTITY,
+    errors.NotFound: HTTPStatus.NOT_FOUND,
+    errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+    errors.RobotExists: HTTPStatus.CONFLICT,
+    errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
+    errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+}
+"""A class not listed has its nearest ancestor's status."""
+
+_MOST_ERRORS = 20
+_MOST_NAMES = 64
+_MOST_TEXT = 2000
+
+logger = logging.getLogger("gelenk")
+
+
+class UnsupportedMediaType(Exception):
+    """A body of a media type that the operation does not take."""
+
+    def __init__(self, given: str, allowed: Sequence[str]) -> None:
+        self.given, self.allowed = given, tuple(allowed)
+        super().__init__(f"the content type is {errors.quoted(given)}; allowed are {', '.join(allowed)}")
+
+
+def problem(
+    request: Request, status: HTTPStatus, kind: str, detail: str, facts: Mapping[str, object] | None = None
+) -> Response:
+    """A problem as an answer.
+
+    Args:
+        request: What it answers.
+        status: HTTP status.
+        kind: Words joined by `-`, the same for all problems of the kind.
+        detail: This occurrence, in a sentence.
+        facts: Typed data of the kind.
+    """
+    content = {
+        **{key: _shortened(value) for key, value in (facts or {}).items()},
+        "type": f"urn:gelenk:{kind}",
+        "title": kind.replace("-", " ").capitalize(),
+        "status": int(status),
+        "detail": detail[:_MOST_TEXT],
+        "instance": request.url.path[:256],
+    }
+    return Response(orjson.dumps(content, default=str), int(status), media_type=MEDIA_TYPE)
+
+
+def status_of(error: type[errors.KinematicsError]) -> HTTPStatus:
+    """The status of an error class: its own or its nearest ancestor's."""
+    return next(STATUS[ancestor] for ancestor in error.__mro__ if ancestor in STATUS)
+
+
+def kind_of(error: type[Exception]) -> str:
+    """`UnknownFrame` → `unknown-frame`."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()
+
+
+def install(app: FastAPI) -> None:
+    """Answer every error of the application with a problem."""
+    app.add_exception_handler(errors.KinematicsError, _kinematics)
+    app.add_exception_handler(ValidationError, _validation)
+    app.add_exception_handler(RequestValidationError, _validation)
+    app.add_exception_handler(UnsupportedMediaType, _media_type)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(Exception, _unexpected)
+
+
+def _kinematics(request: Request, error: Exception) -> Response:
+    assert isinstance(error, errors.KinematicsError)  # noqa: S101 - what it is registered for
+    return problem(request, status_of(type(error)), kind_of(type(error)), error.detail, error.facts())
+
+
+def _validation(request: Request, error: Exception) -> Response:
+    assert isinstance(error, ValidationError | RequestValidationError)  # noqa: S101
+    found = (
+        error.errors(include_input=False, include_url=False) if isinstance(error, ValidationError) else error.errors()
+    )
+    if found and found[0]["type"] == "json_invalid":
+        reason = str(found[0].get("ctx", {}).get("error", found[0]["msg"]))
+        return problem(request, HTTPStatus.BAD_REQUEST, "malformed-json", f"the body is not JSON: {reason}")
+    places = [
+        {"pointer": _pointer(item["loc"]), "detail": str(item["msg"])[:_MOST_TEXT]} for item in found[:_MOST_ERRORS]
+    ]
+    first = f"{places[0]['pointer']}: {places[0]['detail']}" if places else "the payload is not what is asked for"
+    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    return problem(request, HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-payload", first + more, {"errors": places})
+
+
+def _media_type(request: Request, error: Exception) -> Response:
+    assert isinstance(error, UnsupportedMediaType)  # noqa: S101
+    status = HTTPStatus.UNSUPPORTED_MEDIA_TYPE
+    return problem(request, status, "unsupported-media-type", str(error), {"allowed": error.allowed})
+
+
+def _http(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)  # noqa: S101
+    status = HTTPStatus(error.status_code)
+    details = {
+        HTTPStatus.NOT_FOUND: "there is nothing at this path; /docs lists what there is",
+        HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not allowed here",
+        HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "the body is larger than the service takes",
+    }
+    detail = details.get(status, str(error.detail))
+    kind = status.phrase.lower().replace(" ", "-").replace("'", "")
+    response = problem(request, status, kind, detail)
+    response.headers.update(error.headers or {})
+    return response
+
+
+def _unexpected(request: Request, error: Exception) -> Response:
+    logger.error("unexpected error at %s %s", request.method, errors.quoted(request.url.path), exc_info=error)
+    detail = "something went wrong in the service; its log tells more"
+    return problem(request, HTTPStatus.INTERNAL_SERVER_ERROR, "internal-error", detail)
+
+
+def _pointer(location: Sequence[int | str]) -> str:
+    """Where in the payload: a JSON pointer, the tags of unions left out."""
+    parts = [str(part) for part in location if not str(part).startswith("<")]
+    if parts[:1] == ["body"]:
+        parts = parts[1:]
+    escaped = [part.replace("~", "~0").replace("/", "~1")[:80] for part in parts]
+    return "#/" + "/".join(escaped) if escaped else "#"
+
+
+def _shortened(value: Any) -> Any:
+    """Facts of bounded size: lists and texts from outside are cut."""
+    if isinstance(value, str):
+        return "".join(c if c.isprintable() else "�" for c in value[:256])
+    if isinstance(value, list | tuple):
+        return [_shortened(item) for item in value[:_MOST_NAMES]]
+    if isinstance(value, dict):
+        return {key: _shortened(item) for key, item in value.items()}
+    return value

@@ -1,0 +1,87 @@
+"""About the service itself: whether it lives, and whether it is ready."""
+
+import threading
+from http import HTTPStatus
+
+import numpy as np
+from fastapi import APIRouter, Request
+from pydantic import BaseModel
+from starlette.responses import RedirectResponse, Response
+
+from app.api.openapi import problems
+from app.api.payloads import json_response
+from app.api.problems import problem
+from app.kinematics.forward import forward_kinematics
+from app.kinematics.jacobian import jacobians
+from app.schemas.pose import ORIENTATIONS, orientations
+from app.store.library import Library
+
+_WARM_UP_ROBOT = "panda"
+
+
+class Health(BaseModel):
+    """The process lives."""
+
+    status: str
+
+
+class Readiness:
+    """What must have happened before requests are quick: robots found, kernels compiled or read from their cache."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+        self.waiting_for: list[str] = ["robots", "kernels"]
+        self.failure: str | None = None
+
+    def warm_up(self) -> None:
+        """Get ready in a thread of its own, so that the process answers meanwhile."""
+        threading.Thread(target=self._warm_up, name="warm-up", daemon=True).start()
+
+    def _warm_up(self) -> None:
+        try:
+            robot = self._library.get(_WARM_UP_ROBOT).robot
+            self.waiting_for.remove("robots")
+            chain = robot.chain(None, None)
+            qs = np.zeros((1, len(chain)))
+            poses = forward_kinematics(robot, chain, qs).poses
+            jacobians(robot, chain, qs, derivatives=True)
+            for notation in ORIENTATIONS:
+                orientations(poses, notation)  # type: ignore[arg-type]
+            self.waiting_for.remove("kernels")
+        except Exception as error:
+            self.failure = f"{type(error).__name__}: {error}"
+            raise
+
+
+def service_router(readiness: Readiness) -> APIRouter:
+    """Health, readiness, and the way to the documentation."""
+    router = APIRouter(tags=["Service"])
+
+    @router.get("/", include_in_schema=False)
+    async def root() -> RedirectResponse:
+        return RedirectResponse("docs")
+
+    @router.get("/healthz", operation_id="health", summary="Does the process live?", response_model=Health)
+    async def health() -> Response:
+        """Answers as long as the process does."""
+        return json_response({"status": "alive"})
+
+    @router.get(
+        "/readyz",
+        operation_id="readiness",
+        summary="Is it ready for work?",
+        response_model=Health,
+        responses=problems(503),
+    )
+    async def ready(request: Request) -> Response:
+        """503 with `waiting_for` until the robots are found and the kernels are compiled."""
+        if not readiness.waiting_for:
+            return json_response({"status": "ready"})
+        facts = {"waiting_for": readiness.waiting_for, "failure": readiness.failure}
+        response = problem(
+            request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", "the service is still getting ready", facts
+        )
+        response.headers["Retry-After"] = "1"
+        return response
+
+    return router

@@ -1,0 +1,72 @@
+"""The only place where the parts are wired together."""
+
+import os
+from collections.abc import AsyncIterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import asynccontextmanager
+
+from fastapi import FastAPI
+
+from app.api import documentation, openapi, problems
+from app.api.kinematics import kinematics_routes
+from app.api.robots import robots_router, upload_routes
+from app.api.service import Readiness, service_router
+from app.settings import Settings
+from app.store.library import Library
+
+DESCRIPTION = """
+A URDF or a Denavit-Hartenberg table goes in; forward kinematics and Jacobians come out, each answer recomputed
+through Pinocchio before it is sent.
+
+Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A pose `T_a_b` is that of b in a; a
+quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the
+chain's joints from base to tip. Errors are `application/problem+json`.
+"""
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """The application.
+
+    Args:
+        settings: What the operator has set.
+    """
+    library = Library(settings.catalogue_dir, settings.data_dir / "robots")
+    executor = ThreadPoolExecutor(settings.threads, thread_name_prefix="work")
+    readiness = Readiness(library)
+
+    @asynccontextmanager
+    async def lifespan(_: FastAPI) -> AsyncIterator[None]:
+        library.prepare()
+        readiness.warm_up()
+        yield
+        executor.shutdown(wait=True, cancel_futures=False)
+
+    app = FastAPI(
+        title="Gelenk",
+        version="0.1.0",
+        summary="Robot kinematics over HTTP, every answer certified",
+        description=DESCRIPTION,
+        root_path=settings.root_path,
+        docs_url=None,
+        redoc_url=None,
+        lifespan=lifespan,
+        max_body_size=settings.max_body_bytes,
+        openapi_tags=[
+            {"name": "Robots", "description": "The catalogue, and robots of your own."},
+            {"name": "Kinematics", "description": "Questions to a robot."},
+            {"name": "Service", "description": "About the service itself."},
+        ],
+    )
+    problems.install(app)
+    app.include_router(robots_router(library))
+    app.router.routes.extend(upload_routes(library, executor))
+    app.router.routes.extend(kinematics_routes(library, executor, settings.max_answer_numbers))
+    app.include_router(service_router(readiness))
+    documentation.install(app)
+    openapi.describe(app)
+    return app
+
+
+def from_environment() -> FastAPI:
+    """The application as the environment sets it; what each worker process starts from."""
+    return create_app(Settings.from_environment(os.environ))

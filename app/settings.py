@@ -1,0 +1,64 @@
+"""What an operator may set, read once from the environment and passed down; nothing below imports it."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+
+from platformdirs import user_data_path
+
+_PREFIX = "GELENK_"
+
+
+class InvalidSetting(Exception):
+    """An environment variable that cannot be taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Defaults are safe on a laptop.
+
+    Attributes:
+        data_dir: Uploaded robots are kept below it (`GELENK_DATA_DIR`).
+        catalogue_dir: The robots that come with the project (`GELENK_CATALOGUE_DIR`).
+        root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
+        max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
+        max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
+        threads: Threads for batches and uploads in each worker process (`GELENK_THREADS`).
+    """
+
+    data_dir: Path = field(default_factory=lambda: user_data_path("gelenk", appauthor=False))
+    catalogue_dir: Path = field(default_factory=lambda: Path(__file__).resolve().parent.parent / "robots")
+    root_path: str = ""
+    max_body_bytes: int = 64 * 1024 * 1024
+    max_answer_numbers: int = 20_000_000
+    threads: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))
+
+    @classmethod
+    def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
+        """Read the `GELENK_*` variables.
+
+        Raises:
+            InvalidSetting: A variable is unknown (a misspelt limit must not go unnoticed) or is no positive number.
+        """
+        known = {_PREFIX + item.name.upper(): item.name for item in fields(cls)}
+        values: dict[str, Path | str | int] = {}
+        for variable, text in environment.items():
+            if not variable.startswith(_PREFIX):
+                continue
+            if variable not in known:
+                raise InvalidSetting(f"{variable} is not a setting; known are {', '.join(sorted(known))}")
+            values[known[variable]] = _parse(variable, known[variable], text)
+        return cls(**values)  # type: ignore[arg-type]
+
+
+def _parse(variable: str, name: str, text: str) -> Path | str | int:
+    if name.endswith("_dir"):
+        return Path(text).expanduser()
+    if name == "root_path":
+        if text and not text.startswith("/"):
+            raise InvalidSetting(f"{variable} must start with a slash, such as /gelenk")
+        return text.rstrip("/")
+    if not text.isdecimal() or int(text) == 0:
+        raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")
+    return int(text)
