@@ -8,8 +8,9 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
-from app.api.kinematics import kinematics_routes
+from app.api.kinematics import kinematics_operations
 from app.api.robots import robots_router, upload_routes
+from app.api.routes import Application
 from app.api.service import Readiness, service_router
 from app.settings import Settings
 from app.store.library import Library
@@ -41,7 +42,7 @@ def create_app(settings: Settings) -> FastAPI:
         yield
         executor.shutdown(wait=True, cancel_futures=False)
 
-    app = FastAPI(
+    app = Application(
         title="Gelenk",
         version="0.1.0",
         summary="Robot kinematics over HTTP, every answer certified",
@@ -59,8 +60,11 @@ def create_app(settings: Settings) -> FastAPI:
     )
     problems.install(app)
     app.include_router(robots_router(library))
-    app.router.routes.extend(upload_routes(library, executor))
-    app.router.routes.extend(kinematics_routes(library, executor, settings.max_answer_numbers))
+    app.router.routes.extend(upload_routes(library, executor, settings.max_body_bytes))
+    for operation in kinematics_operations(settings.max_answer_numbers):
+        handler = operation.computation.handler(library, executor, settings.max_body_bytes)
+        app.operations[operation.name] = handler
+        app.router.routes.append(operation.route(handler))
     app.include_router(service_router(readiness))
     documentation.install(app)
     openapi.describe(app)

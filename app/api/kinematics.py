@@ -1,14 +1,11 @@
 """Forward kinematics and the Jacobian of a robot."""
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
-from typing import Annotated, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
-from fastapi import Path
 
-from app.api.openapi import npy_content, problems
-from app.api.routes import Computation, DocumentedRoute, Outcome
+from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.certify import Certificate, JacobianCertificate
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.forward import forward_kinematics
@@ -17,7 +14,6 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidArray, TooLarge
 from app.model.robot import Robot
-from app.schemas.common import Answer
 from app.schemas.kinematics import (
     ForwardAnswer,
     ForwardOptions,
@@ -27,20 +23,11 @@ from app.schemas.kinematics import (
     JacobianRequest,
 )
 from app.schemas.pose import pose_array, pose_list
-from app.store.library import Library
 from app.store.records import LoadedRobot
 
-RobotPath = Annotated[str, Path(description="Name of a robot.", examples=["panda"])]
 
-
-def kinematics_routes(library: Library, executor: Executor, max_answer_numbers: int) -> list[DocumentedRoute]:
-    """The operations on a robot.
-
-    Args:
-        library: Where robots are looked up.
-        executor: Threads for what would hold up the event loop.
-        max_answer_numbers: Most numbers in one answer.
-    """
+def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
+    """The operations on a robot, none of whose answers holds more numbers than given."""
 
     def fk(loaded: LoadedRobot, call: ForwardRequest) -> Outcome:
         """Pose of the tip, and of other frames on the chain, at each configuration.
@@ -96,61 +83,25 @@ def kinematics_routes(library: Library, executor: Executor, max_answer_numbers: 
         )
 
     return [
-        _route(
+        Operation(
             "fk",
+            "forward_kinematics",
+            "Forward kinematics",
             Computation(fk, ForwardRequest, ForwardOptions, "joint_positions", lambda call: call.frames is not None),
             ForwardAnswer,
-            "Forward kinematics",
             "Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, (N, 4, 4) matrices.",
-            library,
-            executor,
         ),
-        _route(
+        Operation(
             "jacobian",
+            "jacobian",
+            "Jacobian",
             Computation(
                 jacobian, JacobianRequest, JacobianOptions, "joint_positions", lambda call: bool(call.derivatives)
             ),
             JacobianAnswer,
-            "Jacobian",
             "Jacobians as one array of shape (N, 6, n).",
-            library,
-            executor,
         ),
     ]
-
-
-def _route(
-    name: str,
-    computation: Computation[Any],
-    answer: type[Answer],
-    summary: str,
-    npy_answer: str,
-    library: Library,
-    executor: Executor,
-) -> DocumentedRoute:
-    def endpoint(robot: str, call: Any) -> Any: ...
-
-    endpoint.__annotations__ = {"robot": RobotPath, "call": computation.request, "return": answer}
-    return DocumentedRoute(
-        f"/v1/robots/{{robot}}/{name}",
-        endpoint,
-        computation.handler(library, executor),
-        methods=["POST"],
-        operation_id=_operation_id(computation.run),
-        summary=summary,
-        description=computation.run.__doc__,
-        tags=["Kinematics"],
-        responses={200: npy_content(npy_answer), **problems(400, 404, 413, 415, 422)},
-        openapi_extra={
-            "requestBody": npy_content(
-                f"`{computation.array_field}` as an array of shape (N, n); the other fields go in the query string."
-            )
-        },
-    )
-
-
-def _operation_id(run: Callable[..., Outcome]) -> str:
-    return {"fk": "forward_kinematics"}.get(run.__name__, run.__name__)
 
 
 def _chain_and_positions(robot: Robot, call: ForwardRequest | JacobianRequest) -> tuple[Chain, Array]:

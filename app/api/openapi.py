@@ -1,19 +1,21 @@
 """What the schema says beside what FastAPI reads from the signatures: problems, npy bodies, examples."""
 
 from http import HTTPStatus
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import FastAPI
+from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 
 from app.api.payloads import NPY
 from app.api.problems import MEDIA_TYPE
 from app.schemas.problem import Problem
 
+RobotPath = Annotated[str, Path(description="Name of a robot.", examples=["panda"])]
+
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
 
-def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     """Answers of these statuses, as problems."""
     return {
         status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": _PROBLEM}}}
@@ -58,4 +60,4 @@ def describe(app: FastAPI) -> None:
 def _replace_validation_error(operation: dict[str, Any]) -> None:
     answer = operation.get("responses", {}).get("422", {})
     if "application/json" in answer.get("content", {}):
-        operation["responses"]["422"] = problems(422)[422]
+        operation["responses"]["422"] = problem_responses(422)[422]

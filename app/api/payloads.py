@@ -10,7 +10,7 @@ from starlette.responses import Response
 
 from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
-from app.model.errors import InvalidArray
+from app.model.errors import InvalidArray, TooLarge
 from app.schemas.common import Payload
 
 JSON = "application/json"
@@ -33,6 +33,25 @@ def require_json(request: Request) -> None:
     given = media_type(request)
     if given != JSON and not (given.startswith("application/") and given.endswith("+json")):
         raise UnsupportedMediaType(given, (JSON,))
+
+
+async def read_body(request: Request, max_bytes: int) -> bytes:
+    """The body, read no further than allowed.
+
+    Raises:
+        TooLarge: It is larger, or says so.
+    """
+    announced = request.headers.get("content-length", "0")
+    if announced.isdecimal() and int(announced) > max_bytes:
+        raise TooLarge("bytes in the body", int(announced), max_bytes)
+    chunks: list[bytes] = []
+    count = 0
+    async for chunk in request.stream():
+        count += len(chunk)
+        if count > max_bytes:
+            raise TooLarge("bytes in the body", count, max_bytes)
+        chunks.append(chunk)
+    return chunks[0] if len(chunks) == 1 else b"".join(chunks)
 
 
 def wants_npy(request: Request) -> bool:

@@ -5,7 +5,7 @@ A problem never repeats the payload: names from outside are shortened and escape
 
 import logging
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from http import HTTPStatus
 from typing import Any
 
@@ -80,12 +80,13 @@ def kind_of(error: type[Exception]) -> str:
 
 def install(app: FastAPI) -> None:
     """Answer every error of the application with a problem."""
-    app.add_exception_handler(errors.KinematicsError, _kinematics)
-    app.add_exception_handler(ValidationError, _validation)
-    app.add_exception_handler(RequestValidationError, _validation)
-    app.add_exception_handler(UnsupportedMediaType, _media_type)
-    app.add_exception_handler(HTTPException, _http)
-    app.add_exception_handler(Exception, _unexpected)
+    for kind, handler in _HANDLERS:
+        app.add_exception_handler(kind, handler)
+
+
+def answer(request: Request, error: Exception) -> Response:
+    """The answer to any error, where no application is around to look its handler up."""
+    return next(handler for kind, handler in _HANDLERS if isinstance(error, kind))(request, error)
 
 
 def _kinematics(request: Request, error: Exception) -> Response:
@@ -154,3 +155,13 @@ def _shortened(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _shortened(item) for key, item in value.items()}
     return value
+
+
+_HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (
+    (errors.KinematicsError, _kinematics),
+    (ValidationError, _validation),
+    (RequestValidationError, _validation),
+    (UnsupportedMediaType, _media_type),
+    (HTTPException, _http),
+    (Exception, _unexpected),
+)

@@ -11,8 +11,8 @@ from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import FileResponse
 
-from app.api.openapi import problems
-from app.api.payloads import json_response, media_type, require_json
+from app.api.openapi import RobotPath, problem_responses
+from app.api.payloads import json_response, media_type, read_body, require_json
 from app.api.routes import DocumentedRoute
 from app.model.chain import Chain
 from app.model.description import Joint
@@ -37,7 +37,6 @@ from app.store.library import Library, RobotUpload
 from app.store.records import LoadedRobot, Record
 
 MULTIPART = "multipart/form-data"
-RobotPath = Annotated[str, Path(description="Name of a robot.", examples=["panda"])]
 SANDBOXED = {"Content-Security-Policy": "default-src 'none'; sandbox", "X-Content-Type-Options": "nosniff"}
 """Files that came from outside: shown by no browser as a page of ours."""
 _MESH_TYPES = {
@@ -77,7 +76,11 @@ def robots_router(library: Library) -> APIRouter:
         return {"robots": [summary for summary in summaries if summary is not None]}
 
     @router.get(
-        "/{robot}", operation_id="get_robot", summary="A robot", response_model=RobotInfo, responses=problems(404, 422)
+        "/{robot}",
+        operation_id="get_robot",
+        summary="A robot",
+        response_model=RobotInfo,
+        responses=problem_responses(404, 422),
     )
     def get_robot(robot: RobotPath) -> Any:
         """Joints, links, frames, chains, licence, and what is odd about the description."""
@@ -88,7 +91,7 @@ def robots_router(library: Library) -> APIRouter:
         operation_id="get_robot_urdf",
         summary="A robot's URDF",
         response_class=Response,
-        responses={200: {"content": {"application/xml": {}}, "description": "The URDF"}, **problems(404, 422)},
+        responses={200: {"content": {"application/xml": {}}, "description": "The URDF"}, **problem_responses(404, 422)},
     )
     def get_urdf(robot: RobotPath) -> Response:
         """The description as it was uploaded, or as it was written from the DH table."""
@@ -99,7 +102,10 @@ def robots_router(library: Library) -> APIRouter:
         operation_id="get_robot_mesh",
         summary="A mesh file of a robot",
         response_class=FileResponse,
-        responses={200: {"content": {"application/octet-stream": {}}, "description": "The file"}, **problems(404, 422)},
+        responses={
+            200: {"content": {"application/octet-stream": {}}, "description": "The file"},
+            **problem_responses(404, 422),
+        },
     )
     def get_mesh(
         robot: RobotPath,
@@ -114,7 +120,7 @@ def robots_router(library: Library) -> APIRouter:
         operation_id="remove_robot",
         summary="Remove an uploaded robot",
         status_code=204,
-        responses=problems(403, 404),
+        responses=problem_responses(403, 404),
     )
     def remove_robot(robot: RobotPath) -> Response:
         """Gone for every worker at once. A robot of the catalogue is read-only."""
@@ -124,7 +130,7 @@ def robots_router(library: Library) -> APIRouter:
     return router
 
 
-def upload_routes(library: Library, executor: Executor) -> list[DocumentedRoute]:
+def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
     """What writes robots: as JSON, or as a zip in a form."""
 
     async def add(request: Request) -> Response:
@@ -135,14 +141,14 @@ def upload_routes(library: Library, executor: Executor) -> list[DocumentedRoute]
                 info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location
             )
 
-        return await _receive(request, None, keep, executor)
+        return await _receive(request, None, keep, executor, max_body_bytes)
 
     async def replace(request: Request) -> Response:
         def keep(upload: RobotUpload) -> Response:
             library.replace(upload)
             return json_response(info(library.get(upload.name)).model_dump(mode="json"))
 
-        return await _receive(request, request.path_params["robot"], keep, executor)
+        return await _receive(request, request.path_params["robot"], keep, executor, max_body_bytes)
 
     def add_robot(robot: NewRobot) -> RobotInfo:
         """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
@@ -166,7 +172,10 @@ def upload_routes(library: Library, executor: Executor) -> list[DocumentedRoute]
             summary="Add a robot",
             tags=["Robots"],
             status_code=201,
-            responses={200: {"model": RobotInfo, "description": "It was there"}, **problems(400, 409, 413, 415, 422)},
+            responses={
+                200: {"model": RobotInfo, "description": "It was there"},
+                **problem_responses(400, 409, 413, 415, 422),
+            },
             openapi_extra={"requestBody": {"content": {**_example(EXAMPLE_DH), **_form(named=True)}}},
         ),
         DocumentedRoute(
@@ -177,7 +186,7 @@ def upload_routes(library: Library, executor: Executor) -> list[DocumentedRoute]
             operation_id="replace_robot",
             summary="Replace an uploaded robot",
             tags=["Robots"],
-            responses=problems(400, 403, 404, 413, 415, 422),
+            responses=problem_responses(400, 403, 404, 413, 415, 422),
             openapi_extra={
                 "requestBody": {
                     "content": {
@@ -191,13 +200,17 @@ def upload_routes(library: Library, executor: Executor) -> list[DocumentedRoute]
 
 
 async def _receive(
-    request: Request, name: str | None, keep: Callable[[RobotUpload], Response], executor: Executor
+    request: Request,
+    name: str | None,
+    keep: Callable[[RobotUpload], Response],
+    executor: Executor,
+    max_body_bytes: int,
 ) -> Response:
     """Read an upload in either form, and keep it in a thread."""
     loop = asyncio.get_running_loop()
     if media_type(request) != MULTIPART:
         require_json(request)
-        body = await request.body()
+        body = await read_body(request, max_body_bytes)
         return await loop.run_in_executor(executor, lambda: keep(_from_json(body, name)))
     async with request.form(max_files=1, max_fields=8, max_part_size=64 * 1024) as form:
         archive = form.get("archive")

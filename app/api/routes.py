@@ -1,31 +1,49 @@
-"""A route that FastAPI documents and that runs without its overhead.
+"""Routes that FastAPI documents and that run without its overhead.
 
 FastAPI writes the OpenAPI schema from the signature of an endpoint. Running it through FastAPI as well would cost
-more than the kinematics: resolving dependencies, parsing into Python objects, validating the answer against its
-model (the tests do that instead). So a `DocumentedRoute` keeps the one and replaces the other by a handler.
+several times the kinematics: its middleware, resolving dependencies, validating the answer against its model (the
+tests do that instead). So a `DocumentedRoute` keeps the one and replaces the other by a handler; and operations on
+a robot, which are called thousands of times a second, are found by `Application` before anything else.
 """
 
 import asyncio
+import inspect
+import re
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar, cast
 
+from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from app.api.payloads import JSON, NPY, from_query, json_response, media_type, npy_response, read_npy, wants_npy
+from app.api import problems
+from app.api.openapi import RobotPath, npy_content, problem_responses
+from app.api.payloads import (
+    JSON,
+    NPY,
+    from_query,
+    json_response,
+    media_type,
+    npy_response,
+    read_body,
+    read_npy,
+    wants_npy,
+)
 from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
 from app.model.errors import InvalidArray
-from app.schemas.common import Payload
+from app.schemas.common import Answer, Payload
 from app.store.library import Library
 from app.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
 """Bodies up to here hold so little work that a thread would cost more: the event loop does it, in under 2 ms."""
+
+_OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
 Handler = Callable[[Request], Awaitable[Response]]
 _Request = TypeVar("_Request", bound=Payload)
@@ -45,6 +63,35 @@ class DocumentedRoute(APIRoute):
             return
         response = await self._handler(Request(scope, receive, send))
         await response(scope, receive, send)
+
+
+class Application(FastAPI):
+    """FastAPI, with the operations on a robot answered at the door.
+
+    `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
+    an unknown operation, takes FastAPI's way.
+    """
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self.operations: dict[str, Handler] = {}
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a connection."""
+        if scope["type"] == "http" and scope["method"] == "POST":
+            scope["root_path"] = self.root_path
+            match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))
+            handler = self.operations.get(match["operation"]) if match else None
+            if match and handler:
+                scope["path_params"] = {"robot": match["robot"]}
+                request = Request(scope, receive, send)
+                try:
+                    response = await handler(request)
+                except Exception as error:
+                    response = problems.answer(request, error)
+                await response(scope, receive, send)
+                return
+        await super().__call__(scope, receive, send)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +125,12 @@ class Computation(Generic[_Request]):
     array_field: str
     is_heavy: Callable[[_Request], bool]
 
-    def handler(self, library: Library, executor: Executor) -> Handler:
+    def handler(self, library: Library, executor: Executor, max_body_bytes: int) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
 
         async def handle(request: Request) -> Response:
-            body = await request.body()
             npy_in, npy_out = _is_npy(request), wants_npy(request)
+            body = await read_body(request, max_body_bytes)
             name: str = request.path_params["robot"]
 
             def compute(loaded: LoadedRobot | None = None, call: _Request | None = None) -> Response:
@@ -105,6 +152,49 @@ class Computation(Generic[_Request]):
         options = from_query(self.options, request)
         call = self.request.model_construct(**{**dict(options), self.array_field: read_npy(body)})
         return cast(_Request, call)
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """POST /v1/robots/{robot}/{name}, as the schema tells of it.
+
+    Attributes:
+        name: Last part of its path.
+        operation_id: Name of its function in a generated client.
+        summary: In a few words.
+        computation: What it does; its docstring is the description.
+        answer: Model of the JSON answer.
+        npy_answer: What the npy answer holds.
+    """
+
+    name: str
+    operation_id: str
+    summary: str
+    computation: Computation[Any]
+    answer: type[Answer]
+    npy_answer: str
+
+    def route(self, handler: Handler) -> DocumentedRoute:
+        """Its route, which documents it and refuses what `Application` does not answer."""
+
+        def endpoint(robot: str, call: Any) -> Any: ...
+
+        endpoint.__annotations__ = {"robot": RobotPath, "call": self.computation.request, "return": self.answer}
+        array = (
+            f"`{self.computation.array_field}` as an array of shape (N, n); the other fields go in the query string."
+        )
+        return DocumentedRoute(
+            f"/v1/robots/{{robot}}/{self.name}",
+            endpoint,
+            handler,
+            methods=["POST"],
+            operation_id=self.operation_id,
+            summary=self.summary,
+            description=inspect.getdoc(self.computation.run),
+            tags=["Kinematics"],
+            responses={200: npy_content(self.npy_answer), **problem_responses(400, 404, 413, 415, 422)},
+            openapi_extra={"requestBody": npy_content(array)},
+        )
 
 
 def _is_npy(request: Request) -> bool:

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Request
 from pydantic import BaseModel
 from starlette.responses import RedirectResponse, Response
 
-from app.api.openapi import problems
+from app.api.openapi import problem_responses
 from app.api.payloads import json_response
 from app.api.problems import problem
 from app.kinematics.forward import forward_kinematics
@@ -71,7 +71,7 @@ def service_router(readiness: Readiness) -> APIRouter:
         operation_id="readiness",
         summary="Is it ready for work?",
         response_model=Health,
-        responses=problems(503),
+        responses=problem_responses(503),
     )
     async def ready(request: Request) -> Response:
         """503 with `waiting_for` until the robots are found and the kernels are compiled."""

@@ -151,7 +151,10 @@ def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate:
     with robot.lock:
         R, r, J_base, J_tip = _world_jacobians(robot, chain, full_q)
         D_base, D_tip = _world_variations(robot, chain, full_q, full_speeds) if with_rate else (J_base, J_tip)
-    J_base, J_tip, D_base, D_tip = (columns @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip))
+    # Of a robot with one joint Pinocchio gives a flat (6,).
+    J_base, J_tip, D_base, D_tip = (
+        columns.reshape(6, -1) @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip)
+    )
     J_world = J_tip - J_base
     J_world[:3] -= np.cross(J_base[3:], r, axis=0)
     r_dot = (J_tip[:3] - J_base[:3]) @ speeds

@@ -148,8 +148,9 @@ def _analytic(representation: Representation, poses: Poses, Js: Array, Hs: Array
     # ∂E/∂q_j = Σ_m ∂E/∂φ_m ∂φ_m/∂q_j, and ∂φ_m/∂q_j is the analytic Jacobian itself.
     turning = np.einsum("bmkl,bmj,bli->bkij", dE, analytic[:, 3:], analytic[:, 3:])
     derivative = Hs.copy()
-    flat = (Hs[:, 3:] - turning).reshape(len(Js), 3, -1)
-    derivative[:, 3:] = np.linalg.solve(E, flat).reshape(Hs[:, 3:].shape)
+    count, n = len(Js), Js.shape[2]
+    flat = (Hs[:, 3:] - turning).reshape(count, 3, n * n)
+    derivative[:, 3:] = np.linalg.solve(E, flat).reshape(count, 3, n, n)
     return analytic, derivative
 
 
