@@ -43,6 +43,7 @@ def create_app(settings: Settings) -> FastAPI:
         executor.shutdown(wait=True, cancel_futures=False)
 
     app = Application(
+        settings.max_body_bytes,
         title="Gelenk",
         version="0.1.0",
         summary="Robot kinematics over HTTP, every answer certified",
@@ -51,7 +52,6 @@ def create_app(settings: Settings) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
-        max_body_size=settings.max_body_bytes,
         openapi_tags=[
             {"name": "Robots", "description": "The catalogue, and robots of your own."},
             {"name": "Kinematics", "description": "Questions to a robot."},
@@ -62,9 +62,9 @@ def create_app(settings: Settings) -> FastAPI:
     app.include_router(robots_router(library))
     app.router.routes.extend(upload_routes(library, executor, settings.max_body_bytes))
     for operation in kinematics_operations(settings.max_answer_numbers):
-        handler = operation.computation.handler(library, executor, settings.max_body_bytes)
+        handler = operation.computation.handler(library, executor)
         app.operations[operation.name] = handler
-        app.router.routes.append(operation.route(handler))
+        app.router.routes.append(operation.route(handler, settings.max_body_bytes))
     app.include_router(service_router(readiness))
     documentation.install(app)
     openapi.describe(app)

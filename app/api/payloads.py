@@ -1,5 +1,6 @@
 """Bodies in, answers out: JSON and NumPy's npy, strictly."""
 
+from collections.abc import AsyncGenerator
 from io import BytesIO
 from typing import Any, TypeVar
 
@@ -7,6 +8,7 @@ import numpy as np
 import orjson
 from starlette.requests import Request
 from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
 
 from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
@@ -19,39 +21,36 @@ NPY = "application/x-npy"
 _Model = TypeVar("_Model", bound=Payload)
 
 
+class BoundedRequest(Request):
+    """A request whose body is read no further than allowed, whoever reads it."""
+
+    def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int) -> None:
+        super().__init__(scope, receive, send)
+        self._max_bytes = max_bytes
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """The body in pieces.
+
+        Raises:
+            TooLarge: It is larger than allowed, or says so.
+        """
+        announced = self.headers.get("content-length", "0")
+        count = int(announced) if announced.isdecimal() else 0
+        self._check(count)
+        count = 0
+        async for chunk in super().stream():
+            count += len(chunk)
+            self._check(count)
+            yield chunk
+
+    def _check(self, count: int) -> None:
+        if count > self._max_bytes:
+            raise TooLarge("bytes in the body", count, self._max_bytes)
+
+
 def media_type(request: Request) -> str:
     """The media type of the body, lower case, without parameters; "" where none is given."""
     return request.headers.get("content-type", "").partition(";")[0].strip().lower()
-
-
-def require_json(request: Request) -> None:
-    """Refuse a body that says it is something else than JSON.
-
-    Raises:
-        UnsupportedMediaType: It does.
-    """
-    given = media_type(request)
-    if given != JSON and not (given.startswith("application/") and given.endswith("+json")):
-        raise UnsupportedMediaType(given, (JSON,))
-
-
-async def read_body(request: Request, max_bytes: int) -> bytes:
-    """The body, read no further than allowed.
-
-    Raises:
-        TooLarge: It is larger, or says so.
-    """
-    announced = request.headers.get("content-length", "0")
-    if announced.isdecimal() and int(announced) > max_bytes:
-        raise TooLarge("bytes in the body", int(announced), max_bytes)
-    chunks: list[bytes] = []
-    count = 0
-    async for chunk in request.stream():
-        count += len(chunk)
-        if count > max_bytes:
-            raise TooLarge("bytes in the body", count, max_bytes)
-        chunks.append(chunk)
-    return chunks[0] if len(chunks) == 1 else b"".join(chunks)
 
 
 def wants_npy(request: Request) -> bool:

@@ -57,14 +57,15 @@ def problem(
         detail: This occurrence, in a sentence.
         facts: Typed data of the kind.
     """
-    content = {
-        **{key: _shortened(value) for key, value in (facts or {}).items()},
+    content: dict[str, Any] = {
         "type": f"urn:gelenk:{kind}",
         "title": kind.replace("-", " ").capitalize(),
         "status": int(status),
         "detail": detail[:_MOST_TEXT],
         "instance": request.url.path[:256],
     }
+    for key, value in (facts or {}).items():
+        content.setdefault(key, _shortened(value))
     return Response(orjson.dumps(content, default=str), int(status), media_type=MEDIA_TYPE)
 
 

@@ -3,7 +3,6 @@
 import asyncio
 from collections.abc import Callable
 from concurrent.futures import Executor
-from pathlib import PurePosixPath
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
@@ -12,7 +11,8 @@ from starlette.requests import Request
 from starlette.responses import FileResponse
 
 from app.api.openapi import RobotPath, problem_responses
-from app.api.payloads import json_response, media_type, read_body, require_json
+from app.api.payloads import JSON, json_response, media_type
+from app.api.problems import UnsupportedMediaType
 from app.api.routes import DocumentedRoute
 from app.model.chain import Chain
 from app.model.description import Joint
@@ -112,8 +112,8 @@ def robots_router(library: Library) -> APIRouter:
         path: Annotated[str, Path(description="As `meshes` of the robot lists it.", examples=["arm/link.stl"])],
     ) -> FileResponse:
         """The file as it came; nothing on the server has ever looked into it."""
-        media = _MESH_TYPES[PurePosixPath(path).suffix.lower()] if "." in path else "application/octet-stream"
-        return FileResponse(library.mesh(robot, path), media_type=media, headers=SANDBOXED)
+        file = library.mesh(robot, path)
+        return FileResponse(file, media_type=_MESH_TYPES[file.suffix.lower()], headers=SANDBOXED)
 
     @router.delete(
         "/{robot}",
@@ -141,14 +141,14 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
                 info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location
             )
 
-        return await _receive(request, None, keep, executor, max_body_bytes)
+        return await _receive(request, None, keep, executor)
 
     async def replace(request: Request) -> Response:
         def keep(upload: RobotUpload) -> Response:
             library.replace(upload)
             return json_response(info(library.get(upload.name)).model_dump(mode="json"))
 
-        return await _receive(request, request.path_params["robot"], keep, executor, max_body_bytes)
+        return await _receive(request, request.path_params["robot"], keep, executor)
 
     def add_robot(robot: NewRobot) -> RobotInfo:
         """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
@@ -167,6 +167,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
             "/v1/robots",
             add_robot,
             add,
+            max_body_bytes,
             methods=["POST"],
             operation_id="add_robot",
             summary="Add a robot",
@@ -182,6 +183,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
             "/v1/robots/{robot}",
             replace_robot,
             replace,
+            max_body_bytes,
             methods=["PUT"],
             operation_id="replace_robot",
             summary="Replace an uploaded robot",
@@ -204,14 +206,15 @@ async def _receive(
     name: str | None,
     keep: Callable[[RobotUpload], Response],
     executor: Executor,
-    max_body_bytes: int,
 ) -> Response:
     """Read an upload in either form, and keep it in a thread."""
     loop = asyncio.get_running_loop()
-    if media_type(request) != MULTIPART:
-        require_json(request)
-        body = await read_body(request, max_body_bytes)
+    given = media_type(request)
+    if given == JSON:
+        body = await request.body()
         return await loop.run_in_executor(executor, lambda: keep(_from_json(body, name)))
+    if given != MULTIPART:
+        raise UnsupportedMediaType(given, (JSON, MULTIPART))
     async with request.form(max_files=1, max_fields=8, max_part_size=64 * 1024) as form:
         archive = form.get("archive")
         fields = {key: value for key, value in form.items() if key != "archive"}

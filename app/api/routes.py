@@ -25,11 +25,11 @@ from app.api.openapi import RobotPath, npy_content, problem_responses
 from app.api.payloads import (
     JSON,
     NPY,
+    BoundedRequest,
     from_query,
     json_response,
     media_type,
     npy_response,
-    read_body,
     read_npy,
     wants_npy,
 )
@@ -52,16 +52,19 @@ _Request = TypeVar("_Request", bound=Payload)
 class DocumentedRoute(APIRoute):
     """A path whose endpoint is described by FastAPI and answered by `handler`."""
 
-    def __init__(self, path: str, endpoint: Callable[..., Any], handler: Handler, **documentation: Any) -> None:
+    def __init__(
+        self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
+    ) -> None:
         super().__init__(path, endpoint, **documentation)
         self._handler = handler
+        self._max_body_bytes = max_body_bytes
 
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that has matched; another method than the route's is FastAPI's to refuse."""
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
-        response = await self._handler(Request(scope, receive, send))
+        response = await self._handler(BoundedRequest(scope, receive, send, self._max_body_bytes))
         await response(scope, receive, send)
 
 
@@ -72,8 +75,9 @@ class Application(FastAPI):
     an unknown operation, takes FastAPI's way.
     """
 
-    def __init__(self, **settings: Any) -> None:
-        super().__init__(**settings)
+    def __init__(self, max_body_bytes: int, **description: Any) -> None:
+        super().__init__(**description)
+        self._max_body_bytes = max_body_bytes
         self.operations: dict[str, Handler] = {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -84,7 +88,7 @@ class Application(FastAPI):
             handler = self.operations.get(match["operation"]) if match else None
             if match and handler:
                 scope["path_params"] = {"robot": match["robot"]}
-                request = Request(scope, receive, send)
+                request = BoundedRequest(scope, receive, send, self._max_body_bytes)
                 try:
                     response = await handler(request)
                 except Exception as error:
@@ -125,12 +129,12 @@ class Computation(Generic[_Request]):
     array_field: str
     is_heavy: Callable[[_Request], bool]
 
-    def handler(self, library: Library, executor: Executor, max_body_bytes: int) -> Handler:
+    def handler(self, library: Library, executor: Executor) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
 
         async def handle(request: Request) -> Response:
             npy_in, npy_out = _is_npy(request), wants_npy(request)
-            body = await read_body(request, max_body_bytes)
+            body = await request.body()
             name: str = request.path_params["robot"]
 
             def compute(loaded: LoadedRobot | None = None, call: _Request | None = None) -> Response:
@@ -174,7 +178,7 @@ class Operation:
     answer: type[Answer]
     npy_answer: str
 
-    def route(self, handler: Handler) -> DocumentedRoute:
+    def route(self, handler: Handler, max_body_bytes: int) -> DocumentedRoute:
         """Its route, which documents it and refuses what `Application` does not answer."""
 
         def endpoint(robot: str, call: Any) -> Any: ...
@@ -187,6 +191,7 @@ class Operation:
             f"/v1/robots/{{robot}}/{self.name}",
             endpoint,
             handler,
+            max_body_bytes,
             methods=["POST"],
             operation_id=self.operation_id,
             summary=self.summary,

@@ -81,8 +81,9 @@ def _fixed(taken: frozenset[str], parent: str, child: str, T: Array) -> Joint:
 
 def origin_of(T: Array) -> Origin:
     """A homogeneous transform as URDF writes it; the angles give the rotation again to rounding."""
-    x, y, z = (float(value) for value in T[:3, 3])
-    roll, pitch, yaw = (float(value) for value in rpy_from_rotations(np.ascontiguousarray(T[None, :3, :3]))[0])
+    # Adding zero turns -0.0 into 0.0, which reads better.
+    x, y, z = (float(value) + 0.0 for value in T[:3, 3])
+    roll, pitch, yaw = (float(value) + 0.0 for value in rpy_from_rotations(np.ascontiguousarray(T[None, :3, :3]))[0])
     return Origin((x, y, z), (roll, pitch, yaw))
 
 

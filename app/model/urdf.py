@@ -292,8 +292,8 @@ class _Reader:
         if value < 0:
             raise InvalidUrdf(f"limit: {key} {value:g} is negative", where, limit.line)
         if value == 0 and type_ in MOVABLE:
-            self._warnings.append(f"line {limit.line}: {where}: limit of zero {key}")
-        return value
+            self._warnings.append(f"line {limit.line}: {where}: limit of zero {key} is taken as not given")
+        return value or None
 
     def _mimic(self, element: Element, type_: str, where: str) -> Mimic | None:
         mimic = _only(element, "mimic", where)
@@ -453,10 +453,12 @@ def _joint_body(joint: Joint) -> list[str]:
     lines += _element("parent", {"link": joint.parent}) + _element("child", {"link": joint.child})
     if joint.type not in {"fixed", "floating"}:
         lines += _element("axis", {"xyz": _text(joint.axis)})
-    limits = {key: getattr(joint.limits, key) for key in ("lower", "upper", "velocity", "effort")}
-    given = {key: repr(value) for key, value in limits.items() if value is not None}
-    if given:
-        lines += _element("limit", given)
+    if joint.type in MOVABLE:
+        # URDF wants effort and velocity wherever it wants a limit; zero stands for "not given", as the reader has it.
+        given = {"velocity": joint.limits.velocity or 0.0, "effort": joint.limits.effort or 0.0}
+        if joint.limits.lower is not None and joint.limits.upper is not None:
+            given = {"lower": joint.limits.lower, "upper": joint.limits.upper, **given}
+        lines += _element("limit", {key: repr(value) for key, value in given.items()})
     if joint.mimic is not None:
         mimic = {
             "joint": joint.mimic.joint,

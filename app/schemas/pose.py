@@ -1,9 +1,9 @@
 """Poses on the wire: one position, one orientation, in the notation that the caller likes."""
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from app.model.arrays import Array
 from app.model.errors import InvalidPose
@@ -62,6 +62,10 @@ class Pose(Payload):
         elif len(given) != 1:
             raise ValueError(f"a pose has exactly one orientation of {', '.join(ORIENTATIONS)}; {len(given)} are given")
         return self
+
+    @model_serializer(mode="wrap")
+    def _given_alone(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {name: value for name, value in handler(self).items() if value is not None}
 
     def transform(self) -> Array:
         """T_a_b; shape (4, 4).

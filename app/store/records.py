@@ -194,13 +194,14 @@ def _only_model(folder: Path) -> Path | None:
 def _mesh_path(record: Record, reference: str) -> str | None:
     """Where below the mesh root the file of a reference is.
 
-    A `package://name/rest` is looked up with and without the package's name, a relative one from the URDF's folder.
+    Nobody knows from which folder on a package was packed: of a `package://name/folder/file` the longest end that is
+    there counts. A relative path starts at the URDF's folder.
     """
     if record.mesh_root is None:
         return None
     if reference.startswith("package://"):
-        path = reference.removeprefix("package://")
-        candidates = [path, *path.split("/", 1)[1:]]
+        parts = reference.removeprefix("package://").split("/")
+        candidates = ["/".join(parts[start:]) for start in range(len(parts))]
     else:
         relative = os.path.normpath(f"{record.file.urdf_folder}/{reference}" if record.file.urdf_folder else reference)
         candidates = [relative]
