@@ -25,6 +25,8 @@ from app.schemas.kinematics import (
 from app.schemas.pose import pose_array, pose_list
 from app.store.records import LoadedRobot
 
+_PANDA_READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
+
 
 def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
     """The operations on a robot, none of whose answers holds more numbers than given."""
@@ -90,6 +92,7 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
             Computation(fk, ForwardRequest, ForwardOptions, "joint_positions", lambda call: call.frames is not None),
             ForwardAnswer,
             "Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, (N, 4, 4) matrices.",
+            {"joint_positions": [_PANDA_READY], "tip_frame": "panda_link8", "pose_format": "rpy"},
         ),
         Operation(
             "jacobian",
@@ -100,6 +103,7 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
             ),
             JacobianAnswer,
             "Jacobians as one array of shape (N, 6, n).",
+            {"joint_positions": [_PANDA_READY], "reference": "local_world_aligned"},
         ),
     ]
 

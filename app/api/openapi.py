@@ -11,6 +11,7 @@ from app.api.problems import MEDIA_TYPE
 from app.schemas.problem import Problem
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", examples=["panda"])]
+UploadedRobotPath = Annotated[str, Path(description="Name of an uploaded robot.", examples=["my_planar_arm"])]
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
@@ -23,10 +24,14 @@ def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
+def json_example(value: dict[str, Any]) -> dict[str, Any]:
+    """A body that runs as it stands, as the JSON content of a request."""
+    return {"application/json": {"example": value}}
+
+
 def npy_content(description: str) -> dict[str, Any]:
-    """An array as a further media type of a body."""
-    schema = {"type": "string", "format": "binary", "description": description}
-    return {"content": {NPY: {"schema": schema}}}
+    """An array, as a further media type of a body."""
+    return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
 
 
 def describe(app: FastAPI) -> None:
@@ -41,6 +46,7 @@ def describe(app: FastAPI) -> None:
                 description=app.description,
                 routes=app.routes,
                 tags=app.openapi_tags,
+                separate_input_output_schemas=False,
             )
             components = schema.setdefault("components", {}).setdefault("schemas", {})
             for name in ("HTTPValidationError", "ValidationError"):

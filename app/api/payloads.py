@@ -10,7 +10,6 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
 from app.model.errors import InvalidArray, TooLarge
 from app.schemas.common import Payload

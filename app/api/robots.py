@@ -10,7 +10,7 @@ from starlette.datastructures import UploadFile
 from starlette.requests import Request
 from starlette.responses import FileResponse
 
-from app.api.openapi import RobotPath, problem_responses
+from app.api.openapi import RobotPath, UploadedRobotPath, json_example, problem_responses
 from app.api.payloads import JSON, json_response, media_type
 from app.api.problems import UnsupportedMediaType
 from app.api.routes import DocumentedRoute
@@ -109,7 +109,13 @@ def robots_router(library: Library) -> APIRouter:
     )
     def get_mesh(
         robot: RobotPath,
-        path: Annotated[str, Path(description="As `meshes` of the robot lists it.", examples=["arm/link.stl"])],
+        path: Annotated[
+            str,
+            Path(
+                description="As `meshes` of the robot lists it.",
+                examples=["example-robot-data/robots/panda_description/meshes/visual/link0.dae"],
+            ),
+        ],
     ) -> FileResponse:
         """The file as it came; nothing on the server has ever looked into it."""
         file = library.mesh(robot, path)
@@ -122,7 +128,7 @@ def robots_router(library: Library) -> APIRouter:
         status_code=204,
         responses=problem_responses(403, 404),
     )
-    def remove_robot(robot: RobotPath) -> Response:
+    def remove_robot(robot: UploadedRobotPath) -> Response:
         """Gone for every worker at once. A robot of the catalogue is read-only."""
         library.remove(robot)
         return Response(status_code=204)
@@ -158,7 +164,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
         """
         raise NotImplementedError
 
-    def replace_robot(robot: RobotPath, content: RobotReplacement) -> RobotInfo:
+    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> RobotInfo:
         """Puts another robot in the place of an uploaded one; at any moment there is the old one or the new one."""
         raise NotImplementedError
 
@@ -177,7 +183,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
                 200: {"model": RobotInfo, "description": "It was there"},
                 **problem_responses(400, 409, 413, 415, 422),
             },
-            openapi_extra={"requestBody": {"content": {**_example(EXAMPLE_DH), **_form(named=True)}}},
+            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(named=True)}}},
         ),
         DocumentedRoute(
             "/v1/robots/{robot}",
@@ -192,7 +198,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
             openapi_extra={
                 "requestBody": {
                     "content": {
-                        **_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
+                        **json_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
                         **_form(named=False),
                     }
                 }
@@ -311,10 +317,6 @@ def _summary(library: Library, record: Record) -> RobotSummary | None:
         format=record.file.format,
         default_chain=ends,
     )
-
-
-def _example(value: dict[str, Any]) -> dict[str, Any]:
-    return {"application/json": {"example": value}}
 
 
 def _form(*, named: bool) -> dict[str, Any]:

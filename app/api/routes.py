@@ -21,7 +21,7 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from app.api import problems
-from app.api.openapi import RobotPath, npy_content, problem_responses
+from app.api.openapi import RobotPath, json_example, npy_content, problem_responses
 from app.api.payloads import (
     JSON,
     NPY,
@@ -169,6 +169,7 @@ class Operation:
         computation: What it does; its docstring is the description.
         answer: Model of the JSON answer.
         npy_answer: What the npy answer holds.
+        example: A JSON request that runs as it stands, on the Panda.
     """
 
     name: str
@@ -177,6 +178,7 @@ class Operation:
     computation: Computation[Any]
     answer: type[Answer]
     npy_answer: str
+    example: dict[str, Any]
 
     def route(self, handler: Handler, max_body_bytes: int) -> DocumentedRoute:
         """Its route, which documents it and refuses what `Application` does not answer."""
@@ -197,8 +199,8 @@ class Operation:
             summary=self.summary,
             description=inspect.getdoc(self.computation.run),
             tags=["Kinematics"],
-            responses={200: npy_content(self.npy_answer), **problem_responses(400, 404, 413, 415, 422)},
-            openapi_extra={"requestBody": npy_content(array)},
+            responses={200: {"content": npy_content(self.npy_answer)}, **problem_responses(400, 404, 413, 415, 422)},
+            openapi_extra={"requestBody": {"content": {**json_example(self.example), **npy_content(array)}}},
         )
 
 

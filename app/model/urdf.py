@@ -259,20 +259,16 @@ class _Reader:
                 raise InvalidUrdf(f"a {type_} joint must have a limit", where, element.line)
             return Limits()
         self._check_known(limit, where)
-        lower, upper = self._positions(limit, type_, where) if type_ != "fixed" else (None, None)
-        return Limits(
-            lower,
-            upper,
-            self._bound(limit, "velocity", type_, where),
-            self._bound(limit, "effort", type_, where),
-        )
+        lower, upper = self._positions(limit, type_, where)
+        velocity, effort = (self._bound(limit, key, type_, where) for key in ("velocity", "effort"))
+        return Limits(lower, upper, velocity, effort) if type_ in MOVABLE else Limits()
 
     def _positions(self, limit: Element, type_: str, where: str) -> tuple[float | None, float | None]:
         given = {
             key: _number(limit, key, where, most=MAX_BOUND) for key in ("lower", "upper") if key in limit.attributes
         }
         if type_ not in {"revolute", "prismatic"}:
-            if any(given.values()):
+            if type_ != "fixed" and any(given.values()):
                 self._warnings.append(f"line {limit.line}: {where}: the position limits of a {type_} joint are ignored")
             return None, None
         for key in ("lower", "upper"):
