@@ -7,11 +7,10 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
 from starlette.datastructures import UploadFile
-from starlette.requests import Request
 from starlette.responses import FileResponse
 
 from app.api.openapi import RobotPath, UploadedRobotPath, json_example, problem_responses
-from app.api.payloads import JSON, json_response, media_type
+from app.api.payloads import JSON, BoundedRequest, json_response
 from app.api.problems import UnsupportedMediaType
 from app.api.routes import DocumentedRoute
 from app.model.chain import Chain
@@ -139,7 +138,7 @@ def robots_router(library: Library) -> APIRouter:
 def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
     """What writes robots: as JSON, or as a zip in a form."""
 
-    async def add(request: Request) -> Response:
+    async def add(request: BoundedRequest) -> Response:
         def keep(upload: RobotUpload) -> Response:
             created = library.add(upload)
             location = {"Location": f"{request.scope.get('root_path', '')}/v1/robots/{upload.name}"}
@@ -149,7 +148,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
 
         return await _receive(request, None, keep, executor)
 
-    async def replace(request: Request) -> Response:
+    async def replace(request: BoundedRequest) -> Response:
         def keep(upload: RobotUpload) -> Response:
             library.replace(upload)
             return json_response(info(library.get(upload.name)).model_dump(mode="json"))
@@ -208,14 +207,14 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
 
 
 async def _receive(
-    request: Request,
+    request: BoundedRequest,
     name: str | None,
     keep: Callable[[RobotUpload], Response],
     executor: Executor,
 ) -> Response:
     """Read an upload in either form, and keep it in a thread."""
     loop = asyncio.get_running_loop()
-    given = media_type(request)
+    given = request.media_type
     if given == JSON:
         body = await request.body()
         return await loop.run_in_executor(executor, lambda: keep(_from_json(body, name)))

@@ -28,10 +28,8 @@ from app.api.payloads import (
     BoundedRequest,
     from_query,
     json_response,
-    media_type,
     npy_response,
     read_npy,
-    wants_npy,
 )
 from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
@@ -45,7 +43,7 @@ INLINE_BYTES = 4096
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
-Handler = Callable[[Request], Awaitable[Response]]
+Handler = Callable[[BoundedRequest], Awaitable[Response]]
 _Request = TypeVar("_Request", bound=Payload)
 
 
@@ -132,8 +130,8 @@ class Computation(Generic[_Request]):
     def handler(self, library: Library, executor: Executor) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
 
-        async def handle(request: Request) -> Response:
-            npy_in, npy_out = _is_npy(request), wants_npy(request)
+        async def handle(request: BoundedRequest) -> Response:
+            npy_in, npy_out = _is_npy(request), request.wants_npy
             body = await request.body()
             name: str = request.path_params["robot"]
 
@@ -204,8 +202,8 @@ class Operation:
         )
 
 
-def _is_npy(request: Request) -> bool:
-    given = media_type(request)
+def _is_npy(request: BoundedRequest) -> bool:
+    given = request.media_type
     if given not in {JSON, NPY}:
         raise UnsupportedMediaType(given, (JSON, NPY))
     return given == NPY

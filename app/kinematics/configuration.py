@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from app.model.arrays import Array
+from app.model.arrays import Array, compiled
 from app.model.chain import Chain
 from app.model.errors import InvalidArray, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
 
@@ -48,13 +48,23 @@ def checked_positions(chain: Chain, qs: Array) -> Array:
         )
     if qs.shape[1] != len(chain):
         raise WrongJointCount(qs.shape[1], chain.joint_names)
-    if qs.size and not np.abs(qs).max() <= MAX_POSITION:
+    if not _within(qs, MAX_POSITION):
         row, column = np.argwhere(~(np.abs(qs) <= MAX_POSITION))[0]
         raise InvalidArray(
             f"configuration {row}: the position of joint {chain.joint_names[column]!r} must be a finite number of "
             f"magnitude ≤ {MAX_POSITION:g}"
         )
     return qs
+
+
+@compiled
+def _within(qs: Array, most: float) -> bool:
+    """Whether every number is of no greater magnitude; NaN is not."""
+    for row in range(qs.shape[0]):
+        for column in range(qs.shape[1]):
+            if not abs(qs[row, column]) <= most:
+                return False
+    return True
 
 
 def check_limits(chain: Chain, qs: Array) -> None:

@@ -205,7 +205,11 @@ def nearest_rotation(matrix: Array) -> Array:
     R = U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt
     distance = math.hypot(*(matrix - R).ravel())
     if distance > ROTATION_TOLERANCE:
-        kind = "a reflection (determinant -1)" if np.linalg.slogdet(matrix)[0] < 0 else "not a rotation (RᵀR ≠ I)"
+        kind = (
+            "no rotation but a reflection (determinant -1)"
+            if np.linalg.slogdet(matrix)[0] < 0
+            else "not a rotation (RᵀR ≠ I)"
+        )
         raise InvalidPose(
             f"the matrix is {kind}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)", _finite(distance)
         )

@@ -52,8 +52,9 @@ def unneeded(needed: set[Path]) -> Iterator[Path]:
     """
     data = package_data().resolve()
     prefix = data.parents[1]
+    site_packages = prefix.parent
     folders = {data / Path(*file.relative_to(data).parts[:2]) for file in needed if file.is_relative_to(data)}
-    for file in [path for path in prefix.parent.rglob("*") if path.is_file()]:
+    for file in [path for path in site_packages.rglob("*") if path.is_file()]:
         if file in needed or file.name.upper().startswith(_LICENCES):
             continue
         if file.is_relative_to(data):
@@ -61,7 +62,7 @@ def unneeded(needed: set[Path]) -> Iterator[Path]:
         elif file.is_relative_to(prefix) and "site-packages" not in file.relative_to(prefix).parts:
             is_unneeded = True
         else:
-            is_unneeded = file.suffix in _FOR_DEVELOPERS or "tests" in file.parts
+            is_unneeded = file.suffix in _FOR_DEVELOPERS or "tests" in file.relative_to(site_packages).parts
         if is_unneeded:
             yield file
 

@@ -1,0 +1,84 @@
+"""The schema is complete: each operation has a summary, an id, and an example that runs; no page names another host."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from app.main import create_app
+from app.settings import Settings
+
+Operation = tuple[str, str, dict[str, Any]]
+_ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
+
+
+def operations() -> list[Operation]:
+    schema = create_app(Settings(data_dir=Path("unused"))).openapi()
+    found = [(path, method, entry) for path, entries in schema["paths"].items() for method, entry in entries.items()]
+    return sorted(found, key=lambda operation: _ORDER[operation[1]])
+
+
+OPERATIONS = operations()
+
+
+@pytest.mark.parametrize(("path", "method", "operation"), OPERATIONS, ids=[f"{o[1]} {o[0]}" for o in OPERATIONS])
+def test_an_operation_is_described(path: str, method: str, operation: dict[str, Any]) -> None:  # noqa: ARG001
+    assert operation["summary"]
+    assert operation["description"]
+    assert re.fullmatch(r"[a-z]+(_[a-z]+)*", operation["operationId"])
+    for status, response in operation["responses"].items():
+        media = set(response.get("content", {}))
+        assert (media == {"application/problem+json"}) == (int(status) >= 400)
+
+
+def test_ids_are_unique() -> None:
+    ids = [operation["operationId"] for _, _, operation in OPERATIONS]
+    assert len(set(ids)) == len(ids)
+
+
+def test_every_example_runs_as_it_stands(client: TestClient) -> None:
+    """In the order of the methods, so that what POST adds is there to be replaced and removed."""
+    for path, method, operation in OPERATIONS:
+        for parameter in operation.get("parameters", []):
+            example = parameter["schema"]["examples"][0]
+            path = path.replace(f"{{{parameter['name']}}}", example)  # noqa: PLW2901
+        body = operation.get("requestBody", {}).get("content", {}).get("application/json", {})
+        answer = client.request(method, path, json=body.get("example"))
+        assert answer.status_code < 300, f"{method} {path}: {answer.text}"
+        assert str(answer.status_code) in operation["responses"]
+
+
+def test_every_field_of_a_payload_is_described_or_named_by_its_type() -> None:
+    """Each numeric field says its unit or that it has none, in words."""
+    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    for name in ("ForwardRequest", "JacobianRequest", "DhJointRow", "ForwardAnswer", "CertificateInfo"):
+        for field, schema in schemas[name]["properties"].items():
+            if schema.get("type") in {"number", "array"}:
+                assert schema.get("description"), f"{name}.{field}"
+
+
+@pytest.mark.parametrize("page", ["/docs", "/redoc"])
+def test_a_page_and_what_it_loads_come_from_here_alone(client: TestClient, page: str) -> None:
+    answer = client.get(page)
+    assert answer.status_code == 200
+    assert "//" not in answer.text.replace("<!doctype html>", "")
+    assert "default-src 'self'" in answer.headers["content-security-policy"]
+    assert "http" not in answer.headers["content-security-policy"]
+    links = re.findall(r'(?:src|href)="([^"]+)"', answer.text)
+    assert len(links) >= 3
+    for link in links:
+        loaded = client.get("/" + link)
+        assert loaded.status_code == 200, link
+        if link.endswith(".css"):
+            assert not re.search(r"url\(\s*['\"]?https?:", loaded.text)
+            assert "@import" not in loaded.text
+
+
+def test_the_schema_names_no_host(client: TestClient) -> None:
+    assert "http" not in client.get("/openapi.json").text
+
+
+def test_the_root_leads_to_the_documentation(client: TestClient) -> None:
+    assert client.get("/").url.path == "/docs"

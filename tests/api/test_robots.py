@@ -1,0 +1,268 @@
+"""Robots over HTTP: the catalogue, uploads as URDF, DH table and zip, replacing, removing, meshes."""
+
+import json
+import zipfile
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from app.schemas.robots import EXAMPLE_DH, RobotInfo, RobotList
+from tests.api.conftest import ready_client
+
+CATALOGUE = sorted(path.parent.name for path in Path("robots").glob("*/robot.json"))
+URDF = """<robot name="arm">
+  <link name="base"/>
+  <link name="arm"><visual><geometry><mesh filename="package://arm_description/meshes/arm.stl"/></geometry></visual></link>
+  <joint name="hinge" type="revolute">
+    <parent link="base"/><child link="arm"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" velocity="1" effort="1"/>
+  </joint>
+</robot>"""
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Any:
+    """A client of an application with an empty data folder."""
+    yield from ready_client(tmp_path)
+
+
+def zipped(files: dict[str, str | bytes]) -> bytes:
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return buffer.getvalue()
+
+
+def upload_zip(client: TestClient, content: bytes, name: str = "zipped") -> Any:
+    return client.post("/v1/robots", data={"name": name}, files={"archive": ("robot.zip", content)})
+
+
+def test_the_list_holds_the_catalogue(client: TestClient) -> None:
+    answer = client.get("/v1/robots")
+    RobotList.model_validate_json(answer.content)
+    robots = {robot["name"]: robot for robot in answer.json()["robots"]}
+    assert set(CATALOGUE) <= set(robots)
+    assert len(CATALOGUE) >= 70
+    assert robots["panda"]["source"] == "catalogue"
+    assert robots["scara"]["format"] == "dh"
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_every_robot_of_the_catalogue_is_described_and_moves(client: TestClient, name: str) -> None:
+    answer = client.get(f"/v1/robots/{name}")
+    assert answer.status_code == 200, answer.text
+    info = RobotInfo.model_validate_json(answer.content)
+    assert info.licence
+    assert info.provenance
+    assert info.description.endswith(".")
+    assert set(info.leaf_tips) <= set(info.frames)
+    for ends in [info.default_chain, *info.chains.values()]:
+        call = {"base_frame": ends.base_frame, "tip_frame": ends.tip_frame}
+        empty = client.post(f"/v1/robots/{name}/fk", json={**call, "joint_positions": []})
+        joints = empty.json()["joint_names"]
+        assert joints
+        answer = client.post(f"/v1/robots/{name}/fk", json={**call, "joint_positions": [dict.fromkeys(joints, 0.1)]})
+        assert answer.status_code == 200, answer.text
+    assert client.get(f"/v1/robots/{name}/urdf").headers["content-type"] == "application/xml"
+
+
+def test_what_the_panda_is(client: TestClient) -> None:
+    info = client.get("/v1/robots/panda").json()
+    joints = {joint["name"]: joint for joint in info["joints"]}
+    assert joints["panda_joint1"]["limits"] == {"lower": -2.8973, "upper": 2.8973, "velocity": 2.175, "effort": 87}
+    assert joints["panda_finger_joint2"]["mimic"] == {"joint": "panda_finger_joint1", "multiplier": 1, "offset": 0}
+    assert joints["panda_joint8"]["axis"] is None
+    assert info["degrees_of_freedom"] == 8
+    assert info["licence"] == "Apache-2.0"
+
+
+def test_a_mesh_of_the_catalogue(client: TestClient) -> None:
+    mesh = client.get("/v1/robots/panda").json()["meshes"][0]
+    answer = client.get(f"/v1/robots/panda/meshes/{mesh['path']}")
+    assert answer.status_code == 200
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    assert b"COLLADA" in answer.content[:2000]
+
+
+@pytest.mark.parametrize(
+    "path", ["nothing.stl", "..%2f..%2frobot.json", "%2fetc%2fpasswd", "panda.urdf", "a%00.stl", "robot.json"]
+)
+def test_nothing_else_is_served_as_a_mesh(client: TestClient, path: str) -> None:
+    answer = client.get(f"/v1/robots/panda/meshes/{path}")
+    assert answer.status_code == 404
+    assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_a_urdf_is_added_used_replaced_and_removed(own: TestClient) -> None:
+    created = own.post("/v1/robots", json={"name": "arm", "urdf": URDF, "description": "Mine"})
+    assert created.status_code == 201, created.text
+    assert created.headers["location"] == "/v1/robots/arm"
+    assert "arm.stl" in " ".join(created.json()["warnings"])
+    assert own.get("/v1/robots/arm/urdf").text == URDF
+    assert own.get("/v1/robots").json()["robots"][-1]["name"] == "arm"
+    tip = own.post("/v1/robots/arm/fk", json={"joint_positions": [[0.5]]}).json()["poses"][0]
+    assert tip["position"] == [0, 0, 1]
+    replaced = own.put("/v1/robots/arm", json={"urdf": URDF.replace("0 0 1", "0 0 2", 1)})
+    assert replaced.status_code == 200, replaced.text
+    tip = own.post("/v1/robots/arm/fk", json={"joint_positions": [[0.5]]}).json()["poses"][0]
+    assert tip["position"] == [0, 0, 2]
+    assert own.delete("/v1/robots/arm").status_code == 204
+    for answer in (
+        own.get("/v1/robots/arm"),
+        own.delete("/v1/robots/arm"),
+        own.put("/v1/robots/arm", json={"urdf": URDF}),
+    ):
+        assert answer.status_code == 404
+
+
+def test_the_same_again_is_no_conflict_and_another_is(own: TestClient) -> None:
+    new = {"name": "arm", "urdf": URDF}
+    assert own.post("/v1/robots", json=new).status_code == 201
+    assert own.post("/v1/robots", json=new).status_code == 200
+    assert own.post("/v1/robots", json={**new, "description": "other"}).status_code == 409
+    assert own.post("/v1/robots", json={**new, "urdf": URDF + "\n"}).status_code == 409
+    assert own.post("/v1/robots", json={**new, "name": "panda"}).status_code == 409
+
+
+def test_the_catalogue_is_read_only(client: TestClient) -> None:
+    for answer in (client.delete("/v1/robots/panda"), client.put("/v1/robots/panda", json={"urdf": URDF})):
+        assert answer.status_code == 403
+        assert answer.json()["robot"] == "panda"
+
+
+def test_a_dh_table_becomes_a_robot(own: TestClient) -> None:
+    created = own.post("/v1/robots", json=EXAMPLE_DH)
+    assert created.status_code == 201, created.text
+    assert created.json()["joint_names"] == ["shoulder", "elbow"]
+    assert sum("±π" in warning for warning in created.json()["warnings"]) == 2
+    assert own.post("/v1/robots", json=EXAMPLE_DH).status_code == 200
+    urdf = own.get(f"/v1/robots/{EXAMPLE_DH['name']}/urdf").text
+    copy = own.post("/v1/robots", json={"name": "copy", "urdf": urdf})
+    assert copy.status_code == 201, copy.text
+    call = {"joint_positions": [[0.4, -0.9]]}
+    poses = [own.post(f"/v1/robots/{name}/fk", json=call).json()["poses"] for name in (EXAMPLE_DH["name"], "copy")]
+    assert poses[0] == poses[1]
+
+
+def test_a_prismatic_first_joint_zero_lengths_base_and_tool(own: TestClient) -> None:
+    row = {"type": "prismatic", "a": 0, "alpha": 0, "d": 0.5, "theta": 0}
+    tool = {"position": [0, 0, 0.1], "rotation_vector": [0, 0, 0]}
+    base = {"position": [1, 0, 0], "zyz": [0, 0, 0]}
+    for convention in ("standard", "modified"):
+        dh = {"convention": convention, "joints": [row, {**row, "type": "revolute"}], "base": base, "tool": tool}
+        created = own.post("/v1/robots", json={"name": convention, "dh": dh})
+        assert created.status_code == 201, created.text
+        answer = own.post(f"/v1/robots/{convention}/fk", json={"joint_positions": [[0.25, 1.0]]}).json()
+        assert answer["poses"][0]["position"] == pytest.approx([1, 0, 1.35], abs=1e-15)
+
+
+def test_a_default_chain_must_exist(own: TestClient) -> None:
+    ends = {"base_frame": "base", "tip_frame": "nose"}
+    answer = own.post("/v1/robots", json={"name": "arm", "urdf": URDF, "default_chain": ends})
+    assert answer.status_code == 404
+    assert answer.json()["known"] == ["base", "arm"]
+    assert own.get("/v1/robots/arm").status_code == 404
+
+
+@pytest.mark.parametrize("top", ["", "arm_description/"])
+def test_a_zip_of_urdf_and_meshes(own: TestClient, top: str) -> None:
+    mesh = b"solid arm\nendsolid arm\n"
+    content = zipped({f"{top}urdf/arm.urdf": URDF, f"{top}meshes/arm.stl": mesh, f"{top}notes.txt": "left out"})
+    created = upload_zip(own, content)
+    assert created.status_code == 201, created.text
+    assert not any("missing" in warning for warning in created.json()["warnings"])
+    path = created.json()["meshes"][0]["path"]
+    assert own.get(f"/v1/robots/zipped/meshes/{path}").content == mesh
+    assert upload_zip(own, content).status_code == 200
+    replaced = own.put("/v1/robots/zipped", files={"archive": ("robot.zip", zipped({"arm.urdf": URDF}))})
+    assert replaced.status_code == 200, replaced.text
+    assert replaced.json()["meshes"][0]["path"] is None
+
+
+def overlapping() -> bytes:
+    """A zip whose second entry points at the first one's bytes."""
+    content = bytearray(zipped({"a.urdf": URDF, "b.stl": b"x"}))
+    first, second = content.find(b"PK\x01\x02"), content.rfind(b"PK\x01\x02")
+    content[second + 42 : second + 46] = content[first + 42 : first + 46]
+    return bytes(content)
+
+
+def linked() -> bytes:
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        archive.writestr("a.urdf", URDF)
+        link = zipfile.ZipInfo("b.stl")
+        link.external_attr = 0o120777 << 16
+        archive.writestr(link, "/etc/passwd")
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("content", "word"),
+    [
+        (b"", "zip"),
+        (b"PK\x03\x04 and nothing", "zip"),
+        (zipped({}), "exactly one"),
+        (zipped({"a.stl": "x"}), "exactly one"),
+        (zipped({"a.urdf": URDF, "b.urdf": URDF}), "exactly one"),
+        (zipped({"../a.urdf": URDF}), "inside"),
+        (zipped({"/a.urdf": URDF}), "inside"),
+        (zipped({"a.urdf": URDF, "..\\b.stl": "x"}), "inside"),
+        (zipped({"a.urdf": URDF, "C:/b.stl": "x"}), "inside"),
+        (zipped({"a.urdf": URDF, "b.stl": "x", "B.STL": "x"}), "twice"),
+        (zipped({"a.urdf": URDF, "x" * 300 + ".stl": "x"}), "characters"),
+        (zipped({"a.urdf": URDF, **{f"{i}.stl": "" for i in range(2001)}}), "2000"),
+        (zipped({"a.urdf": URDF, "bomb.stl": bytes(300 * 1024 * 1024)}), "268435456"),
+        (zipped({"a.urdf": b"<robot " + bytes(3_000_000)}), "2097152"),
+        (zipped({"a.urdf": b"\xff\xfe"}), "utf-8"),
+        (zipped({"a.urdf": URDF.replace("revolute", "ball")}), "ball"),
+        (zipped({"a.urdf": URDF})[:-30], "zip"),
+        (overlapping(), "overlap"),
+        (linked(), "link"),
+    ],
+)
+def test_bad_archives_are_refused(client: TestClient, content: bytes, word: str) -> None:
+    answer = upload_zip(client, content, "bad_archive")
+    assert answer.status_code in {413, 422}, answer.text
+    assert word in answer.json()["detail"].lower()
+    assert client.get("/v1/robots/bad_archive").status_code == 404
+
+
+def test_a_form_must_be_one(client: TestClient) -> None:
+    no_file = client.post("/v1/robots", data={"name": "x"}, files={"other": ("x.zip", b"")})
+    assert no_file.status_code == 422
+    no_name = client.post("/v1/robots", files={"archive": ("x.zip", b"")})
+    assert no_name.status_code == 422
+    assert "name" in no_name.json()["detail"]
+    assert client.post("/v1/robots", content=b"x", headers={"content-type": "text/plain"}).status_code == 415
+
+
+def test_a_folder_dropped_in_by_hand_is_a_robot(tmp_path: Path) -> None:
+    for client in ready_client(tmp_path):
+        folder = tmp_path / "robots" / "by_hand"
+        folder.mkdir(parents=True)
+        (folder / "mine.urdf").write_text(URDF)
+        assert client.get("/v1/robots/by_hand").json()["warnings"]
+        (folder / "arm_description" / "meshes").mkdir(parents=True)
+        (folder / "arm_description" / "meshes" / "arm.stl").write_text("solid")
+        (folder / "robot.json").write_text(
+            '{"format": "urdf", "model": "mine.urdf", "meshes": ".", "description": "By hand"}'
+        )
+        info = client.get("/v1/robots/by_hand").json()
+        assert (info["description"], info["warnings"]) == (
+            "By hand",
+            ["no inertia for moving link 'arm': dynamics take it as massless"],
+        )
+        assert [robot["name"] for robot in client.get("/v1/robots").json()["robots"]][-1] == "by_hand"
+        (folder / "robot.json").write_text('{"format": "urdf", "model": "../../secret.urdf"}')
+        broken = client.get("/v1/robots/by_hand")
+        assert broken.status_code == 422
+        assert "leads out" in broken.json()["detail"]
+        assert client.get("/v1/robots").status_code == 200
+        assert client.put("/v1/robots/by_hand", json={"urdf": URDF}).status_code == 200
+        assert json.loads((folder / "robot.json").read_text())["digest"]
+        assert not (folder / "mine.urdf").exists()

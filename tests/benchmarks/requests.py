@@ -1,0 +1,79 @@
+"""Requests per second of one `fk` of one Panda configuration, against an empty endpoint.
+
+A client of our own keeps a few connections busy with prepared bytes; the three are measured in turn, again and
+again, and the medians compared, because the machine is shared.
+"""
+
+import json
+import socket
+import statistics
+import time
+
+from tests.benchmarks.server import running
+from tests.benchmarks.table import Row
+from tests.test_serve import HOST
+
+CONNECTIONS = 4
+ROUNDS = 9
+SECONDS = 1.0
+POSITIONS = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
+
+
+def measure() -> list[Row]:
+    """Compare `fk` with the empty endpoint of the same server, and with that of a bare FastAPI application."""
+    body = json.dumps({"joint_positions": [POSITIONS]}).encode()
+    fk = f"POST /v1/robots/panda/fk HTTP/1.1\r\nHost: {HOST}\r\nContent-Type: application/json\r\n".encode()
+    fk += f"Content-Length: {len(body)}\r\n\r\n".encode() + body
+    empty = f"GET /empty HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode()
+    rates: dict[str, list[float]] = {"fk": [], "same": [], "bare": []}
+    with running("service", "/readyz") as service, running("bare", "/empty") as bare:
+        for _ in range(ROUNDS):
+            rates["fk"].append(requests_per_second(service.port, fk))
+            rates["same"].append(requests_per_second(service.port, empty))
+            rates["bare"].append(requests_per_second(bare.port, empty))
+    median = {name: statistics.median(values) for name, values in rates.items()}
+    return [
+        Row(
+            "one `fk` over HTTP",
+            f"{median['fk']:.0f} requests/s",
+            f"empty endpoint {where}, {median[name]:.0f} requests/s",
+            median["fk"] / median[name],
+            wanted,
+        )
+        for name, where, wanted in (
+            ("same", "of the same server", "≥ 0.8"),
+            ("bare", "of a FastAPI application with nothing else in it", ""),
+        )
+    ]
+
+
+def requests_per_second(port: int, request: bytes) -> float:
+    """Requests answered per second over a few connections, each with one request on its way."""
+    connections = [socket.create_connection((HOST, port), timeout=10) for _ in range(CONNECTIONS)]
+    try:
+        for connection in connections:
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            connection.sendall(request)
+        count = 0
+        started = time.perf_counter()
+        while time.perf_counter() - started < SECONDS:
+            for connection in connections:
+                receive_answer(connection)
+                connection.sendall(request)
+                count += 1
+        return count / (time.perf_counter() - started)
+    finally:
+        for connection in connections:
+            connection.close()
+
+
+def receive_answer(connection: socket.socket) -> None:
+    """Take one whole answer off a connection."""
+    answer = connection.recv(65536)
+    assert answer.startswith(b"HTTP/1.1 200"), answer[:200]
+    while (end := answer.find(b"\r\n\r\n")) < 0:
+        answer += connection.recv(65536)
+    start = answer.index(b"content-length: ") + len(b"content-length: ")
+    size = end + 4 + int(answer[start : answer.index(b"\r\n", start)])
+    while len(answer) < size:
+        answer += connection.recv(65536)

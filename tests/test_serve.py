@@ -1,0 +1,122 @@
+"""The service as a process: it starts, several workers see the same robots, and requests in flight finish."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+HOST = "127.0.0.1"
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind((HOST, 0))
+        return int(probe.getsockname()[1])
+
+
+def get(url: str, method: str = "GET", body: Any = None) -> tuple[int, Any]:
+    request = urllib.request.Request(url, method=method, headers={"Content-Type": "application/json"})
+    request.data = None if body is None else json.dumps(body).encode()
+    try:
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.status, json.loads(answer.read() or b"null")
+    except urllib.error.HTTPError as error:
+        return error.code, json.loads(error.read())
+
+
+@contextmanager
+def service(data_dir: Path, *arguments: str, **settings: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A running service and its address; it is told to stop at the end, and must."""
+    port = free_port()
+    environment = {**os.environ, "GELENK_DATA_DIR": str(data_dir), **settings}
+    command = [sys.executable, "-m", "app.serve", "--port", str(port), *arguments]
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+        try:
+            url = f"http://{HOST}:{port}"
+            wait_until_ready(url, run)
+            yield run, url
+        finally:
+            run.terminate()
+            run.wait(timeout=20)
+
+
+def wait_until_ready(url: str, run: subprocess.Popen[str]) -> None:
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline:
+        assert run.poll() is None, "the service has ended"
+        try:
+            if get(f"{url}/readyz")[0] == 200:
+                return
+        except OSError:
+            pass
+        time.sleep(0.1)
+    raise AssertionError("the service does not get ready")
+
+
+def test_every_worker_sees_an_upload_at_once(tmp_path: Path) -> None:
+    row = {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}
+    with service(tmp_path, "--workers", "2") as (_, url):
+        for length in (1.0, 2.0, 3.0):
+            dh = {"convention": "standard", "joints": [{**row, "a": length}]}
+            if length == 1.0:
+                assert get(f"{url}/v1/robots", "POST", {"name": "arm", "dh": dh})[0] == 201
+            else:
+                assert get(f"{url}/v1/robots/arm", "PUT", {"dh": dh})[0] == 200
+            for _ in range(12):  # each on a new connection, so that both workers get some
+                status, answer = get(f"{url}/v1/robots/arm/fk", "POST", {"joint_positions": [[0.0]]})
+                assert (status, answer["poses"][0]["position"]) == (200, [length, 0.0, 0.0])
+        assert get(f"{url}/v1/robots/arm", "DELETE")[0] == 204
+        assert {get(f"{url}/v1/robots/arm")[0] for _ in range(8)} == {404}
+
+
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGINT])
+def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> None:
+    """Half of a request is sent, the service is told to stop, the other half follows: the answer comes."""
+    body = json.dumps({"joint_positions": [[0.0, 0.0]]}).encode()
+    head = (
+        f"POST /v1/robots/planar_2r/fk HTTP/1.1\r\nHost: {HOST}\r\nContent-Type: application/json\r\n"
+        f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
+    ).encode()
+    with service(tmp_path) as (run, url):
+        with socket.create_connection((HOST, int(url.rsplit(":", 1)[1])), timeout=20) as connection:
+            connection.sendall(head + body[:10])
+            time.sleep(0.3)
+            run.send_signal(stop)
+            time.sleep(0.5)
+            assert run.poll() is None
+            connection.sendall(body[10:])
+            answer = b""
+            while chunk := connection.recv(65536):
+                answer += chunk
+        assert answer.startswith(b"HTTP/1.1 200")
+        assert b'"position":[1.7' in answer
+        run.wait(timeout=8)
+
+
+def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
+    with service(tmp_path, GELENK_ROOT_PATH="/gelenk") as (_, url):
+        call = {"joint_positions": [[0.0, 0.0]]}
+        for prefix in ("", "/gelenk"):
+            assert get(f"{url}{prefix}/v1/robots/planar_2r/fk", "POST", call)[0] == 200
+        assert get(f"{url}/v1/robots/nobody/fk", "POST", call)[0] == 404
+
+
+def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
+    environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path), "GELENK_DATA_DRI": "x"}
+    run = subprocess.run(
+        [sys.executable, "-m", "app.serve"], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert run.returncode == 1
+    assert run.stderr.count("\n") == 1
+    assert "GELENK_DATA_DRI" in run.stderr
