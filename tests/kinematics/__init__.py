@@ -1,0 +1,1 @@
+"""What a robot does: poses, Jacobians and their certificates."""

@@ -1,0 +1,117 @@
+"""Configurations by order and by name, and what is refused."""
+
+from math import inf, nan, pi
+
+import numpy as np
+import pytest
+
+from app.kinematics.configuration import (
+    MAX_POSITION,
+    Configuration,
+    check_limits,
+    checked_positions,
+    configurations,
+)
+from app.model.errors import InvalidArray, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
+from tests.robots import robot, samples
+
+ARM = robot("planar_3r").chain("base", "tool")
+NAMES = ARM.joint_names
+BY_ORDER = [0.1, 0.2, 0.3]
+BY_NAME = {NAMES[2]: 0.3, NAMES[0]: 0.1, NAMES[1]: 0.2}
+
+
+@pytest.mark.parametrize(
+    "values", [[BY_ORDER, BY_ORDER], [BY_NAME, BY_NAME], [BY_ORDER, BY_NAME], [(0.1, 0.2, 0.3)] * 2]
+)
+def test_by_order_or_by_name(values: list[Configuration]) -> None:
+    assert np.array_equal(configurations(ARM, values), [BY_ORDER, BY_ORDER])
+
+
+def test_no_configuration() -> None:
+    assert configurations(ARM, []).shape == (0, 3)
+
+
+def test_no_joint() -> None:
+    still = robot("planar_3r").chain("base", "base")
+    assert configurations(still, [[], {}]).shape == (2, 0)
+
+
+@pytest.mark.parametrize("value", [[], [0.1, 0.2], [0.1] * 4])
+def test_wrong_count(value: list[float]) -> None:
+    with pytest.raises(WrongJointCount) as caught:
+        configurations(ARM, [BY_ORDER, value])
+    assert caught.value.facts() == {"given": len(value), "expected": NAMES, "index": 1}
+
+
+def test_missing_joint() -> None:
+    with pytest.raises(MissingJoint) as caught:
+        configurations(ARM, [BY_ORDER, {NAMES[0]: 0.1, NAMES[2]: 0.3}])
+    assert caught.value.facts() == {"joint": NAMES[1], "expected": NAMES, "index": 1}
+
+
+def test_unknown_joint() -> None:
+    with pytest.raises(UnknownJoint) as caught:
+        configurations(ARM, [{**BY_NAME, "elbow": 1.0}])
+    assert caught.value.facts() == {"joint": "elbow", "expected": NAMES, "index": 0}
+
+
+@pytest.mark.parametrize("number", [nan, inf, -inf, 1.1e6, -1e300])
+@pytest.mark.parametrize("by_name", [True, False])
+def test_numbers_that_are_no_position(number: float, by_name: bool) -> None:
+    value: Configuration = {**BY_NAME, NAMES[1]: number} if by_name else [0.1, number, 0.3]
+    with pytest.raises(InvalidArray, match=f"configuration 1: the position of joint '{NAMES[1]}'"):
+        configurations(ARM, [BY_ORDER, value])
+
+
+def test_the_largest_position() -> None:
+    assert configurations(ARM, [[MAX_POSITION, -MAX_POSITION, 0.0]])[0, 0] == MAX_POSITION
+
+
+@pytest.mark.parametrize("shape", [(3,), (2, 3, 1), ()])
+def test_arrays_of_other_dimensions(shape: tuple[int, ...]) -> None:
+    with pytest.raises(InvalidArray, match=f"has {len(shape)} dimensions"):
+        checked_positions(ARM, np.zeros(shape))
+
+
+@pytest.mark.parametrize("columns", [0, 2, 4])
+def test_arrays_of_other_width(columns: int) -> None:
+    with pytest.raises(WrongJointCount) as caught:
+        checked_positions(ARM, np.zeros((5, columns)))
+    assert caught.value.given == columns
+
+
+def test_a_good_array_stays_as_it_is() -> None:
+    qs = samples(ARM, 10)
+    assert checked_positions(ARM, qs) is qs
+
+
+# Limits
+
+
+def test_limits_are_inclusive() -> None:
+    panda = robot("panda").chain("panda_link0", "panda_link8")
+    check_limits(panda, np.array([panda.lower, panda.upper]))
+
+
+@pytest.mark.parametrize("joint", range(7))
+@pytest.mark.parametrize("side", ["lower", "upper"])
+def test_outside_limits(joint: int, side: str) -> None:
+    panda = robot("panda").chain("panda_link0", "panda_link8")
+    middle = (panda.lower + panda.upper) / 2
+    beyond = middle.copy()
+    beyond[joint] = panda.upper[joint] + 1e-9 if side == "upper" else panda.lower[joint] - 1e-9
+    with pytest.raises(OutsideLimits) as caught:
+        check_limits(panda, np.array([middle, beyond]))
+    assert caught.value.facts() == {
+        "joint": panda.joint_names[joint],
+        "value": beyond[joint],
+        "lower": panda.lower[joint],
+        "upper": panda.upper[joint],
+        "index": 1,
+    }
+
+
+def test_continuous_joints_have_no_limits() -> None:
+    pendulum = robot("double_pendulum_continuous").chain(None, None)
+    check_limits(pendulum, np.full((1, len(pendulum)), 100 * pi))

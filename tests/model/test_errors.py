@@ -1,0 +1,92 @@
+"""Every error of the core: its sentence, its data, its journey between processes, its place in the tree."""
+
+import pickle
+import re
+from collections.abc import Iterator
+from dataclasses import fields
+
+import pytest
+
+from app.model import errors
+from app.model.errors import KinematicsError, listed, quoted
+
+OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle"}
+"""Fields whose text we write; all other texts come from outside."""
+EXAMPLES: dict[object, object] = {
+    str: "el\nbow",
+    int: 7,
+    int | None: 7,
+    float: 0.5,
+    float | None: 0.5,
+    str | None: "el\nbow",
+    tuple[str, ...]: ("shoulder", "el\nbow"),
+}
+
+
+def concrete(cls: type[KinematicsError] = KinematicsError) -> Iterator[type[KinematicsError]]:
+    """All classes with a sentence of their own."""
+    for child in cls.__subclasses__():
+        if child.detail is not KinematicsError.detail:
+            yield child
+        yield from concrete(child)
+
+
+def example(cls: type[KinematicsError]) -> KinematicsError:
+    """An error with something in every field."""
+    return cls(*("elbow" if field.name in OURS else EXAMPLES[field.type] for field in fields(cls)))
+
+
+CONCRETE = sorted(set(concrete()), key=lambda cls: cls.__name__)
+every_error = pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
+
+
+@every_error
+def test_detail_is_one_sentence(cls: type[KinematicsError]) -> None:
+    detail = example(cls).detail
+    assert detail == str(example(cls)) != ""
+    assert not re.search(r"[.!?] [A-Z]|\.$", detail)
+    assert detail.isprintable()
+
+
+@every_error
+def test_errors_travel_between_processes(cls: type[KinematicsError]) -> None:
+    error = example(cls)
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert type(again) is cls
+    assert (again.detail, again.facts()) == (error.detail, error.facts())
+
+
+def documented() -> dict[str, str]:
+    """Each class of the tree in the module's docstring, and the one it hangs on."""
+    assert errors.__doc__ is not None
+    parents: dict[str, str] = {}
+    above: list[tuple[int, str]] = []
+    for match in re.finditer(r"^([ │├└─]*)([A-Z]\w+)(?=\s{2}|$)", errors.__doc__, re.MULTILINE):
+        indent, name = len(match[1]), match[2]
+        above = [(depth, parent) for depth, parent in above if depth < indent]
+        parents[name] = above[-1][1] if above else "Exception"
+        above.append((indent, name))
+    return parents
+
+
+def test_the_tree_is_drawn_as_it_is() -> None:
+    classes = [cls for cls in vars(errors).values() if isinstance(cls, type) and issubclass(cls, KinematicsError)]
+    assert documented() == {cls.__name__: cls.__bases__[0].__name__ for cls in classes}
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("elbow", "'elbow'"),
+        ("el\nbow", "'el\\u000abow'"),
+        ("\x1b[2J", "'\\u001b[2J'"),
+        ("e" * 1000, "'" + "e" * 79 + "…'"),
+    ],
+)
+def test_names_from_outside_are_shown_safely(name: str, shown: str) -> None:
+    assert quoted(name) == shown
+
+
+def test_long_lists_are_cut() -> None:
+    assert listed(()) == "none"
+    assert listed(tuple("abc"), most=2) == "'a', 'b' and 1 more"

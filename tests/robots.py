@@ -1,0 +1,76 @@
+"""The catalogue's robots as the core sees them, each built once."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.convert import describe_dh
+from app.model.description import Description
+from app.model.dh import DhJoint, DhTable
+from app.model.robot import Robot
+from app.model.urdf import read_urdf, write_urdf
+from tests.oracles import catalogue, dh_columns
+
+
+@cache
+def robot(name: str) -> Robot:
+    """A robot of the catalogue."""
+    if name in catalogue.URDFS:
+        description = read_urdf(catalogue.urdf_text(name))
+    else:
+        description = reread(describe_dh(name, table(catalogue.dh_table(name))))
+    ends = catalogue.entry(name)["default_chain"]
+    return Robot(description, (ends["base_frame"], ends["tip_frame"]))
+
+
+def table(content: Mapping[str, Any]) -> DhTable:
+    """A table as the catalogue writes it."""
+    joints = tuple(DhJoint(**joint) for joint in content["joints"])
+    base, tool = (dh_columns.placement(content.get(key)) for key in ("base", "tool"))
+    return DhTable(content["convention"], joints, base, tool)
+
+
+def rows(
+    convention: Literal["standard", "modified"], parameters: Sequence[tuple[float, float, float, float]], types: str
+) -> DhTable:
+    """A table by its rows of (a, α, d, θ) and one letter a joint, R or P."""
+    kinds: dict[str, Literal["revolute", "prismatic"]] = {"R": "revolute", "P": "prismatic"}
+    return DhTable(
+        convention,
+        tuple(
+            DhJoint(f"joint_{i}", kinds[letter], *row)
+            for i, (row, letter) in enumerate(zip(parameters, types, strict=True), start=1)
+        ),
+    )
+
+
+def reread(description: Description) -> Description:
+    """A description after a journey through XML."""
+    return read_urdf(write_urdf(description))
+
+
+def of_table(dh: DhTable) -> Robot:
+    """The robot that a table describes, by way of XML."""
+    return Robot(reread(describe_dh("arm", dh)))
+
+
+def samples(chain: Chain, count: int, seed: int = 0) -> Array:
+    """Configurations of a chain: all the way round for turning joints, ±1 m for sliding ones; shape (count, n)."""
+    slides = {int(i) for i, prismatic in zip(chain.flat.variables, chain.flat.prismatic, strict=True) if prismatic}
+    reach = np.array([1.0 if i in slides else np.pi for i in range(len(chain))])
+    return np.random.default_rng(seed).uniform(-reach, reach, (count, len(chain)))
+
+
+def by_name(chain: Chain, qs: Array) -> dict[str, Array]:
+    """Configurations of a chain as one array a joint."""
+    return dict(zip(chain.joint_names, qs.T, strict=True))
+
+
+def without_warnings(description: Description) -> Description:
+    """The description alone, to be compared with another."""
+    return replace(description, warnings=())
