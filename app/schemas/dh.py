@@ -18,7 +18,9 @@ class DhJointRow(Payload):
     """A row of the table; the joint's variable adds to `theta` (revolute) or to `d` (prismatic)."""
 
     name: JointName | None = Field(None, description="Unique in the table; `joint_1`, `joint_2`, … if left out.")
-    type: Literal["revolute", "prismatic"]
+    type: Literal["revolute", "prismatic"] = Field(
+        description="Whether the joint turns about or slides along its axis."
+    )
     a: float = Field(description="Length of the common normal, [m].")
     alpha: float = Field(description="Twist about the common normal, [rad].")
     d: float = Field(description="Offset along the joint axis, [m].")
@@ -36,7 +38,7 @@ class DhTablePayload(Payload):
     `modified` (Craig): A_i = Rx(α_i) Tx(a_i) Rz(θ_i) Tz(d_i).
     """
 
-    convention: Literal["standard", "modified"]
+    convention: Literal["standard", "modified"] = Field(description="How the four parameters of a row are composed.")
     joints: list[DhJointRow] = Field(min_length=1, max_length=MAX_JOINTS, description="The rows, base to tip.")
     base: Pose | None = Field(None, description="T_base_0; the identity if left out.")
     tool: Pose | None = Field(None, description="T_n_tool; the identity if left out.")

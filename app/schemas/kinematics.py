@@ -124,7 +124,7 @@ class JacobianAnswer(Answer):
     reference: Literal["local_world_aligned", "local", "world"]
     representation: Literal["geometric", "zyz", "rpy"]
     jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
-    ranks: list[int]
+    ranks: list[int] = Field(description="Singular values that count, see `rank_tolerance`.")
     singular_values: list[list[float]] = Field(description="Largest first; metres and radians are mixed.")
     condition_numbers: list[float | None] = Field(
         description="Largest over smallest singular value; null where the Jacobian has not full rank."

@@ -85,7 +85,7 @@ class MimicInfo(Answer):
     """The joint's position is `multiplier` · position of `joint` + `offset`."""
 
     joint: str
-    multiplier: float
+    multiplier: float = Field(description="[rad or m] per [rad or m]")
     offset: float = Field(description="[rad or m]")
 
 
