@@ -1,6 +1,7 @@
 """Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
 
 - `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there.
+- `prune`: takes from a container image what the service never opens.
 - `api`: HTTP only. `schemas`: what travels. `store`: robots on disk.
 - `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
 

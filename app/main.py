@@ -17,7 +17,7 @@ from app.store.library import Library
 
 DESCRIPTION = """
 A URDF or a Denavit-Hartenberg table goes in; forward kinematics and Jacobians come out, each answer recomputed
-through Pinocchio before it is sent.
+through Pinocchio before it is sent (a sample of a large batch).
 
 Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A pose `T_a_b` is that of b in a; a
 quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the
@@ -33,14 +33,16 @@ def create_app(settings: Settings) -> FastAPI:
     """
     library = Library(settings.catalogue_dir, settings.data_dir / "robots")
     executor = ThreadPoolExecutor(settings.threads, thread_name_prefix="work")
-    readiness = Readiness(library)
+    uploads = ThreadPoolExecutor(2, thread_name_prefix="upload")
+    readiness = Readiness()
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         library.prepare()
-        readiness.warm_up()
+        readiness.begin()
         yield
-        executor.shutdown(wait=True, cancel_futures=False)
+        executor.shutdown()
+        uploads.shutdown()
 
     app = Application(
         settings.max_body_bytes,
@@ -51,6 +53,7 @@ def create_app(settings: Settings) -> FastAPI:
         root_path=settings.root_path,
         docs_url=None,
         redoc_url=None,
+        redirect_slashes=False,
         lifespan=lifespan,
         openapi_tags=[
             {"name": "Robots", "description": "The catalogue, and robots of your own."},
@@ -60,7 +63,7 @@ def create_app(settings: Settings) -> FastAPI:
     )
     problems.install(app)
     app.include_router(robots_router(library))
-    app.router.routes.extend(upload_routes(library, executor, settings.max_body_bytes))
+    app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
     for operation in kinematics_operations(settings.max_answer_numbers):
         handler = operation.computation.handler(library, executor)
         app.operations[operation.name] = handler

@@ -8,16 +8,16 @@ import uvicorn
 
 from app.settings import InvalidSetting, Settings
 
-SHUTDOWN_SECONDS = 8
-"""How long requests in flight may go on after Ctrl-C or SIGTERM."""
+SHUTDOWN_SECONDS = 7
+"""How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
 
 
 def main() -> None:
     """Parse the arguments and serve until told to stop."""
     parser = argparse.ArgumentParser(prog="./dev serve", description=__doc__)
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine alone)")
-    parser.add_argument("--port", default=8000, type=int)
-    parser.add_argument("--workers", default=1, type=int, help="processes that share the port")
+    parser.add_argument("--port", default=8000, type=int, choices=range(1, 65536), metavar="PORT")
+    parser.add_argument("--workers", default=1, type=int, choices=range(1, 129), metavar="N", help="processes")
     arguments = parser.parse_args()
     try:
         settings = Settings.from_environment(os.environ)

@@ -53,6 +53,8 @@ class Settings:
 
 
 def _parse(variable: str, name: str, text: str) -> Path | str | int:
+    if not text and name != "root_path":
+        raise InvalidSetting(f"{variable} is empty: leave it out for the default")
     if name.endswith("_dir"):
         return Path(text).expanduser()
     if name == "root_path":

@@ -1,18 +1,16 @@
 """Forward kinematics and the Jacobian of a robot."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from app.api.routes import Computation, Operation, Outcome
-from app.kinematics.certify import Certificate, JacobianCertificate
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.forward import forward_kinematics
 from app.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
-from app.model.arrays import Array
+from app.model.arrays import Array, Indices
 from app.model.chain import Chain
-from app.model.errors import InvalidArray, TooLarge
+from app.model.errors import InvalidField, TooLarge
 from app.model.robot import Robot
 from app.schemas.kinematics import (
     ForwardAnswer,
@@ -24,6 +22,10 @@ from app.schemas.kinematics import (
 )
 from app.schemas.pose import pose_array, pose_list
 from app.store.records import LoadedRobot
+
+_QUICK_POSES = 100
+_QUICK_JACOBIANS = 10
+"""Configurations that take the event loop less than about a millisecond; more go to a thread."""
 
 _PANDA_READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 
@@ -47,12 +49,9 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
             answer = _head(chain)
             answer["poses"] = pose_list(result.poses, call.pose_format)
             if call.frames is not None:
-                lists = [pose_list(poses, call.pose_format) for poses in result.frames.values()]
-                names = tuple(result.frames)
-                answer["frames"] = [dict(zip(names, entry, strict=True)) for entry in zip(*lists, strict=True)] or [
-                    {} for _ in range(len(qs))
-                ]
-            answer["certificate"] = _certificate(result.certificate)
+                lists = {name: pose_list(poses, call.pose_format) for name, poses in result.frames.items()}
+                answer["frames"] = [{name: poses[row] for name, poses in lists.items()} for row in range(len(qs))]
+            answer["certificate"] = result.certificate
             return answer
 
         array = None if call.frames is not None else lambda: pose_array(result.poses, call.pose_format)
@@ -65,11 +64,10 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
         give the analytic one, which does not exist where its angles degenerate. Every answer is recomputed through
         Pinocchio before it is sent (a sample of a large batch).
         """
-        if call.representation != "geometric" and call.reference != "local_world_aligned":
-            raise InvalidArray("reference: an analytic Jacobian goes with `local_world_aligned` only")
         chain, qs = _chain_and_positions(loaded.robot, call)
         n = len(chain)
-        _check_size(len(qs) * 6 * n * (1 + len(call.derivatives) + n * bool(call.derivatives)), max_answer_numbers)
+        matrices = 1 + len(call.derivatives) + n * bool(call.derivatives)
+        _check_size(len(qs) * (12 + 6 * n * matrices), max_answer_numbers)
         velocities = _velocities(chain, call, len(qs))
         result = jacobians(
             loaded.robot,
@@ -86,24 +84,35 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
 
     return [
         Operation(
-            "fk",
-            "forward_kinematics",
-            "Forward kinematics",
-            Computation(fk, ForwardRequest, ForwardOptions, "joint_positions", lambda call: call.frames is not None),
-            ForwardAnswer,
-            "Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, (N, 4, 4) matrices.",
-            {"joint_positions": [_PANDA_READY], "tip_frame": "panda_link8", "pose_format": "rpy"},
+            name="fk",
+            operation_id="forward_kinematics",
+            summary="Forward kinematics",
+            computation=Computation(
+                run=fk,
+                request=ForwardRequest,
+                options=ForwardOptions,
+                array_field="joint_positions",
+                is_heavy=lambda call: call.frames is not None or len(call.joint_positions) > _QUICK_POSES,
+            ),
+            answer=ForwardAnswer,
+            npy_answer="Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, "
+            "(N, 4, 4) matrices.",
+            example={"joint_positions": [_PANDA_READY], "tip_frame": "panda_link8", "pose_format": "rpy"},
         ),
         Operation(
-            "jacobian",
-            "jacobian",
-            "Jacobian",
-            Computation(
-                jacobian, JacobianRequest, JacobianOptions, "joint_positions", lambda call: bool(call.derivatives)
+            name="jacobian",
+            operation_id="jacobian",
+            summary="Jacobian",
+            computation=Computation(
+                run=jacobian,
+                request=JacobianRequest,
+                options=JacobianOptions,
+                array_field="joint_positions",
+                is_heavy=lambda call: bool(call.derivatives) or len(call.joint_positions) > _QUICK_JACOBIANS,
             ),
-            JacobianAnswer,
-            "Jacobians as one array of shape (N, 6, n).",
-            {"joint_positions": [_PANDA_READY], "reference": "local_world_aligned"},
+            answer=JacobianAnswer,
+            npy_answer="Jacobians as one array of shape (N, 6, n).",
+            example={"joint_positions": [_PANDA_READY], "reference": "local_world_aligned"},
         ),
     ]
 
@@ -119,12 +128,11 @@ def _chain_and_positions(robot: Robot, call: ForwardRequest | JacobianRequest) -
 def _velocities(chain: Chain, call: JacobianRequest, count: int) -> Array | None:
     if "time_variation" not in call.derivatives:
         return None
-    given = getattr(call, "joint_velocities", None)
-    if given is None:
-        raise InvalidArray("joint_velocities: a time variation needs them")
-    velocities = configurations(chain, given)
+    if call.joint_velocities is None:
+        raise InvalidField("joint_velocities", "a time variation needs them, so send the call as JSON")
+    velocities = configurations(chain, call.joint_velocities, "joint_velocities")
     if len(velocities) != count:
-        raise InvalidArray(f"joint_velocities: {len(velocities)} entries for {count} configurations")
+        raise InvalidField("joint_velocities", f"{len(velocities)} entries for {count} configurations")
     return velocities
 
 
@@ -135,24 +143,6 @@ def _check_size(numbers: int, allowed: int) -> None:
 
 def _head(chain: Chain) -> dict[str, Any]:
     return {"joint_names": chain.joint_names, "base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-
-
-def _certificate(certificate: Certificate) -> dict[str, Any]:
-    return {
-        "samples": certificate.samples,
-        "max_position_error": certificate.max_position_error,
-        "max_orientation_error": certificate.max_orientation_error,
-        "seed": certificate.seed,
-    }
-
-
-def _jacobian_certificate(certificate: JacobianCertificate) -> dict[str, Any]:
-    return {
-        "samples": certificate.samples,
-        "max_error": certificate.max_error,
-        "max_time_variation_error": certificate.max_time_variation_error,
-        "seed": certificate.seed,
-    }
 
 
 def _jacobian_content(
@@ -174,11 +164,11 @@ def _jacobian_content(
         answer["time_variations"] = np.ascontiguousarray(result.time_variations(velocities))
     if "hessian" in call.derivatives:
         answer["hessians"] = np.ascontiguousarray(result.hessians)
-    answer["certificate"] = _jacobian_certificate(result.certificate)
+    answer["certificate"] = result.certificate
     return answer
 
 
-def _condition_numbers(sigmas: Array, counts: Sequence[int] | Any) -> list[float | None]:
+def _condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
     full = sigmas.shape[1]
     return [
         float(sigma[0] / sigma[-1]) if full and rank == full else None

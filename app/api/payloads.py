@@ -1,18 +1,28 @@
 """Bodies in, answers out: JSON and NumPy's npy, strictly."""
 
+import math
+import tokenize
 from collections.abc import AsyncGenerator
 from io import BytesIO
 from typing import Any, TypeVar
 
 import numpy as np
 import orjson
+from pydantic import ValidationError
+from starlette.datastructures import QueryParams
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from app.api.problems import InvalidPayload
 from app.model.arrays import Array
 from app.model.errors import InvalidArray, TooLarge
 from app.schemas.common import Payload
+
+MAX_MEMBERS = 1_000_000
+"""Members of objects in a body: each unknown one would be a validation error of its own."""
+
+MAX_PARAMETERS = 500
 
 JSON = "application/json"
 NPY = "application/x-npy"
@@ -29,6 +39,7 @@ class BoundedRequest(Request):
     def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int) -> None:
         super().__init__(scope, receive, send)
         self._max_bytes = max_bytes
+        self._count = 0
         self._fields: dict[bytes, bytes] = dict(scope["headers"])
 
     @property
@@ -41,25 +52,41 @@ class BoundedRequest(Request):
         """Whether the caller asks for the answer as npy."""
         return NPY.encode() in self._fields.get(b"accept", b"").lower()
 
-    async def stream(self) -> AsyncGenerator[bytes, None]:
-        """The body in pieces.
+    async def body(self) -> bytes:
+        """The whole body.
 
         Raises:
             TooLarge: It is larger than allowed, or says so.
             ClientDisconnect: The caller has left.
         """
-        announced = self._fields.get(b"content-length", b"0")
-        self._check(int(announced) if announced.isdigit() else 0)
-        count, more = 0, True
+        chunk, more = await self._receive_chunk()
+        if not more:
+            return chunk
+        chunks = [chunk]
         while more:
-            message = await self.receive()
-            if message["type"] == "http.disconnect":
-                raise ClientDisconnect
-            chunk = message.get("body", b"")
-            count += len(chunk)
-            self._check(count)
-            more = message.get("more_body", False)
+            chunk, more = await self._receive_chunk()
+            chunks.append(chunk)
+        return b"".join(chunks)
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """The body in pieces; raises as `body` does."""
+        more = True
+        while more:
+            chunk, more = await self._receive_chunk()
             yield chunk
+
+    async def _receive_chunk(self) -> tuple[bytes, bool]:
+        """The next piece of the body, and whether there is more."""
+        if self._count == 0:
+            announced = self._fields.get(b"content-length", b"0")
+            self._check(int(announced) if announced.isdigit() else 0)
+        message = await self.receive()
+        if message["type"] == "http.disconnect":
+            raise ClientDisconnect
+        chunk: bytes = message.get("body", b"")
+        self._count += len(chunk)
+        self._check(self._count)
+        return chunk, message.get("more_body", False)
 
     def _check(self, count: int) -> None:
         if count > self._max_bytes:
@@ -79,6 +106,38 @@ def npy_response(array: Array) -> Response:
     return Response(buffer.getvalue(), media_type=NPY)
 
 
+def read_json(model: type[_Model], body: bytes) -> _Model:
+    """A payload, checked.
+
+    Raises:
+        InvalidPayload: It is not what the model asks for.
+    """
+    if body.count(b":") > MAX_MEMBERS:
+        raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
+    try:
+        return model.model_validate_json(body)
+    except ValidationError as error:
+        raise InvalidPayload.of(error) from None
+
+
+def read_query(model: type[_Model], query: QueryParams) -> _Model:
+    """A payload from the query string, where the body is an array; a list field takes its key repeatedly.
+
+    Raises:
+        InvalidPayload: It is not what the model asks for.
+    """
+    values: dict[str, Any] = {}
+    for key, value in query.multi_items()[:MAX_PARAMETERS]:
+        if key in model.list_fields and value != "all":
+            values.setdefault(key, []).append(value)
+        else:
+            values[key] = value
+    try:
+        return model.model_validate(values, strict=False)
+    except ValidationError as error:
+        raise InvalidPayload.of(error) from None
+
+
 def read_npy(body: bytes) -> Array:
     """The array in an npy body, as native float64.
 
@@ -94,32 +153,15 @@ def read_npy(body: bytes) -> Array:
             shape, fortran_order, dtype = np.lib.format.read_array_header_1_0(stream)
         else:
             shape, fortran_order, dtype = np.lib.format.read_array_header_2_0(stream)
-    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError) as error:
+    except (ValueError, SyntaxError, TypeError, RecursionError, MemoryError, tokenize.TokenError) as error:
         raise InvalidArray("the body is not an npy array of version 1 or 2") from error
     if dtype.kind not in "fiu" or dtype.itemsize > 8 or dtype.hasobject:
         raise InvalidArray(f"the array holds {dtype.str}; allowed are integers and floats of up to 64 bits")
-    if any(size < 0 for size in shape) or len(shape) > 4:
-        raise InvalidArray("the array's shape is not one: at most 4 dimensions, none negative")
-    count = 1
-    for size in shape:
-        count *= size
+    if len(shape) > 4 or not all(0 <= size <= len(body) for size in shape):
+        raise InvalidArray("the array's shape does not go with the bytes of the body")
+    count = math.prod(shape)
     if len(body) - stream.tell() != count * dtype.itemsize:
-        raise InvalidArray(
-            f"the array of shape {shape} needs {count * dtype.itemsize} bytes of data, no more, no fewer"
-        )
+        raise InvalidArray(f"the array of shape {shape} needs {count * dtype.itemsize} bytes, no more, no fewer")
     flat = np.frombuffer(body, dtype, count, stream.tell())
-    shaped = flat.reshape(shape, order="F" if fortran_order else "C")
-    return np.ascontiguousarray(shaped, dtype=np.float64)
-
-
-def from_query(model: type[_Model], request: Request) -> _Model:
-    """A model from the query string, where the body is an array; repeated keys make a list.
-
-    Raises:
-        ValidationError: A value is not what the model asks for.
-    """
-    values: dict[str, Any] = {}
-    for key in request.query_params:
-        items = request.query_params.getlist(key)
-        values[key] = items if len(items) > 1 else items[0]
-    return model.model_validate_strings(values)
+    # A copy, because an array over received bytes is read-only: for the kernels that would be a type of its own.
+    return np.array(flat.reshape(shape, order="F" if fortran_order else "C"), dtype=np.float64, order="C")

@@ -26,6 +26,8 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     errors.RobotExists: HTTPStatus.CONFLICT,
     errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
+    errors.StorageFailed: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.StorageFull: HTTPStatus.INSUFFICIENT_STORAGE,
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
 }
 """A class not listed has its nearest ancestor's status."""
@@ -33,8 +35,30 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
 _MOST_ERRORS = 20
 _MOST_NAMES = 64
 _MOST_TEXT = 2000
+_MOST_BYTES = 6000
 
 logger = logging.getLogger("gelenk")
+
+
+class InvalidPayload(Exception):
+    """A body or query that is not what its model asks for, already boiled down: `errors()` of a large one is costly."""
+
+    def __init__(self, is_json: bool, places: list[dict[str, str]], count: int) -> None:
+        self.is_json, self.places, self.count = is_json, places, count
+        super().__init__(places[0]["detail"] if places else "the payload is not what is asked for")
+
+    @classmethod
+    def of(cls, error: ValidationError | RequestValidationError) -> "InvalidPayload":
+        """Keep the first few places of a validation error."""
+        if isinstance(error, ValidationError):
+            found = error.errors(include_input=False, include_url=False)
+        else:
+            found = list(error.errors())
+        if found and found[0]["type"] == "json_invalid":
+            reason = str(found[0].get("ctx", {}).get("error", found[0]["msg"]))
+            return cls(False, [{"pointer": "#", "detail": f"the body is not JSON: {reason}"}], 1)
+        places = [{"pointer": _pointer(item["loc"]), "detail": _sentence(item["msg"])} for item in found[:_MOST_ERRORS]]
+        return cls(True, places, len(found))
 
 
 class UnsupportedMediaType(Exception):
@@ -92,23 +116,25 @@ def answer(request: Request, error: Exception) -> Response:
 
 def _kinematics(request: Request, error: Exception) -> Response:
     assert isinstance(error, errors.KinematicsError)  # noqa: S101 - what it is registered for
-    return problem(request, status_of(type(error)), kind_of(type(error)), error.detail, error.facts())
+    facts = error.facts()
+    if (pointer := _place(error)) is not None:
+        facts["pointer"] = pointer
+    return problem(request, status_of(type(error)), kind_of(type(error)), error.detail, facts)
+
+
+def _payload(request: Request, error: Exception) -> Response:
+    assert isinstance(error, InvalidPayload)  # noqa: S101
+    if not error.is_json:
+        return problem(request, HTTPStatus.BAD_REQUEST, "malformed-json", str(error))
+    first = f"{error.places[0]['pointer']}: {error.places[0]['detail']}" if error.places else str(error)
+    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
+    facts = {"errors": error.places}
+    return problem(request, HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-payload", first + more, facts)
 
 
 def _validation(request: Request, error: Exception) -> Response:
     assert isinstance(error, ValidationError | RequestValidationError)  # noqa: S101
-    found = (
-        error.errors(include_input=False, include_url=False) if isinstance(error, ValidationError) else error.errors()
-    )
-    if found and found[0]["type"] == "json_invalid":
-        reason = str(found[0].get("ctx", {}).get("error", found[0]["msg"]))
-        return problem(request, HTTPStatus.BAD_REQUEST, "malformed-json", f"the body is not JSON: {reason}")
-    places = [
-        {"pointer": _pointer(item["loc"]), "detail": str(item["msg"])[:_MOST_TEXT]} for item in found[:_MOST_ERRORS]
-    ]
-    first = f"{places[0]['pointer']}: {places[0]['detail']}" if places else "the payload is not what is asked for"
-    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-    return problem(request, HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-payload", first + more, {"errors": places})
+    return _payload(request, InvalidPayload.of(error))
 
 
 def _media_type(request: Request, error: Exception) -> Response:
@@ -138,6 +164,25 @@ def _unexpected(request: Request, error: Exception) -> Response:
     return problem(request, HTTPStatus.INTERNAL_SERVER_ERROR, "internal-error", detail)
 
 
+def _sentence(message: str) -> str:
+    return str(message).removeprefix("Value error, ")[:_MOST_TEXT]
+
+
+def _place(error: errors.KinematicsError) -> str | None:
+    """Where in the payload the core found something wrong, where it can be said."""
+    match error:
+        case errors.InvalidField(field=field):
+            return f"#/{field}"
+        case errors.InvalidUrdf():
+            return "#/urdf"
+        case errors.InvalidDhTable(joint=None):
+            return "#/dh"
+        case errors.InvalidDhTable(joint=joint, parameter=parameter):
+            return f"#/dh/joints/{joint}" + (f"/{parameter}" if parameter else "")
+    index = getattr(error, "index", None)
+    return None if index is None else f"#/joint_positions/{index}"
+
+
 def _pointer(location: Sequence[int | str]) -> str:
     """Where in the payload: a JSON pointer, the tags of unions left out."""
     parts = [str(part) for part in location if not str(part).startswith("<")]
@@ -152,7 +197,10 @@ def _shortened(value: Any) -> Any:
     if isinstance(value, str):
         return "".join(c if c.isprintable() else "�" for c in value[:256])
     if isinstance(value, list | tuple):
-        return [_shortened(item) for item in value[:_MOST_NAMES]]
+        items = [_shortened(item) for item in value[:_MOST_NAMES]]
+        while len(orjson.dumps(items)) > _MOST_BYTES:
+            items = items[: len(items) // 2]
+        return items
     if isinstance(value, dict):
         return {key: _shortened(item) for key, item in value.items()}
     return value
@@ -160,6 +208,7 @@ def _shortened(value: Any) -> Any:
 
 _HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (
     (errors.KinematicsError, _kinematics),
+    (InvalidPayload, _payload),
     (ValidationError, _validation),
     (RequestValidationError, _validation),
     (UnsupportedMediaType, _media_type),

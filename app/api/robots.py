@@ -1,22 +1,24 @@
 """Robots: listed, described, added, replaced, removed; their URDF and their meshes."""
 
-import asyncio
+import os
 from collections.abc import Callable
 from concurrent.futures import Executor
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
+from pydantic import model_validator
+from starlette.background import BackgroundTask
 from starlette.datastructures import UploadFile
-from starlette.responses import FileResponse
+from starlette.responses import StreamingResponse
 
 from app.api.openapi import RobotPath, UploadedRobotPath, json_example, problem_responses
-from app.api.payloads import JSON, BoundedRequest, json_response
+from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.routes import DocumentedRoute
+from app.api.routes import DocumentedRoute, in_thread
 from app.model.chain import Chain
 from app.model.description import Joint
-from app.model.errors import InvalidArchive, KinematicsError
-from app.schemas.common import ChainEnds, Payload, RobotName
+from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
+from app.schemas.common import ChainEnds, FrameName, Payload, RobotName
 from app.schemas.pose import Pose
 from app.schemas.robots import (
     EXAMPLE_DH,
@@ -38,6 +40,7 @@ from app.store.records import LoadedRobot, Record
 MULTIPART = "multipart/form-data"
 SANDBOXED = {"Content-Security-Policy": "default-src 'none'; sandbox", "X-Content-Type-Options": "nosniff"}
 """Files that came from outside: shown by no browser as a page of ours."""
+_PIECE = 256 * 1024
 _MESH_TYPES = {
     ".stl": "model/stl",
     ".obj": "model/obj",
@@ -49,19 +52,30 @@ _MESH_TYPES = {
 }
 
 
-class ArchiveForm(Payload):
+class ArchiveReplacement(Payload):
     """The text fields that come with an archive."""
 
-    name: RobotName
     description: Text = ""
-    base_frame: str | None = None
-    tip_frame: str | None = None
+    base_frame: FrameName | None = None
+    tip_frame: FrameName | None = None
+
+    @model_validator(mode="after")
+    def _both_ends(self) -> "ArchiveReplacement":
+        if (self.base_frame is None) != (self.tip_frame is None):
+            raise ValueError("`base_frame` and `tip_frame` of the default chain go together")
+        return self
 
     def ends(self) -> ChainEnds | None:
-        """The default chain, where both of its ends are given."""
+        """The default chain, where one is given."""
         if self.base_frame is None or self.tip_frame is None:
             return None
         return ChainEnds(base_frame=self.base_frame, tip_frame=self.tip_frame)
+
+
+class NewArchive(ArchiveReplacement):
+    """The same with a name, for a robot to add."""
+
+    name: RobotName
 
 
 def robots_router(library: Library) -> APIRouter:
@@ -100,9 +114,9 @@ def robots_router(library: Library) -> APIRouter:
         "/{robot}/meshes/{path:path}",
         operation_id="get_robot_mesh",
         summary="A mesh file of a robot",
-        response_class=FileResponse,
+        response_class=Response,
         responses={
-            200: {"content": {"application/octet-stream": {}}, "description": "The file"},
+            200: {"content": {kind: {} for kind in _MESH_TYPES.values()}, "description": "The file"},
             **problem_responses(404, 422),
         },
     )
@@ -115,17 +129,27 @@ def robots_router(library: Library) -> APIRouter:
                 examples=["example-robot-data/robots/panda_description/meshes/visual/link0.dae"],
             ),
         ],
-    ) -> FileResponse:
+    ) -> Response:
         """The file as it came; nothing on the server has ever looked into it."""
         file = library.mesh(robot, path)
-        return FileResponse(file, media_type=_MESH_TYPES[file.suffix.lower()], headers=SANDBOXED)
+        try:
+            stream = file.open("rb")  # once open, it is there to its end, whoever replaces the robot meanwhile
+        except FileNotFoundError:
+            raise UnknownMesh(path) from None
+        headers = {**SANDBOXED, "Content-Length": str(os.fstat(stream.fileno()).st_size)}
+        return StreamingResponse(
+            iter(lambda: stream.read(_PIECE), b""),
+            media_type=_MESH_TYPES[file.suffix.lower()],
+            headers=headers,
+            background=BackgroundTask(stream.close),
+        )
 
     @router.delete(
         "/{robot}",
         operation_id="remove_robot",
         summary="Remove an uploaded robot",
         status_code=204,
-        responses=problem_responses(403, 404),
+        responses=problem_responses(403, 404, 503, 507),
     )
     def remove_robot(robot: UploadedRobotPath) -> Response:
         """Gone for every worker at once. A robot of the catalogue is read-only."""
@@ -159,7 +183,8 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
         """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
 
         The answer comes when the robot is safely on disk; every worker sees it at once. The same robot under the
-        same name again is 200, another one 409. What is odd but harmless is accepted and listed in `warnings`.
+        same name again is 200, another one 409; a default chain with an unknown frame is 404. What is odd but
+        harmless is accepted and listed in `warnings`.
         """
         raise NotImplementedError
 
@@ -180,7 +205,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
             status_code=201,
             responses={
                 200: {"model": RobotInfo, "description": "It was there"},
-                **problem_responses(400, 409, 413, 415, 422),
+                **problem_responses(400, 404, 409, 413, 415, 422, 503, 507),
             },
             openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(named=True)}}},
         ),
@@ -193,7 +218,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
             operation_id="replace_robot",
             summary="Replace an uploaded robot",
             tags=["Robots"],
-            responses=problem_responses(400, 403, 404, 413, 415, 422),
+            responses=problem_responses(400, 403, 404, 413, 415, 422, 503, 507),
             openapi_extra={
                 "requestBody": {
                     "content": {
@@ -213,40 +238,37 @@ async def _receive(
     executor: Executor,
 ) -> Response:
     """Read an upload in either form, and keep it in a thread."""
-    loop = asyncio.get_running_loop()
     given = request.media_type
     if given == JSON:
         body = await request.body()
-        return await loop.run_in_executor(executor, lambda: keep(_from_json(body, name)))
+        return await in_thread(executor, lambda: keep(_from_json(body, name)))
     if given != MULTIPART:
         raise UnsupportedMediaType(given, (JSON, MULTIPART))
     async with request.form(max_files=1, max_fields=8, max_part_size=64 * 1024) as form:
         archive = form.get("archive")
-        fields = {key: value for key, value in form.items() if key != "archive"}
-        if name is not None:
-            fields.setdefault("name", name)
-        text = ArchiveForm.model_validate(fields)
+        fields = {key: value for key, value in form.multi_items() if key != "archive"}
+        text = (NewArchive if name is None else ArchiveReplacement).model_validate(fields)
         if not isinstance(archive, UploadFile):
             raise InvalidArchive("the form must have a file in the field `archive`")
 
         def unpack_and_keep() -> Response:
             with unpacked(archive.file) as content:
                 upload = RobotUpload(
-                    text.name,
-                    "urdf",
-                    content.urdf,
-                    text.description,
-                    text.ends(),
-                    content.meshes,
-                    content.urdf_folder,
+                    name=text.name if isinstance(text, NewArchive) else name or "",
+                    format="urdf",
+                    model=content.urdf,
+                    description=text.description,
+                    default_chain=text.ends(),
+                    meshes=content.meshes,
+                    urdf_folder=content.urdf_folder,
                 )
                 return keep(upload)
 
-        return await loop.run_in_executor(executor, unpack_and_keep)
+        return await in_thread(executor, unpack_and_keep)
 
 
 def _from_json(body: bytes, name: str | None) -> RobotUpload:
-    robot = NewRobot.model_validate_json(body) if name is None else RobotReplacement.model_validate_json(body)
+    robot = read_json(NewRobot if name is None else RobotReplacement, body)
     name = robot.name if isinstance(robot, NewRobot) else name or ""
     if robot.dh is not None:
         model = robot.dh.model_dump_json(exclude_none=True, indent=2).encode() + b"\n"
@@ -306,7 +328,7 @@ def _summary(library: Library, record: Record) -> RobotSummary | None:
     if ends is None:
         try:
             base_frame, tip_frame = library.get(record.name).robot.default_chain
-        except KinematicsError:
+        except (KinematicsError, OSError):
             return None
         ends = ChainEnds(base_frame=base_frame, tip_frame=tip_frame)
     return RobotSummary(

@@ -16,7 +16,7 @@ from typing import Any, Generic, TypeVar, cast
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
@@ -26,20 +26,21 @@ from app.api.payloads import (
     JSON,
     NPY,
     BoundedRequest,
-    from_query,
     json_response,
     npy_response,
+    read_json,
     read_npy,
+    read_query,
 )
 from app.api.problems import UnsupportedMediaType
 from app.model.arrays import Array
-from app.model.errors import InvalidArray
+from app.model.errors import InvalidArray, InvalidField
 from app.schemas.common import Answer, Payload
 from app.store.library import Library
 from app.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
-"""Bodies up to here hold so little work that a thread would cost more: the event loop does it, in under 2 ms."""
+"""A larger body is parsed in a thread: the event loop does nothing that takes longer than about 2 ms."""
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
@@ -62,7 +63,10 @@ class DocumentedRoute(APIRoute):
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
-        response = await self._handler(BoundedRequest(scope, receive, send, self._max_body_bytes))
+        try:
+            response = await self._handler(BoundedRequest(scope, receive, send, self._max_body_bytes))
+        except ClientDisconnect:
+            return
         await response(scope, receive, send)
 
 
@@ -89,11 +93,18 @@ class Application(FastAPI):
                 request = BoundedRequest(scope, receive, send, self._max_body_bytes)
                 try:
                     response = await handler(request)
+                except ClientDisconnect:
+                    return
                 except Exception as error:
                     response = problems.answer(request, error)
                 await response(scope, receive, send)
                 return
         await super().__call__(scope, receive, send)
+
+
+async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:
+    """Do what would hold up the event loop beside it."""
+    return await asyncio.get_running_loop().run_in_executor(executor, work)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,23 +146,25 @@ class Computation(Generic[_Request]):
             body = await request.body()
             name: str = request.path_params["robot"]
 
-            def compute(loaded: LoadedRobot | None = None, call: _Request | None = None) -> Response:
-                loaded = loaded or library.get(name)
-                outcome = self.run(loaded, call or self._parse(request, body, npy_in))
-                return _response(outcome, npy_out)
+            def compute(loaded: LoadedRobot, call: _Request) -> Response:
+                return _response(self.run(loaded, call), npy_out)
 
-            if len(body) <= INLINE_BYTES and (loaded := library.loaded(name)) is not None:
-                call = self._parse(request, body, npy_in)
-                if not self.is_heavy(call):
-                    return compute(loaded, call)
-            return await asyncio.get_running_loop().run_in_executor(executor, compute)
+            if len(body) > INLINE_BYTES:
+                return await in_thread(executor, lambda: compute(library.get(name), self._parse(request, body, npy_in)))
+            call = self._parse(request, body, npy_in)
+            loaded = library.loaded(name)
+            if loaded is None or self.is_heavy(call):
+                return await in_thread(executor, lambda: compute(library.get(name), call))
+            return compute(loaded, call)
 
         return handle
 
     def _parse(self, request: Request, body: bytes, npy: bool) -> _Request:
         if not npy:
-            return self.request.model_validate_json(body)
-        options = from_query(self.options, request)
+            if request.scope["query_string"]:
+                raise InvalidField("query", "parameters go with an npy body; a JSON call has them as fields")
+            return read_json(self.request, body)
+        options = read_query(self.options, request.query_params)
         call = self.request.model_construct(**{**dict(options), self.array_field: read_npy(body)})
         return cast(_Request, call)
 
@@ -179,7 +192,7 @@ class Operation:
     example: dict[str, Any]
 
     def route(self, handler: Handler, max_body_bytes: int) -> DocumentedRoute:
-        """Its route, which documents it and refuses what `Application` does not answer."""
+        """Its route: it documents the operation and refuses other methods; `Application` sees the calls first."""
 
         def endpoint(robot: str, call: Any) -> Any: ...
 

@@ -3,7 +3,6 @@
 import threading
 from http import HTTPStatus
 
-import numpy as np
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
 from starlette.responses import RedirectResponse, Response
@@ -11,12 +10,7 @@ from starlette.responses import RedirectResponse, Response
 from app.api.openapi import problem_responses
 from app.api.payloads import json_response
 from app.api.problems import problem
-from app.kinematics.forward import forward_kinematics
-from app.kinematics.jacobian import jacobians
-from app.schemas.pose import ORIENTATIONS, orientations
-from app.store.library import Library
-
-_WARM_UP_ROBOT = "panda"
+from app.kinematics.warm import warm_up
 
 
 class Health(BaseModel):
@@ -26,27 +20,19 @@ class Health(BaseModel):
 
 
 class Readiness:
-    """What must have happened before requests are quick: robots found, kernels compiled or read from their cache."""
+    """Whether requests are quick yet: the kernels are compiled, or read from their cache."""
 
-    def __init__(self, library: Library) -> None:
-        self._library = library
-        self.waiting_for: list[str] = ["robots", "kernels"]
+    def __init__(self) -> None:
+        self.waiting_for: list[str] = ["kernels"]
         self.failure: str | None = None
 
-    def warm_up(self) -> None:
+    def begin(self) -> None:
         """Get ready in a thread of its own, so that the process answers meanwhile."""
-        threading.Thread(target=self._warm_up, name="warm-up", daemon=True).start()
+        threading.Thread(target=self._prepare, name="warm-up", daemon=True).start()
 
-    def _warm_up(self) -> None:
+    def _prepare(self) -> None:
         try:
-            robot = self._library.get(_WARM_UP_ROBOT).robot
-            self.waiting_for.remove("robots")
-            chain = robot.chain(None, None)
-            qs = np.zeros((1, len(chain)))
-            poses = forward_kinematics(robot, chain, qs).poses
-            jacobians(robot, chain, qs, derivatives=True)
-            for notation in ORIENTATIONS:
-                orientations(poses, notation)  # type: ignore[arg-type]
+            warm_up()
             self.waiting_for.remove("kernels")
         except Exception as error:
             self.failure = f"{type(error).__name__}: {error}"
@@ -74,14 +60,15 @@ def service_router(readiness: Readiness) -> APIRouter:
         responses=problem_responses(503),
     )
     async def ready(request: Request) -> Response:
-        """503 with `waiting_for` until the robots are found and the kernels are compiled."""
+        """503 with `waiting_for` until the kernels are compiled; with `failure` where that went wrong for good."""
         if not readiness.waiting_for:
             return json_response({"status": "ready"})
         facts = {"waiting_for": readiness.waiting_for, "failure": readiness.failure}
         response = problem(
             request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", "the service is still getting ready", facts
         )
-        response.headers["Retry-After"] = "1"
+        if readiness.failure is None:
+            response.headers["Retry-After"] = "1"
         return response
 
     return router

@@ -4,5 +4,6 @@
 - `forward`: poses of tips and frames.
 - `jacobian`: Jacobians in every reference and representation, with derivatives.
 - `certify`: the same numbers through Pinocchio, and how far the two are apart.
+- `warm`: all of it once, so that nobody waits for a compiler.
 - `configuration`: configurations as callers give them → one array in the chain's order.
 """

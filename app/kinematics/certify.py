@@ -3,13 +3,13 @@
 Kernels and Pinocchio share nothing but the checked description. What differs by more than rounding is never sent.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
 
-from app.model.arrays import Array, Indices
+from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import CertificationFailed
 from app.model.poses import Poses, pose_errors
@@ -71,8 +71,9 @@ def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Po
     rows = _samples(len(qs), seed)
     worst_distance, worst_angle = 0.0, 0.0
     for name, poses in frames.items():
+        samples = poses if len(rows) == len(qs) else Poses(poses.positions[rows], poses.rotations[rows])
         positions, rotations = _poses(robot, chain, name, qs, rows)
-        distance, angle, extent = pose_errors(poses.positions[rows], poses.rotations[rows], positions, rotations)
+        distance, angle, extent = pose_errors(samples.positions, samples.rotations, positions, rotations)
         worst_distance = max(worst_distance, _demand("a position", distance, extent))
         worst_angle = max(worst_angle, _demand("an orientation", angle, 1.0))
     return Certificate(len(rows), worst_distance, worst_angle, seed)
@@ -107,10 +108,11 @@ def certify_jacobians(
     return JacobianCertificate(len(rows), worst, worst_rate if hessians is not None else None, seed)
 
 
-def _samples(count: int, seed: int) -> Indices:
+def _samples(count: int, seed: int) -> Sequence[int]:
+    """The rows that are recomputed."""
     if count <= MAX_SAMPLES:
-        return np.arange(count)
-    return np.sort(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False))
+        return range(count)
+    return sorted(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False).tolist())
 
 
 def _largest(difference: Array) -> float:
@@ -125,7 +127,7 @@ def _demand(quantity: str, error: float, scale: float) -> float:
     return error
 
 
-def _poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Indices) -> tuple[Array, Array]:
+def _poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> tuple[Array, Array]:
     """Pinocchio's T_base_frame at some of the configurations; shapes (k, 3) and (k, 3, 3)."""
     model, data = robot.model, robot.data
     expansion = robot.expansion(chain)

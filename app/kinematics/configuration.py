@@ -7,54 +7,65 @@ import numpy as np
 
 from app.model.arrays import Array, compiled
 from app.model.chain import Chain
-from app.model.errors import InvalidArray, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
+from app.model.errors import (
+    InvalidArray,
+    InvalidField,
+    MissingJoint,
+    OutsideLimits,
+    UnknownJoint,
+    WrongJointCount,
+    quoted,
+)
 
 Configuration: TypeAlias = Sequence[float] | Mapping[str, float]
 
-MAX_POSITION = 1e6
-"""Largest joint position, [rad or m]: beyond it a double no longer resolves a nanoradian."""
+MAX_MAGNITUDE = 1e6
+"""Largest joint position or velocity, [rad or m (/s)]: beyond it a double no longer resolves a nanoradian."""
 
 
-def configurations(chain: Chain, values: Sequence[Configuration] | Array) -> Array:
-    """One row a configuration, in the chain's order; shape (N, n), [rad or m].
+def configurations(chain: Chain, values: Sequence[Configuration] | Array, field: str = "joint_positions") -> Array:
+    """One row a configuration, in the chain's order; shape (N, n), [rad or m], or velocities likewise.
 
-    An array is taken as such rows already.
+    Args:
+        chain: Whose variables they are.
+        values: Numbers in the chain's order or by joint name; an array is taken as rows already.
+        field: What the messages call them.
 
     Raises:
         WrongJointCount: One of them has not one number a joint.
         MissingJoint: One given by name leaves a joint out.
-        UnknownJoint: One given by name has a joint that is not on the chain.
-        InvalidArray: A number is beyond `MAX_POSITION`.
+        UnknownJoint: One given by name has a joint that the robot does not have; others of the robot are left aside.
+        InvalidField: A number is not finite or beyond `MAX_MAGNITUDE`.
+        InvalidArray: The array is no table.
     """
     if isinstance(values, np.ndarray):
-        return checked_positions(chain, values)
+        return checked_rows(chain, values, field)
     rows = [_by_name(chain, i, value) if isinstance(value, Mapping) else value for i, value in enumerate(values)]
     for i, row in enumerate(rows):
         if len(row) != len(chain):
             raise WrongJointCount(len(row), chain.joint_names, i)
-    return checked_positions(chain, np.array(rows, dtype=float).reshape(len(rows), len(chain)))
+    return checked_rows(chain, np.array(rows, dtype=float).reshape(len(rows), len(chain)), field)
 
 
-def checked_positions(chain: Chain, qs: Array) -> Array:
+def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
     """The same array, where it is one row of numbers of sensible size a configuration.
 
     Raises:
         WrongJointCount: It has not one column a joint.
-        InvalidArray: It is no table, or a number is not finite or beyond `MAX_POSITION`.
+        InvalidField: A number is not finite or beyond `MAX_MAGNITUDE`.
+        InvalidArray: It is no table.
     """
-    if qs.ndim != 2:
-        raise InvalidArray(
-            f"configurations form an array of shape (N, {len(chain)}); this one has {qs.ndim} dimensions"
+    if rows.ndim != 2:
+        raise InvalidArray(f"{field} form an array of shape (N, {len(chain)}); this one has {rows.ndim} dimensions")
+    if rows.shape[1] != len(chain):
+        raise WrongJointCount(rows.shape[1], chain.joint_names)
+    if not _within(rows, MAX_MAGNITUDE):
+        row, column = np.argwhere(~(np.abs(rows) <= MAX_MAGNITUDE))[0]
+        name = quoted(chain.joint_names[column])
+        raise InvalidField(
+            field, f"entry {row}: the value of joint {name} must be a finite number of magnitude ≤ {MAX_MAGNITUDE:g}"
         )
-    if qs.shape[1] != len(chain):
-        raise WrongJointCount(qs.shape[1], chain.joint_names)
-    if not _within(qs, MAX_POSITION):
-        row, column = np.argwhere(~(np.abs(qs) <= MAX_POSITION))[0]
-        raise InvalidArray(
-            f"configuration {row}: the position of joint {chain.joint_names[column]!r} must be a finite number of "
-            f"magnitude ≤ {MAX_POSITION:g}"
-        )
-    return qs
+    return rows
 
 
 @compiled
@@ -87,7 +98,7 @@ def check_limits(chain: Chain, qs: Array) -> None:
 
 def _by_name(chain: Chain, index: int, value: Mapping[str, float]) -> list[float]:
     for name in value:
-        if name not in chain.joint_names:
+        if name not in chain.robot_joints:
             raise UnknownJoint(name, chain.joint_names, index)
     for name in chain.joint_names:
         if name not in value:

@@ -7,6 +7,7 @@ from the description alone: Pinocchio is its judge, not its source.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +46,7 @@ class Chain:
         base_frame: Where poses are expressed.
         tip_frame: What poses are of.
         joint_names: The chain's n variables, base to tip; the order of a configuration.
+        robot_joints: All movable joints of the robot, those the chain does not have included.
         lower: Lower bound of each variable, [rad or m], -inf where there is none; shape (n,).
         upper: Upper bound likewise, inf where there is none; shape (n,).
         flat: The kernels' view of it.
@@ -53,6 +55,7 @@ class Chain:
     base_frame: str
     tip_frame: str
     joint_names: tuple[str, ...]
+    robot_joints: frozenset[str]
     lower: Array
     upper: Array
     flat: FlatChain
@@ -82,6 +85,7 @@ def build_chain(description: Description, base_frame: str, tip_frame: str) -> Ch
         base_frame,
         tip_frame,
         names,
+        frozenset(description.drives),
         np.array([lower for lower, _ in bounds], dtype=float),
         np.array([upper for _, upper in bounds], dtype=float),
         FlatChain(
@@ -159,20 +163,28 @@ def _placements(steps: list[tuple[Joint, bool]]) -> list[Array]:
     placements = []
     T = np.eye(4)
     for joint, reversed_ in steps:
-        origin = placement(joint.origin.xyz, joint.origin.rpy)
-        if joint.type not in MOVABLE:
-            T = T @ (inverse(origin) if reversed_ else origin)
-            continue
-        to_axis = transform(np.zeros(3), rotation_to_axis(joint.axis))
-        if reversed_:
-            # child → parent: the joint's motion comes first, the other way round, then the origin is undone.
-            flip = np.diag([1.0, -1.0, -1.0, 1.0])
-            placements.append(T @ to_axis @ flip)
-            T = flip @ inverse(to_axis) @ inverse(origin)
-        else:
-            placements.append(T @ origin @ to_axis)
-            T = inverse(to_axis)
+        before, after = _around_motion(joint, reversed_)
+        T = T @ before
+        if joint.type in MOVABLE:
+            placements.append(T)
+            T = after
     return [*placements, T]
+
+
+@lru_cache(maxsize=4096)
+def _around_motion(joint: Joint, reversed_: bool) -> tuple[Array, Array]:
+    """The constant placements before and after a joint's motion about or along z; only the first of a fixed joint.
+
+    From child to parent the motion comes first, the other way round, and the origin is undone after it.
+    """
+    origin = placement(joint.origin.xyz, joint.origin.rpy)
+    if joint.type not in MOVABLE:
+        return (inverse(origin) if reversed_ else origin), np.eye(4)
+    to_axis = transform(np.zeros(3), rotation_to_axis(joint.axis))
+    if not reversed_:
+        return origin @ to_axis, inverse(to_axis)
+    flip = np.diag([1.0, -1.0, -1.0, 1.0])
+    return to_axis @ flip, flip @ inverse(to_axis) @ inverse(origin)
 
 
 def rotation_to_axis(axis: Triple) -> Array:

@@ -15,6 +15,8 @@ Triple: TypeAlias = tuple[float, float, float]
 MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
 """Joint types with one degree of freedom: those a chain may consist of."""
 MAX_NAME_LENGTH = 128
+MAX_BOUND = 1e18
+"""Largest mass, inertia and limit: real files write 1e16 for "no limit"."""
 
 
 @dataclass(frozen=True, slots=True)

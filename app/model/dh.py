@@ -14,7 +14,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.model.arrays import Array
-from app.model.description import MAX_NAME_LENGTH
+from app.model.description import MAX_BOUND, MAX_NAME_LENGTH
 from app.model.errors import InvalidDhTable, WrongJointCount, quoted
 
 Convention: TypeAlias = Literal["standard", "modified"]
@@ -132,8 +132,8 @@ def _check_row(i: int, joint: DhJoint) -> None:
         raise InvalidDhTable(f"lower = {lower:.17g} is greater than upper = {upper:.17g}", i, "lower")
     for parameter in ("velocity", "effort"):
         value = getattr(joint, parameter)
-        if value is not None and not (math.isfinite(value) and value >= 0):
-            raise InvalidDhTable("must be a finite number that is not negative", i, parameter)
+        if value is not None and not 0 <= value <= MAX_BOUND:
+            raise InvalidDhTable(f"must be a number from 0 to {MAX_BOUND:g}", i, parameter)
 
 
 def _about_z(theta: float, d: float) -> Array:

@@ -6,11 +6,13 @@
     │   ├── InvalidDhTable           a table that is not a robot
     │   ├── InvalidPose              an orientation that is not one
     │   ├── InvalidArchive           a zip that is not one URDF and its meshes
+    │   ├── InvalidRobotFolder       a folder, dropped in by hand, that is not a robot
     │   ├── InvalidName              a robot's name with other characters
-    │   ├── InvalidArray             an array of the wrong shape, type or size
+    │   ├── InvalidField             a field of a request that cannot be taken
+    │   ├── InvalidArray             an array of the wrong shape or type
     │   ├── WrongJointCount          a configuration with too many or too few numbers
     │   ├── MissingJoint             a configuration by name that leaves a joint out
-    │   ├── UnknownJoint             a configuration by name with a joint not on the chain
+    │   ├── UnknownJoint             a configuration by name with a joint that the robot has not
     │   ├── OutsideLimits            a configuration beyond a joint's limits, where asked to respect them
     │   ├── UnsupportedJoint         a chain across a floating or planar joint
     │   ├── FrameNotOnChain          a frame that moves with joints the chain does not have
@@ -22,6 +24,8 @@
     ├── TooLarge                     more than the service is set up to take
     ├── RobotExists                  the name stands for something else
     ├── ReadOnlyRobot                a robot of the catalogue
+    ├── StorageFailed                the disk cannot be written to
+    │   └── StorageFull              the disk is full
     └── CertificationFailed          two computations of the same number disagree: never sent
 
 Not converging, or a target out of reach, is a result with a reason and no error.
@@ -61,7 +65,7 @@ class KinematicsError(Exception):
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self), tuple(self.facts().values())
+        return type(self), tuple(getattr(self, field.name) for field in fields(self))
 
 
 class InvalidInput(KinematicsError):
@@ -127,6 +131,19 @@ class InvalidArchive(InvalidInput):
 
 
 @dataclass(eq=False)
+class InvalidRobotFolder(InvalidInput):
+    """A folder among the uploaded robots is not one: why, and which of its files."""
+
+    reason: str
+    file: str
+
+    @property
+    def detail(self) -> str:
+        """The reason behind the file."""
+        return f"file {quoted(self.file)}: {self.reason}"
+
+
+@dataclass(eq=False)
 class InvalidName(InvalidInput):
     """A robot's name must be fit for a path and a URL."""
 
@@ -144,13 +161,23 @@ class InvalidName(InvalidInput):
         """Nothing beyond the sentence: the name is the caller's own text."""
         return {}
 
-    def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.name,)
+
+@dataclass(eq=False)
+class InvalidField(InvalidInput):
+    """A field of a request has the right type, and still cannot be taken."""
+
+    field: str
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """The reason behind the field."""
+        return f"{quoted(self.field)}: {self.reason}"
 
 
 @dataclass(eq=False)
 class InvalidArray(InvalidInput):
-    """An array of numbers is not of the shape, type or size that is asked for."""
+    """An array of numbers is not of the shape or type that is asked for."""
 
     reason: str
 
@@ -194,7 +221,7 @@ class MissingJoint(InvalidInput):
 
 @dataclass(eq=False)
 class UnknownJoint(InvalidInput):
-    """A configuration given by name has a joint that the chain does not have."""
+    """A configuration given by name has a joint that the robot does not have."""
 
     joint: str
     expected: tuple[str, ...]
@@ -204,8 +231,8 @@ class UnknownJoint(InvalidInput):
     def detail(self) -> str:
         """The joint, and those that are allowed."""
         return (
-            f"configuration {self.index} gives a value for {quoted(self.joint)}, which is no joint of the chain; "
-            f"its joints are {listed(self.expected)}"
+            f"configuration {self.index} gives a value for {quoted(self.joint)}, which is no joint of the robot; "
+            f"the chain's joints are {listed(self.expected)}"
         )
 
 
@@ -305,9 +332,6 @@ class UnknownRobot(NotFound):
         """The nearest names only: the given one is the caller's own text."""
         return {"close": self.close}
 
-    def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.robot, self.close)
-
 
 @dataclass(eq=False)
 class UnknownFrame(NotFound):
@@ -373,6 +397,22 @@ class ReadOnlyRobot(KinematicsError):
     def detail(self) -> str:
         """The name."""
         return f"{quoted(self.robot)} belongs to the catalogue and is read-only"
+
+
+@dataclass(eq=False)
+class StorageFailed(KinematicsError):
+    """Robots cannot be written to disk; nothing has changed."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """What the system says."""
+        return f"the robot was not kept, and nothing has changed: {self.reason}"
+
+
+class StorageFull(StorageFailed):
+    """There is no room on the disk."""
 
 
 @dataclass(eq=False)

@@ -13,8 +13,8 @@ from app.model.description import MOVABLE, Description, Limits
 from app.model.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
 from app.model.urdf import write_urdf
 
-_CHAINS_KEPT = 256
-_FRAMES_KEPT = 4096
+_CHAINS_KEPT = 64
+_FRAMES_KEPT = 1024
 
 
 @dataclass(frozen=True, slots=True)

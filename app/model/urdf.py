@@ -12,6 +12,7 @@ from typing import Literal, cast
 from xml.sax.saxutils import quoteattr
 
 from app.model.description import (
+    MAX_BOUND,
     MAX_NAME_LENGTH,
     MOVABLE,
     Description,
@@ -33,8 +34,7 @@ MAX_LINKS = 512
 MAX_SHAPES = 512
 MAX_MAGNITUDE = 1e6
 """Largest length [m], angle [rad], multiplier: beyond it a double no longer resolves a nanometre."""
-MAX_BOUND = 1e18
-"""Largest mass, inertia and limit: real files write 1e16 for "no limit"."""
+
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _ELSEWHERE = re.compile(r"^[/\\]|^(?!package:|model:)\w+:|(^|[/\\])\.\.([/\\]|$)")
@@ -326,7 +326,7 @@ class _Reader:
             raise InvalidUrdf(
                 "control or invisible characters in the name", f"{element.tag} {quoted(name)}", element.line
             )
-        self._lines[f"{element.tag} {name}"] = self._lines.get(f"{element.tag} {name}", element.line)
+        self._lines[f"{element.tag} {name}"] = element.line
         return name
 
     def _origin(self, element: Element, where: str) -> Origin:

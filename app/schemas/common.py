@@ -1,6 +1,6 @@
 """The strict base of all payloads, and what many of them share."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -9,6 +9,9 @@ class Payload(BaseModel):
     """Something that comes in: no unknown fields, no NaN, no text for numbers."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+    list_fields: ClassVar[frozenset[str]] = frozenset()
+    """Fields that a query string gives by repeating their name."""
 
 
 class Answer(BaseModel):

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.schemas.common import Answer, ChainOptions, FrameName
 from app.schemas.pose import Pose, PoseFormat
@@ -12,7 +12,9 @@ def _kind(value: Any) -> str:
     return "<object>" if isinstance(value, dict) else "<list>"
 
 
-ByOrder: TypeAlias = Annotated[list[float], Field(max_length=128)]
+MAX_CONFIGURATIONS = 1_000_000
+
+ByOrder: TypeAlias = Annotated[list[float], Field(max_length=128, fail_fast=True)]
 ByName: TypeAlias = Annotated[dict[str, float], Field(max_length=128)]
 Configuration = Annotated[
     Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")],
@@ -23,6 +25,8 @@ Configuration = Annotated[
 Configurations = Annotated[
     list[Configuration],
     Field(
+        max_length=MAX_CONFIGURATIONS,
+        fail_fast=True,
         description="Configurations: each one number a joint of the chain, base to tip, or an object of values by "
         "joint name; [rad] for revolute and continuous joints, [m] for prismatic ones.",
         examples=[[[0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.8]]],
@@ -32,6 +36,8 @@ Configurations = Annotated[
 
 class ForwardOptions(ChainOptions):
     """How forward kinematics are wanted."""
+
+    list_fields = frozenset({"frames"})
 
     pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
     frames: list[FrameName] | Literal["all"] | None = Field(
@@ -71,6 +77,8 @@ class ForwardAnswer(Answer):
 class JacobianOptions(ChainOptions):
     """How a Jacobian is wanted."""
 
+    list_fields = frozenset({"derivatives"})
+
     reference: Literal["local_world_aligned", "local", "world"] = Field(
         "local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
@@ -91,13 +99,19 @@ class JacobianOptions(ChainOptions):
     )
     respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
 
+    @model_validator(mode="after")
+    def _analytic_in_base_axes(self) -> "JacobianOptions":
+        if self.representation != "geometric" and self.reference != "local_world_aligned":
+            raise ValueError("`reference`: an analytic Jacobian goes with `local_world_aligned` only")
+        return self
+
 
 class JacobianRequest(JacobianOptions):
     """Jacobians of a batch of configurations."""
 
     joint_positions: Configurations
     joint_velocities: Configurations | None = Field(
-        None, description="For `time_variation`: one entry a configuration, [rad/s or m/s]."
+        default=None, description="For `time_variation`: one entry a configuration, [rad/s or m/s]."
     )
 
 
@@ -105,9 +119,12 @@ class JacobianCertificateInfo(Answer):
     """How far the same Jacobians computed through Pinocchio are from these."""
 
     samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_error: float = Field(description="Largest difference of an entry of the geometric Jacobian.")
+    max_error: float = Field(
+        description="Largest difference of an entry of the geometric Jacobian, [m or rad] per [rad or m]."
+    )
     max_time_variation_error: float | None = Field(
-        description="Largest difference of an entry of dJ/dt at random joint velocities, where asked for."
+        description="Largest difference of an entry of dJ/dt at random joint velocities, where asked for, "
+        "[m or rad] per [rad or m] and second."
     )
     seed: int = Field(description="Of the choice of samples.")
 
@@ -125,11 +142,15 @@ class JacobianAnswer(Answer):
     representation: Literal["geometric", "zyz", "rpy"]
     jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
     ranks: list[int] = Field(description="Singular values that count, see `rank_tolerance`.")
-    singular_values: list[list[float]] = Field(description="Largest first; metres and radians are mixed.")
+    singular_values: list[list[float]] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")
     condition_numbers: list[float | None] = Field(
-        description="Largest over smallest singular value; null where the Jacobian has not full rank."
+        description="Largest over smallest singular value; no unit; null where the Jacobian has not full rank."
     )
     rank_tolerance: float = Field(description="Relative to the largest singular value.")
-    time_variations: list[Matrix] | None = Field(None, description="dJ/dt, 6 rows, n columns.")
-    hessians: list[list[Matrix]] | None = Field(None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j.")
+    time_variations: list[Matrix] | None = Field(
+        None, description="dJ/dt, 6 rows, n columns: [m or rad] per [rad or m] and second."
+    )
+    hessians: list[list[Matrix]] | None = Field(
+        None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
+    )
     certificate: JacobianCertificateInfo

@@ -28,8 +28,12 @@ PoseFormat: TypeAlias = Literal[
 ]
 ORIENTATIONS = ("quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation")
 
-Vector3 = Annotated[list[float], Field(min_length=3, max_length=3)]
-Vector4 = Annotated[list[float], Field(min_length=4, max_length=4)]
+MAX_MAGNITUDE = 1e6
+"""Largest coordinate, [m], and angle, [rad]: beyond it a double no longer resolves a nanometre."""
+
+_Number = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]
+Vector3 = Annotated[list[_Number], Field(min_length=3, max_length=3)]
+Vector4 = Annotated[list[_Number], Field(min_length=4, max_length=4)]
 Matrix3 = Annotated[list[Vector3], Field(min_length=3, max_length=3)]
 Matrix4 = Annotated[list[Vector4], Field(min_length=4, max_length=4)]
 

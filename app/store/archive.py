@@ -4,7 +4,9 @@ The sizes that a zip states are not believed: bytes are counted while they are u
 a mesh; kinematics need none, and the browser gets them as they came.
 """
 
+import os
 import stat
+import struct
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -14,15 +16,19 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from typing import BinaryIO
 
-from app.model.errors import InvalidArchive, TooLarge
+from app.model.errors import InvalidArchive, TooLarge, quoted
 from app.model.xml import MAX_BYTES
+from app.store.folders import writing
 
 MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
-MAX_PATH_LENGTH = 200
+MAX_PATH_BYTES = 200
+MAX_DIRECTORY = 1024 * 1024
+"""Bytes of the list of entries at the end of a zip: 2,000 of them need a quarter of it."""
 MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae", ".mtl", ".png", ".jpg", ".jpeg"})
 """Meshes, and the materials and pictures that they refer to."""
 _CHUNK = 1024 * 1024
+_END_RECORD = struct.Struct("<4s4H2LH")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,24 +57,24 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[Unpac
     Raises:
         InvalidArchive: Not a zip, not one URDF, or an entry that has no place in one.
         TooLarge: More entries or bytes than allowed.
+        StorageFailed: There is no room to unpack it.
     """
+    _check_directory(file)
     try:
         archive = zipfile.ZipFile(file)
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
         raise InvalidArchive("the file is not a zip archive") from error
-    with archive, TemporaryDirectory(prefix="gelenk-") as folder:
+    with archive, writing(), TemporaryDirectory(prefix="gelenk-") as folder:
         yield _unpack(archive, Path(folder), max_unpacked)
 
 
 def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> UnpackedRobot:
     entries = [entry for entry in archive.infolist() if not entry.is_dir()]
-    if len(archive.infolist()) > MAX_ENTRIES:
-        raise TooLarge("entries in the archive", len(archive.infolist()), MAX_ENTRIES)
     _check_overlap(entries)
     descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
     if len(descriptions) != 1:
         raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
-    seen: set[str] = set()
+    seen = {str(parent).lower() for entry in entries for parent in PurePosixPath(entry.filename).parents}
     meshes: dict[str, Path] = {}
     left = max_unpacked
     for number, entry in enumerate(entries):
@@ -84,13 +90,31 @@ def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> Unpack
     return UnpackedRobot(urdf.read_bytes(), "" if str(parent) == "." else str(parent), meshes)
 
 
+def _check_directory(file: BinaryIO) -> None:
+    """Refuse an overlong list of entries before it is read: the end record of a zip tells its length."""
+    size = file.seek(0, os.SEEK_END)
+    file.seek(max(0, size - _END_RECORD.size - 0xFFFF))
+    tail = file.read()
+    file.seek(0)
+    start = tail.rfind(b"PK\5\6")
+    if start < 0 or len(tail) - start < _END_RECORD.size:
+        raise InvalidArchive("the file is not a zip archive")
+    _, _, _, _, count, directory, _, _ = _END_RECORD.unpack_from(tail, start)
+    if tail[max(0, start - 20) : start].startswith(b"PK\6\7"):
+        raise InvalidArchive("the zip is in the format for archives beyond 4 GB")
+    if count > MAX_ENTRIES:
+        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
+    if directory > MAX_DIRECTORY:
+        raise TooLarge("bytes in the archive's list of entries", directory, MAX_DIRECTORY)
+
+
 def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
     name = entry.filename
     parts = name.split("/")
     if name.startswith("/") or "\\" in name or ":" in name or any(part in {"", ".", ".."} for part in parts):
         raise InvalidArchive("its path must stay inside the archive", name)
-    if len(name) > MAX_PATH_LENGTH or not name.isprintable():
-        raise InvalidArchive(f"its path must be at most {MAX_PATH_LENGTH} printable characters", name)
+    if len(name.encode()) > MAX_PATH_BYTES or not name.isprintable():
+        raise InvalidArchive(f"its path must be at most {MAX_PATH_BYTES} bytes of printable characters", name)
     if stat.S_ISLNK(entry.external_attr >> 16):
         raise InvalidArchive("links are not allowed", name)
     if entry.compress_type not in {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}:
@@ -98,7 +122,7 @@ def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
     if entry.flag_bits & 0x1:
         raise InvalidArchive("encrypted entries are not allowed", name)
     if name.lower() in seen:
-        raise InvalidArchive("it stands in the archive twice", name)
+        raise InvalidArchive("it stands in the archive twice, or as a folder too", name)
     seen.add(name.lower())
 
 
@@ -114,13 +138,20 @@ def _check_overlap(entries: list[zipfile.ZipInfo]) -> None:
 def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, left: int, allowed: int) -> int:
     """Unpack one entry, counting; returns its bytes."""
     count = 0
-    try:
-        with archive.open(entry) as source, target.open("wb") as sink:
-            while chunk := source.read(_CHUNK):
-                count += len(chunk)
-                if count > left:
-                    raise TooLarge(f"bytes unpacked up to {entry.filename[:80]!r}", allowed - left + count, allowed)
-                sink.write(chunk)
-    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, OSError) as error:
-        raise InvalidArchive("it cannot be unpacked", entry.filename) from error
+    with target.open("wb") as sink:
+        for chunk in _chunks(archive, entry):
+            count += len(chunk)
+            if count > left:
+                raise TooLarge(f"bytes unpacked up to {quoted(entry.filename)}", allowed - left + count, allowed)
+            sink.write(chunk)
     return count
+
+
+def _chunks(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
+    """The bytes of an entry, piece by piece."""
+    try:
+        with archive.open(entry) as source:
+            while chunk := source.read(_CHUNK):
+                yield chunk
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, NotImplementedError, RuntimeError) as error:
+        raise InvalidArchive("it cannot be unpacked", entry.filename) from error

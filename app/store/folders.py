@@ -5,6 +5,7 @@ old state or the new. Writers of one root take turns by a file lock, which the s
 readers need none.
 """
 
+import errno
 import fcntl
 import os
 import shutil
@@ -13,35 +14,100 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from app.model.errors import StorageFailed, StorageFull
+
 _NEW = ".new-"
 _OLD = ".old-"
 _LOCK = ".lock"
 
 
 @contextmanager
-def exclusive(root: Path) -> Iterator[None]:
-    """Hold the right to write below `root`, which is made if missing, against every other process and thread."""
-    root.mkdir(parents=True, exist_ok=True)
-    with (root / _LOCK).open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+def writing() -> Iterator[None]:
+    """Turn the system's refusal to write into one of ours.
+
+    Raises:
+        StorageFailed: The disk refuses to be written to; `StorageFull` where it has no room.
+    """
+    try:
         yield
+    except OSError as error:
+        kind = StorageFull if error.errno in {errno.ENOSPC, errno.EDQUOT} else StorageFailed
+        raise kind(os.strerror(error.errno or 0)) from error
+
+
+@contextmanager
+def exclusive(root: Path) -> Iterator[None]:
+    """Hold the right to write below `root`, which is made if missing, against every other process and thread.
+
+    Raises:
+        StorageFailed: See `writing`.
+    """
+    with writing():
+        _make(root)
+        with (root / _LOCK).open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            yield
 
 
 def sweep(root: Path) -> None:
     """Remove what interrupted writers have left below `root`; to be called while holding `exclusive`."""
     for pattern in (_NEW + "*", _OLD + "*", f"*/{_NEW}*"):
         for orphan in root.glob(pattern):
-            shutil.rmtree(orphan, ignore_errors=True)
+            _discard(orphan)
 
 
-def write_tree(folder: Path, files: Mapping[str, bytes | Path]) -> None:
-    """Write files below a folder and sync each of them, and every folder on the way.
+def create_folder(root: Path, name: str, files: Mapping[str, bytes | Path]) -> None:
+    """Make `root/name` with these files (content, or a file to copy, by relative path), all at once."""
+    with _staging(root) as staging:
+        _write_tree(staging, files)
+        staging.rename(root / name)
+        _sync(root)
 
-    Args:
-        folder: Made if missing.
-        files: Content, or a file to copy, by relative path.
-    """
-    folder.mkdir(exist_ok=True)
+
+def replace_file(folder: Path, name: str, content: bytes) -> None:
+    """Put a file in the place of the one of the same name, all at once."""
+    with _staging(folder) as staging:
+        _write_tree(staging, {name: content})
+        (staging / name).replace(folder / name)
+        _sync(folder)
+
+
+def remove_folder(root: Path, name: str) -> None:
+    """Remove `root/name`, all at once."""
+    old = root / f"{_OLD}{uuid.uuid4().hex}"
+    (root / name).rename(old)
+    _sync(root)
+    _discard(old)
+
+
+def remove_others(folder: Path, keep: set[str]) -> None:
+    """Remove what stands in a folder beside the names to keep."""
+    for path in folder.iterdir():
+        if path.name not in keep:
+            _discard(path)
+
+
+def _discard(path: Path) -> None:
+    """Remove a file, a link or a whole folder."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
+
+
+@contextmanager
+def _staging(parent: Path) -> Iterator[Path]:
+    """A folder to write in that is gone afterwards, unless it was renamed."""
+    staging = parent / f"{_NEW}{uuid.uuid4().hex}"
+    try:
+        yield staging
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+
+
+def _write_tree(folder: Path, files: Mapping[str, bytes | Path]) -> None:
+    """Write files below a new folder and sync each of them, and every folder on the way."""
+    folder.mkdir()
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -53,49 +119,22 @@ def write_tree(folder: Path, files: Mapping[str, bytes | Path]) -> None:
                 target.write(content)
             target.flush()
             os.fsync(target.fileno())
-    for parent in sorted({folder, *(path for path in folder.rglob("*") if path.is_dir())}):
-        sync_folder(parent)
+    for parent in (folder, *(path for path in folder.rglob("*") if path.is_dir())):
+        _sync(parent)
 
 
-def create_folder(root: Path, name: str, files: Mapping[str, bytes | Path]) -> None:
-    """Make `root/name` with these files, all at once; the name must be free."""
-    staging = root / f"{_NEW}{uuid.uuid4().hex}"
-    write_tree(staging, files)
-    staging.rename(root / name)
-    sync_folder(root)
+def _make(folder: Path) -> None:
+    """Make a folder and its parents, their names durable."""
+    if not folder.is_dir():
+        _make(folder.parent)
+        folder.mkdir(exist_ok=True)
+        _sync(folder.parent)
 
 
-def replace_file(folder: Path, name: str, content: bytes) -> None:
-    """Put a file in the place of the one of the same name, all at once."""
-    staging = folder / f"{_NEW}{uuid.uuid4().hex}"
-    write_tree(staging, {name: content})
-    (staging / name).replace(folder / name)
-    sync_folder(folder)
-    staging.rmdir()
-
-
-def remove_folder(root: Path, name: str) -> None:
-    """Remove `root/name`, all at once."""
-    old = root / f"{_OLD}{uuid.uuid4().hex}"
-    (root / name).rename(old)
-    sync_folder(root)
-    shutil.rmtree(old, ignore_errors=True)
-
-
-def sync_folder(folder: Path) -> None:
+def _sync(folder: Path) -> None:
     """Make the names in a folder durable."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def remove_others(folder: Path, keep: set[str]) -> None:
-    """Remove what stands in a folder beside the names to keep."""
-    for path in folder.iterdir():
-        if path.name not in keep:
-            if path.is_dir() and not path.is_symlink():
-                shutil.rmtree(path, ignore_errors=True)
-            else:
-                path.unlink(missing_ok=True)

@@ -1,11 +1,13 @@
 """All robots by name: the catalogue, and those that were uploaded or dropped into the data folder.
 
-Every process asks the folder whether a robot has changed, each time it is used; that costs one `stat` and makes an
-upload visible to all of them at once. Robots are loaded when first needed and kept within a bound of memory.
+Every process asks the folder whether a robot has changed, each time it is used; that costs two `stat` calls and makes
+an upload, or an edit by hand, visible to all of them at once. Robots are loaded when first needed and kept within a
+bound of memory.
 """
 
 import difflib
 import hashlib
+import logging
 import re
 import threading
 import uuid
@@ -13,28 +15,33 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
-from app.model.errors import InvalidName, KinematicsError, ReadOnlyRobot, RobotExists, UnknownMesh, UnknownRobot
+from app.model.errors import (
+    InvalidName,
+    InvalidRobotFolder,
+    KinematicsError,
+    ReadOnlyRobot,
+    RobotExists,
+    StorageFailed,
+    UnknownMesh,
+    UnknownRobot,
+)
 from app.model.robot import Robot
 from app.schemas.common import ChainEnds
 from app.schemas.robots import RobotFile
 from app.store import folders
-from app.store.records import (
-    ROBOT_FILE,
-    LoadedRobot,
-    Record,
-    Signature,
-    describe,
-    load,
-    mesh_file,
-    read_record,
-    signature_of,
-)
+from app.store.records import ROBOT_FILE, LoadedRobot, Record, describe, load, mesh_file, read_record
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _MEMORY = 512 * 1024 * 1024
 """Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
-_CATALOGUE_SIGNATURE: Signature = (0,)
+_VERSION = "files-"
+_MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
+_ATTEMPTS = 3
+"""A folder may be replaced between the reading of its record and of its model."""
+
+logger = logging.getLogger("gelenk")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +59,7 @@ class RobotUpload:
     """
 
     name: str
-    format: str
+    format: Literal["urdf", "dh"]
     model: bytes
     description: str = ""
     default_chain: ChainEnds | None = None
@@ -70,40 +77,44 @@ class Library:
 
     def __init__(self, catalogue: Path, uploads: Path) -> None:
         self._uploads = uploads
-        self._catalogue: dict[str, Record] = {}
-        for folder in sorted(catalogue.iterdir()):
-            record = read_record(folder, "catalogue") if folder.is_dir() else None
-            if record is not None:
-                self._catalogue[folder.name] = record
-        self._loaded: OrderedDict[str, tuple[Signature, LoadedRobot]] = OrderedDict()
+        found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
+        self._catalogue = {record.name: record for record in found if record is not None}
+        self._loaded: OrderedDict[str, LoadedRobot] = OrderedDict()
         self._lock = threading.Lock()
 
     def prepare(self) -> None:
-        """Remove what an interrupted writer may have left."""
-        if self._uploads.is_dir():
+        """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is."""
+        if not self._uploads.is_dir():
+            return
+        try:
             with folders.exclusive(self._uploads):
                 folders.sweep(self._uploads)
+                for folder in self._folders():
+                    self._remove_stale_versions(folder)
+        except StorageFailed as error:
+            logger.warning("uploaded robots cannot be written: %s", error.reason)
 
     def records(self) -> list[Record]:
         """All robots, the catalogue's first, each part by name; folders that are no robots are left out."""
         uploaded = []
-        if self._uploads.is_dir():
-            for folder in sorted(self._uploads.iterdir()):
-                if _NAME.fullmatch(folder.name) and folder.name not in self._catalogue:
-                    try:
-                        record = read_record(folder, "uploaded")
-                    except (KinematicsError, OSError):
-                        continue
-                    if record is not None:
-                        uploaded.append(record)
+        for folder in self._folders():
+            try:
+                record = read_record(folder, "uploaded")
+            except (KinematicsError, OSError):
+                continue
+            if record is not None:
+                uploaded.append(record)
         return [*self._catalogue.values(), *uploaded]
 
     def loaded(self, name: str) -> LoadedRobot | None:
         """A robot if it is in memory and up to date; quick enough for an event loop."""
-        entry = self._loaded.get(name)
-        if entry is None or entry[0] != self._signature(name):
+        found = self._loaded.get(name)
+        if found is None or not (found.record.source == "catalogue" or found.record.is_current()):
             return None
-        return entry[1]
+        with self._lock:
+            if name in self._loaded:
+                self._loaded.move_to_end(name)
+        return found
 
     def get(self, name: str) -> LoadedRobot:
         """A robot, loaded if need be.
@@ -113,20 +124,17 @@ class Library:
             InvalidInput: A folder dropped in by hand is no robot.
         """
         found = self.loaded(name)
-        if found is not None:
-            with self._lock:
-                if name in self._loaded:
-                    self._loaded.move_to_end(name)
-            return found
-        for _ in range(3):  # the folder may be replaced between two steps
-            record = self._record(name)
+        for _ in range(_ATTEMPTS):
+            if found is not None:
+                return found
             try:
-                found = load(record)
+                found = load(self._record(name))
             except FileNotFoundError:
                 continue
-            self._keep(name, record.signature, found)
-            return found
-        raise UnknownRobot(name)
+            self._keep(found)
+        if found is None:
+            raise InvalidRobotFolder("it names a model file that is not there", f"{name}/{ROBOT_FILE}")
+        return found
 
     def mesh(self, name: str, path: str) -> Path:
         """A mesh file of a robot.
@@ -150,19 +158,21 @@ class Library:
             InvalidName: The name is none.
             RobotExists: The name stands for something else.
             InvalidInput: It does not describe a robot.
+            StorageFailed: It cannot be written.
         """
-        _check_name(upload.name)
+        if not _NAME.fullmatch(upload.name):
+            raise InvalidName(upload.name)
         if upload.name in self._catalogue:
             raise RobotExists(upload.name)
-        record, files = _files(upload)
+        file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):
             folder = self._uploads / upload.name
             if folder.exists():
-                present = read_record(folder, "uploaded")
-                if present is None or not _is_same(present.file, RobotFile.model_validate_json(bytes(record))):
+                if not _holds(folder, file):
                     raise RobotExists(upload.name)
                 return False
-            folders.create_folder(self._uploads, upload.name, {ROBOT_FILE: record, **files})
+            contents = {f"{version}/{path}": content for path, content in _contents(upload).items()}
+            folders.create_folder(self._uploads, upload.name, {ROBOT_FILE: _as_bytes(file), **contents})
         return True
 
     def replace(self, upload: RobotUpload) -> None:
@@ -172,16 +182,17 @@ class Library:
             UnknownRobot: There is none of this name.
             ReadOnlyRobot: It belongs to the catalogue.
             InvalidInput: It does not describe a robot.
+            StorageFailed: It cannot be written.
         """
         self._check_writable(upload.name)
-        record, files = _files(upload)
+        file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):
             folder = self._uploads / upload.name
-            if signature_of(folder) is None:
+            if not folder.is_dir():
                 raise self._unknown(upload.name)
-            folders.write_tree(folder, files)
-            folders.replace_file(folder, ROBOT_FILE, record)
-            folders.remove_others(folder, {ROBOT_FILE, *(path.split("/", 1)[0] for path in files)})
+            folders.create_folder(folder, version, _contents(upload))
+            folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+            folders.remove_others(folder, {ROBOT_FILE, version})
 
     def remove(self, name: str) -> None:
         """Remove an uploaded robot.
@@ -189,23 +200,40 @@ class Library:
         Raises:
             UnknownRobot: There is none of this name.
             ReadOnlyRobot: It belongs to the catalogue.
+            StorageFailed: It cannot be removed.
         """
         self._check_writable(name)
+        if not (self._uploads / name).is_dir():
+            raise self._unknown(name)
         with folders.exclusive(self._uploads):
-            if signature_of(self._uploads / name) is None:
+            if not (self._uploads / name).is_dir():
                 raise self._unknown(name)
             folders.remove_folder(self._uploads, name)
         with self._lock:
             self._loaded.pop(name, None)
+
+    def _folders(self) -> list[Path]:
+        """The folders that may be uploaded robots."""
+        if not self._uploads.is_dir():
+            return []
+        names = (path for path in self._uploads.iterdir() if _NAME.fullmatch(path.name))
+        return sorted(path for path in names if path.name not in self._catalogue and path.is_dir())
+
+    def _remove_stale_versions(self, folder: Path) -> None:
+        """Remove versions that a killed replacement wrote, or did not come to remove."""
+        try:
+            record = read_record(folder, "uploaded")
+        except (KinematicsError, OSError):
+            return
+        if record is not None and record.file.digest is not None:
+            stale = {path.name for path in folder.glob(_VERSION + "*")} - {record.model_path.parent.name}
+            folders.remove_others(folder, {path.name for path in folder.iterdir()} - stale)
 
     def _check_writable(self, name: str) -> None:
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
         if not _NAME.fullmatch(name):
             raise self._unknown(name)
-
-    def _signature(self, name: str) -> Signature | None:
-        return _CATALOGUE_SIGNATURE if name in self._catalogue else signature_of(self._uploads / name)
 
     def _record(self, name: str) -> Record:
         if name in self._catalogue:
@@ -216,52 +244,52 @@ class Library:
         return record
 
     def _unknown(self, name: str) -> UnknownRobot:
-        known = [record.name for record in self.records()]
+        known = [*self._catalogue, *(folder.name for folder in self._folders())]
         return UnknownRobot(name, tuple(difflib.get_close_matches(name[:64], known, n=3)))
 
-    def _keep(self, name: str, signature: Signature, loaded: LoadedRobot) -> None:
-        if name in self._catalogue:
-            signature = _CATALOGUE_SIGNATURE
+    def _keep(self, loaded: LoadedRobot) -> None:
         with self._lock:
-            self._loaded[name] = (signature, loaded)
-            self._loaded.move_to_end(name)
-            while len(self._loaded) > 1 and sum(_weight(kept) for _, kept in self._loaded.values()) > _MEMORY:
+            self._loaded[loaded.record.name] = loaded
+            self._loaded.move_to_end(loaded.record.name)
+            while len(self._loaded) > 1 and sum(_weight(kept) for kept in self._loaded.values()) > _MEMORY:
                 self._loaded.popitem(last=False)
 
 
 def _weight(loaded: LoadedRobot) -> int:
-    """Estimated bytes in memory: about 37 MB of Pinocchio's work space at 100 joints."""
-    return 500_000 + 37 * int(loaded.robot.model.nv) ** 3
+    """Estimated bytes in memory: chains, and about 37 MB of Pinocchio's work space at 100 joints."""
+    return 2_000_000 + 37 * int(loaded.robot.model.nv) ** 3
 
 
-def _check_name(name: str) -> None:
-    if not _NAME.fullmatch(name):
-        raise InvalidName(name)
+def _robot_file(upload: RobotUpload) -> tuple[RobotFile, str]:
+    """The `robot.json` of an upload, after the robot has been built once, and the folder of its other files.
 
-
-def _files(upload: RobotUpload) -> tuple[bytes, dict[str, bytes | Path]]:
-    """The `robot.json` of the robot's folder and its other files, after the robot has been built once from them.
-
-    Names carry a version of their own, so that a replacement never touches what the present `robot.json` names.
+    Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names.
     """
     description, _, _ = describe(upload.name, upload.format, upload.model)
     ends = upload.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
-    version = uuid.uuid4().hex[:12]
-    model = f"robot-{version}.urdf" if upload.format == "urdf" else f"dh-{version}.json"
-    record = RobotFile.model_validate(
-        {
-            "description": upload.description,
-            "format": upload.format,
-            "model": model,
-            "meshes": f"meshes-{version}" if upload.meshes else None,
-            "urdf_folder": upload.urdf_folder,
-            "default_chain": dict(zip(("base_frame", "tip_frame"), robot.default_chain, strict=True)),
-            "digest": _digest(upload),
-        }
+    base_frame, tip_frame = robot.default_chain
+    version = f"{_VERSION}{uuid.uuid4().hex[:12]}"
+    file = RobotFile(
+        description=upload.description,
+        format=upload.format,
+        model=f"{version}/{_MODEL_NAMES[upload.format]}",
+        meshes=f"{version}/meshes" if upload.meshes else None,
+        urdf_folder=upload.urdf_folder,
+        digest=_digest(upload),
+        default_chain=ChainEnds(base_frame=base_frame, tip_frame=tip_frame),
     )
-    meshes = {f"meshes-{version}/{path}": file for path, file in upload.meshes.items()}
-    return record.model_dump_json(indent=2).encode() + b"\n", {model: upload.model, **meshes}
+    return file, version
+
+
+def _contents(upload: RobotUpload) -> dict[str, bytes | Path]:
+    """The files of a version's folder."""
+    meshes = {f"meshes/{path}": file for path, file in upload.meshes.items()}
+    return {_MODEL_NAMES[upload.format]: upload.model, **meshes}
+
+
+def _as_bytes(file: RobotFile) -> bytes:
+    return file.model_dump_json(indent=2, exclude_none=True).encode() + b"\n"
 
 
 def _digest(upload: RobotUpload) -> str:
@@ -274,7 +302,15 @@ def _digest(upload: RobotUpload) -> str:
     return digest.hexdigest()
 
 
-def _is_same(present: RobotFile, wanted: RobotFile) -> bool:
-    """Whether two records tell of the same robot: the names of files apart, their digests included."""
+def _holds(folder: Path, wanted: RobotFile) -> bool:
+    """Whether a folder holds the very robot: the names of files apart, their digest included."""
+    try:
+        record = read_record(folder, "uploaded")
+    except (KinematicsError, OSError):
+        return False
     apart = {"model", "meshes"}
-    return present.digest is not None and present.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
+    return (
+        record is not None
+        and record.file.digest is not None
+        and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
+    )

@@ -6,6 +6,7 @@ the `robot.json`: then its one `*.urdf` or its `dh.json` is the robot.
 
 import importlib.metadata
 import os
+import stat
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from typing import Literal, TypeAlias
@@ -15,7 +16,7 @@ from pydantic import ValidationError
 from app.model.convert import describe_dh
 from app.model.description import Description
 from app.model.dh import DhTable
-from app.model.errors import InvalidArchive, InvalidUrdf, TooLarge
+from app.model.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, quoted
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
 from app.model.xml import MAX_BYTES
@@ -24,7 +25,8 @@ from app.schemas.robots import RobotFile
 from app.store.archive import MESH_SUFFIXES
 
 Source: TypeAlias = Literal["catalogue", "uploaded"]
-Signature: TypeAlias = tuple[int, ...]
+Stamp: TypeAlias = tuple[int, int, int]
+Signature: TypeAlias = tuple[Stamp | None, Stamp | None]
 
 ROBOT_FILE = "robot.json"
 
@@ -37,17 +39,23 @@ class Record:
         name: The robot's name: the folder's.
         source: Which of the two roots the folder is in.
         file: The contents of `robot.json`.
+        file_path: Where that is, or would be.
         model_path: The URDF or DH file.
         mesh_root: Where mesh files are looked up, if anywhere.
-        signature: Changes whenever the folder's robot does.
+        signature: Of both files, when they were read.
     """
 
     name: str
     source: Source
     file: RobotFile
+    file_path: Path
     model_path: Path
     mesh_root: Path | None
     signature: Signature
+
+    def is_current(self) -> bool:
+        """Whether neither file has changed since; two `stat` calls, quick enough for an event loop."""
+        return self.signature == _signature(self.file_path, self.model_path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,45 +80,47 @@ class LoadedRobot:
     def warnings(self) -> tuple[str, ...]:
         """What is odd about the description, and which meshes are missing."""
         missing = [mesh for mesh, path in self.meshes.items() if path is None]
-        return self.robot.description.warnings + tuple(f"mesh '{mesh}' is missing" for mesh in missing)
-
-
-def signature_of(folder: Path) -> Signature | None:
-    """A number tuple that changes with the folder's robot; None where there is no such folder."""
-    try:
-        status = os.stat(folder / ROBOT_FILE)  # noqa: PTH116 - on the path of every call
-    except (FileNotFoundError, NotADirectoryError):
-        try:
-            model = _only_model(folder)
-        except OSError:
-            return None
-        if model is None:
-            return None
-        status = model.stat()
-    return status.st_mtime_ns, status.st_ino, status.st_size
+        return self.robot.description.warnings + tuple(f"mesh {quoted(mesh)} is missing" for mesh in missing)
 
 
 def read_record(folder: Path, source: Source) -> Record | None:
-    """Read a folder's record; None where there is no such folder.
+    """Read a folder's record; None where there is no such folder, or nothing in it that could be a robot.
 
     Raises:
-        InvalidArchive: Its `robot.json` is not one, or names a file that is not there.
+        InvalidRobotFolder: Its `robot.json` is not one, leads out of the folder, or nothing here can be read.
+        FileNotFoundError: The model file is missing; also while the folder is being replaced.
     """
-    signature = signature_of(folder)
-    if signature is None:
+    try:
+        return _read_record(folder, source)
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a path with a NUL
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidRobotFolder(f"it cannot be read: {reason}", folder.name) from error
+
+
+def _read_record(folder: Path, source: Source) -> Record | None:
+    path = folder / ROBOT_FILE
+    stamp = _stamp(path)
+    file = _robot_file(path) if stamp else _without_robot_file(folder)
+    if file is None:
         return None
-    file = _robot_file(folder)
     if not isinstance(file.model, str):
         if source != "catalogue":
-            raise InvalidArchive("only the catalogue refers to packages", ROBOT_FILE)
+            raise InvalidRobotFolder("only the catalogue refers to packages", f"{folder.name}/{ROBOT_FILE}")
         root = package_data()
-        return Record(folder.name, source, file, root / file.model.path, root.parent, signature)
-    for path in filter(None, (file.model, file.meshes)):
-        if not (folder / path).resolve().is_relative_to(folder.resolve()):
-            raise InvalidArchive(f"the path {path!r} leads out of the folder", ROBOT_FILE)
-    return Record(
-        folder.name, source, file, folder / file.model, folder / file.meshes if file.meshes else None, signature
-    )
+        model = root / file.model.path
+        return Record(folder.name, source, file, path, model, root.parent, (stamp, _stamp(model)))
+    inside = folder.resolve()
+    for name in filter(None, (file.model, file.meshes)):
+        if not (folder / name).resolve().is_relative_to(inside):
+            raise InvalidRobotFolder(f"the path {quoted(name)} leads out of the folder", f"{folder.name}/{ROBOT_FILE}")
+    model = folder / file.model
+    meshes = folder / file.meshes if file.meshes else None
+    signature = (stamp, _stamp(model))
+    if signature[1] is None:
+        raise FileNotFoundError(file.model)
+    return Record(folder.name, source, file, path, model, meshes, signature)
 
 
 def load(record: Record) -> LoadedRobot:
@@ -149,7 +159,9 @@ def describe(name: str, format_: str, content: bytes) -> tuple[Description, str,
     try:
         table = DhTablePayload.model_validate_json(content).table()
     except ValidationError as error:
-        raise InvalidArchive(f"not a DH table: {error.errors(include_url=False)[0]['msg']}", "dh.json") from error
+        first = error.errors(include_url=False)[0]
+        where = ".".join(str(part) for part in first["loc"])
+        raise InvalidRobotFolder(f"not a DH table: {where}: {first['msg']}", "dh.json") from error
     described = describe_dh(name, table)
     text = write_urdf(described)
     read = read_urdf(text)
@@ -159,10 +171,7 @@ def describe(name: str, format_: str, content: bytes) -> tuple[Description, str,
 def mesh_file(loaded: LoadedRobot, path: str) -> Path | None:
     """The file below the robot's mesh root, where it is one that may be served."""
     root = loaded.record.mesh_root
-    if root is None or PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES or "\0" in path:
-        return None
-    file = (root / path).resolve()
-    return file if file.is_relative_to(root.resolve()) and file.is_file() else None
+    return None if root is None else _file_below(root, path)
 
 
 def package_data() -> Path:
@@ -171,24 +180,36 @@ def package_data() -> Path:
     return Path(str(distribution.locate_file("cmeel.prefix/share/example-robot-data")))
 
 
-def _robot_file(folder: Path) -> RobotFile:
+def _stamp(path: Path) -> Stamp | None:
+    """What changes with a file; None where there is no such file, or something that is none."""
     try:
-        return RobotFile.model_validate_json((folder / ROBOT_FILE).read_bytes())
+        status = os.stat(path)  # noqa: PTH116 - on the path of every call
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    if not stat.S_ISREG(status.st_mode):
+        return None
+    return status.st_mtime_ns, status.st_ino, status.st_size
+
+
+def _signature(file_path: Path, model_path: Path) -> Signature:
+    return _stamp(file_path), _stamp(model_path)
+
+
+def _robot_file(path: Path) -> RobotFile:
+    try:
+        return RobotFile.model_validate_json(path.read_bytes())
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         where = ".".join(str(part) for part in first["loc"])
-        raise InvalidArchive(f"{where}: {first['msg']}", f"{folder.name}/{ROBOT_FILE}") from error
-    except FileNotFoundError:
-        model = _only_model(folder)
-        if model is None:
-            raise
-        return RobotFile(format="dh" if model.suffix == ".json" else "urdf", model=model.name, meshes=".")
+        raise InvalidRobotFolder(f"{where}: {first['msg']}", f"{path.parent.name}/{ROBOT_FILE}") from error
 
 
-def _only_model(folder: Path) -> Path | None:
-    """The one URDF of a folder without a record, or its `dh.json`."""
-    models = [*folder.glob("*.urdf"), *folder.glob("dh.json")]
-    return models[0] if len(models) == 1 else None
+def _without_robot_file(folder: Path) -> RobotFile | None:
+    """What a folder tells of itself by its one URDF or its `dh.json`."""
+    models = [path for path in (*folder.glob("*.urdf"), *folder.glob("dh.json")) if path.is_file()]
+    if len(models) != 1:
+        return None
+    return RobotFile(format="dh" if models[0].suffix == ".json" else "urdf", model=models[0].name, meshes=".")
 
 
 def _mesh_path(record: Record, reference: str) -> str | None:
@@ -199,16 +220,21 @@ def _mesh_path(record: Record, reference: str) -> str | None:
     """
     if record.mesh_root is None:
         return None
-    if reference.startswith("package://"):
-        parts = reference.removeprefix("package://").split("/")
+    scheme, separator, path = reference.partition("://")
+    if separator:
+        parts = path.split("/") if scheme in {"package", "model"} else []
         candidates = ["/".join(parts[start:]) for start in range(len(parts))]
     else:
-        relative = os.path.normpath(f"{record.file.urdf_folder}/{reference}" if record.file.urdf_folder else reference)
-        candidates = [relative]
-    for candidate in candidates:
-        if candidate.startswith(("/", "..")) or ":" in candidate:
-            continue
-        file = (record.mesh_root / candidate).resolve()
-        if file.is_relative_to(record.mesh_root.resolve()) and file.is_file():
-            return candidate
-    return None
+        candidates = [os.path.normpath(PurePosixPath(record.file.urdf_folder) / reference)]
+    return next((path for path in candidates if _file_below(record.mesh_root, path)), None)
+
+
+def _file_below(root: Path, path: str) -> Path | None:
+    """The mesh, material or picture at a path that stays below a folder, if there is one."""
+    if PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES:
+        return None
+    try:
+        file = (root / path).resolve()
+        return file if file.is_relative_to(root.resolve()) and file.is_file() else None
+    except (OSError, ValueError):  # a name that no file system takes
+        return None

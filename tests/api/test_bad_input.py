@@ -111,6 +111,17 @@ def test_a_hundred_thousand_unknown_keys_are_a_small_answer(client: TestClient) 
     assert len(answer.content) < MAX_PROBLEM_BYTES
 
 
+@pytest.mark.parametrize("entry", ["1", '"a"', "null", '["a"]', "{}", '{"a": "b"}'])
+def test_a_large_list_of_nonsense_is_refused_at_its_first_entry(client: TestClient, entry: str) -> None:
+    """Collecting every error of a megabyte would hold up everybody else for seconds."""
+    body = '{"joint_positions": [' + ",".join([entry] * 200_000) + "]}"
+    started = time.monotonic()
+    answer = client.post("/v1/robots/panda/fk", content=body, headers=JSON)
+    assert time.monotonic() - started < 1.0
+    assert answer.status_code == 422
+    assert len(answer.content) < MAX_PROBLEM_BYTES
+
+
 def test_unknown_paths_and_methods_are_problems(client: TestClient) -> None:
     for method, path, status in (
         ("GET", "/nothing", 404),

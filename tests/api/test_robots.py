@@ -1,6 +1,8 @@
 """Robots over HTTP: the catalogue, uploads as URDF, DH table and zip, replacing, removing, meshes."""
 
+import errno
 import json
+import os
 import zipfile
 from io import BytesIO
 from pathlib import Path
@@ -191,6 +193,13 @@ def overlapping() -> bytes:
     return bytes(content)
 
 
+def flagged(bit: int) -> bytes:
+    """A zip whose list of entries says something special of the last one."""
+    content = bytearray(zipped({"a.urdf": URDF, "b.stl": b"x"}))
+    content[content.rfind(b"PK\x01\x02") + 8] |= bit
+    return bytes(content)
+
+
 def linked() -> bytes:
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
@@ -215,6 +224,11 @@ def linked() -> bytes:
         (zipped({"a.urdf": URDF, "C:/b.stl": "x"}), "inside"),
         (zipped({"a.urdf": URDF, "b.stl": "x", "B.STL": "x"}), "twice"),
         (zipped({"a.urdf": URDF, "x" * 300 + ".stl": "x"}), "characters"),
+        (zipped({"a.urdf": URDF, "ä" * 150 + ".stl": "x"}), "bytes"),
+        (zipped({"a.urdf": URDF, "m.stl": "x", "m.stl/n.stl": "x"}), "folder"),
+        (flagged(0x20), "unpacked"),
+        (flagged(0x40), "unpacked"),
+        (flagged(0x01), "encrypted"),
         (zipped({"a.urdf": URDF, **{f"{i}.stl": "" for i in range(2001)}}), "2000"),
         (zipped({"a.urdf": URDF, "bomb.stl": bytes(300 * 1024 * 1024)}), "268435456"),
         (zipped({"a.urdf": b"<robot " + bytes(3_000_000)}), "2097152"),
@@ -230,6 +244,93 @@ def test_bad_archives_are_refused(client: TestClient, content: bytes, word: str)
     assert answer.status_code in {413, 422}, answer.text
     assert word in answer.json()["detail"].lower()
     assert client.get("/v1/robots/bad_archive").status_code == 404
+
+
+def test_the_path_says_which_robot_is_replaced(own: TestClient) -> None:
+    for name in ("first", "second"):
+        assert own.post("/v1/robots", json={"name": name, "urdf": URDF}).status_code == 201
+    files = {"archive": ("robot.zip", zipped({"arm.urdf": URDF.replace("0 0 1", "0 0 5", 1)}))}
+    assert own.put("/v1/robots/first", data={"name": "second"}, files=files).status_code == 422
+    assert own.put("/v1/robots/panda", data={"description": "mine"}, files=files).status_code == 403
+    assert own.get("/v1/robots/second/urdf").text == URDF
+
+
+def test_both_ends_of_a_chain_or_none(own: TestClient) -> None:
+    content = {"archive": ("robot.zip", zipped({"arm.urdf": URDF}))}
+    half = own.post("/v1/robots", data={"name": "arm", "base_frame": "arm"}, files=content)
+    assert half.status_code == 422
+    whole = own.post("/v1/robots", data={"name": "arm", "base_frame": "arm", "tip_frame": "base"}, files=content)
+    assert whole.json()["default_chain"] == {"base_frame": "arm", "tip_frame": "base"}
+
+
+def test_mesh_names_that_no_disk_takes_are_missing_and_nothing_more(own: TestClient) -> None:
+    urdf = URDF.replace("meshes/arm.stl", "m" * 300 + ".stl")
+    created = upload_zip(own, zipped({"arm.urdf": urdf, "other.stl": "solid"}))
+    assert created.status_code == 201, created.text
+    assert own.get("/v1/robots/zipped").json()["meshes"][0]["path"] is None
+    assert own.get(f"/v1/robots/zipped/meshes/{'a' * 5000}.stl").status_code == 404
+
+
+def test_broken_folders_harm_nobody_else_and_say_what_is_wrong(tmp_path: Path) -> None:
+    def folder(name: str, robot_json: object = None) -> Path:
+        path = tmp_path / "robots" / name
+        path.mkdir(parents=True)
+        if robot_json is not None:
+            (path / "robot.json").write_text(json.dumps(robot_json))
+        return path
+
+    (folder("directory") / "x.urdf").mkdir()
+    (folder("record_directory") / "robot.json").mkdir()
+    for name, model in (("dot", "."), ("empty", ""), ("long", "m" * 300), ("nul", "a\0"), ("gone", "no.urdf")):
+        folder(name, {"format": "urdf", "model": model})
+    folder("text", "no robot")
+    folder("package", {"format": "urdf", "model": {"package": "example-robot-data", "path": "x"}})
+    os.mkfifo(folder("pipe") / "x.urdf")
+    (folder("loop") / "robot.json").symlink_to("robot.json")
+    (tmp_path / "robots" / "file").write_text("")
+    for client in ready_client(tmp_path):
+        listed = client.get("/v1/robots")
+        assert listed.status_code == 200
+        assert {robot["source"] for robot in listed.json()["robots"]} == {"catalogue"}
+        for name in ("dot", "empty", "long", "nul", "gone", "text", "package", "loop"):
+            answer = client.get(f"/v1/robots/{name}")
+            assert answer.status_code == 422, (name, answer.text)
+            assert answer.json()["type"] == "urn:gelenk:invalid-robot-folder"
+        for name in ("directory", "record_directory", "pipe", "file", "nobody"):
+            assert client.get(f"/v1/robots/{name}").status_code == 404
+        for name in ("dot", "loop", "directory", "pipe"):
+            assert client.delete(f"/v1/robots/{name}").status_code == 204
+            assert not (tmp_path / "robots" / name).exists()
+
+
+def test_an_edit_by_hand_is_seen(own: TestClient, tmp_path: Path) -> None:
+    own.post("/v1/robots", json={"name": "arm", "urdf": URDF})
+    (model,) = (tmp_path / "robots" / "arm").glob("*/robot.urdf")
+    model.write_text(URDF.replace("0 0 1", "0 0 7", 1))
+    answer = own.post("/v1/robots/arm/fk", json={"joint_positions": [[0.0]]})
+    assert answer.json()["poses"][0]["position"] == [0, 0, 7]
+
+
+@pytest.mark.parametrize(("number", "status"), [(errno.ENOSPC, 507), (errno.EROFS, 503), (errno.EIO, 503)])
+def test_a_disk_that_refuses_is_said_and_leaves_nothing(
+    own: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, status: int
+) -> None:
+    own.post("/v1/robots", json={"name": "arm", "urdf": URDF})
+    before = sorted(tmp_path.rglob("*"))
+
+    def refuse(_: int) -> None:
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr("app.store.folders.os.fsync", refuse)
+    other = URDF.replace("0 0 1", "0 0 2", 1)
+    new = own.post("/v1/robots", json={"name": "new", "urdf": other})
+    replaced = own.put("/v1/robots/arm", json={"urdf": other})
+    monkeypatch.undo()
+    for answer in (new, replaced):
+        assert answer.status_code == status, answer.text
+        assert os.strerror(number) in answer.json()["detail"]
+    assert sorted(tmp_path.rglob("*")) == before
+    assert own.get("/v1/robots/arm/urdf").text == URDF
 
 
 def test_a_form_must_be_one(client: TestClient) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.model.arrays import Array
 from tests.benchmarks.server import Running, running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST
@@ -21,17 +22,27 @@ ROUNDS = 5
 def measure() -> list[Row]:
     """100,000 configurations as npy and 10,000 as JSON."""
     qs = np.random.default_rng(1).uniform(-2.0, 2.0, (100_000, 7))
-    with running("service", "/readyz") as server:
-        idle = peak_memory(server.pid)
-        npy_seconds, npy_memory = median_of(lambda: send_npy(server, qs), server)
-        json_seconds, json_memory = median_of(lambda: send_json(server, qs[:10_000]), server)
     return [
-        Row("`fk` of 100,000 configurations as npy, end to end", seconds(npy_seconds), memory(npy_memory, idle)),
-        Row("`fk` of 10,000 configurations as JSON, end to end", seconds(json_seconds), memory(json_memory, idle)),
+        row("`fk` of 100,000 configurations as npy, end to end", send_npy, qs),
+        row("`fk` of 10,000 configurations as JSON, end to end", send_json, qs[:10_000]),
     ]
 
 
-def send_npy(server: Running, qs: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> None:
+def row(what: str, send: Callable[[Running, Array], None], qs: Array) -> Row:
+    """Median time of some calls, on a server of their own, because a process's peak memory never falls."""
+    with running("service", "/readyz") as server:
+        idle = peak_memory(server.pid)
+        times = []
+        for _ in range(ROUNDS):
+            started = time.perf_counter()
+            send(server, qs)
+            times.append(time.perf_counter() - started)
+        peak = peak_memory(server.pid)
+    memory = f"peak memory {peak / 2**20:.0f} MiB, idle {idle / 2**20:.0f} MiB"
+    return Row(what, f"{statistics.median(times) * 1000:.0f} ms", memory)
+
+
+def send_npy(server: Running, qs: Array) -> None:
     """One request, and the answer as an array again."""
     buffer = BytesIO()
     np.save(buffer, qs)
@@ -39,7 +50,7 @@ def send_npy(server: Running, qs: np.ndarray[tuple[int, ...], np.dtype[np.float6
     assert np.load(BytesIO(answer)).shape == (len(qs), 7)
 
 
-def send_json(server: Running, qs: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> None:
+def send_json(server: Running, qs: Array) -> None:
     """One request, and the answer as Python objects again."""
     body = json.dumps({"joint_positions": qs.tolist()}).encode()
     answer = json.loads(post(server, body, "application/json", "application/json"))
@@ -54,28 +65,8 @@ def post(server: Running, body: bytes, content_type: str, accept: str) -> bytes:
         return bytes(answer.read())
 
 
-def median_of(call: Callable[[], None], server: Running) -> tuple[float, int]:
-    """Median seconds of some calls, and the server's peak memory in them, [bytes]."""
-    times = []
-    for _ in range(ROUNDS):
-        started = time.perf_counter()
-        call()
-        times.append(time.perf_counter() - started)
-    return statistics.median(times), peak_memory(server.pid)
-
-
 def peak_memory(pid: int) -> int:
     """Largest resident set of a process so far, [bytes]."""
     status = Path(f"/proc/{pid}/status").read_text(encoding="ascii")
     line = next(line for line in status.splitlines() if line.startswith("VmHWM"))
     return int(line.split()[1]) * 1024
-
-
-def seconds(value: float) -> str:
-    """A time for the table."""
-    return f"{value * 1000:.0f} ms"
-
-
-def memory(value: int, idle: int) -> str:
-    """A peak for the table."""
-    return f"peak memory {value / 2**20:.0f} MiB, idle {idle / 2**20:.0f} MiB"

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from app.kinematics.configuration import (
-    MAX_POSITION,
+    MAX_MAGNITUDE,
     Configuration,
     check_limits,
-    checked_positions,
+    checked_rows,
     configurations,
 )
-from app.model.errors import InvalidArray, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
+from app.model.errors import InvalidArray, InvalidField, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
 from tests.robots import robot, samples
 
 ARM = robot("planar_3r").chain("base", "tool")
@@ -60,30 +60,30 @@ def test_unknown_joint() -> None:
 @pytest.mark.parametrize("by_name", [True, False])
 def test_numbers_that_are_no_position(number: float, by_name: bool) -> None:
     value: Configuration = {**BY_NAME, NAMES[1]: number} if by_name else [0.1, number, 0.3]
-    with pytest.raises(InvalidArray, match=f"configuration 1: the position of joint '{NAMES[1]}'"):
+    with pytest.raises(InvalidField, match=f"joint_positions.*entry 1: the value of joint '{NAMES[1]}'"):
         configurations(ARM, [BY_ORDER, value])
 
 
 def test_the_largest_position() -> None:
-    assert configurations(ARM, [[MAX_POSITION, -MAX_POSITION, 0.0]])[0, 0] == MAX_POSITION
+    assert configurations(ARM, [[MAX_MAGNITUDE, -MAX_MAGNITUDE, 0.0]])[0, 0] == MAX_MAGNITUDE
 
 
 @pytest.mark.parametrize("shape", [(3,), (2, 3, 1), ()])
 def test_arrays_of_other_dimensions(shape: tuple[int, ...]) -> None:
     with pytest.raises(InvalidArray, match=f"has {len(shape)} dimensions"):
-        checked_positions(ARM, np.zeros(shape))
+        checked_rows(ARM, np.zeros(shape), "q")
 
 
 @pytest.mark.parametrize("columns", [0, 2, 4])
 def test_arrays_of_other_width(columns: int) -> None:
     with pytest.raises(WrongJointCount) as caught:
-        checked_positions(ARM, np.zeros((5, columns)))
+        checked_rows(ARM, np.zeros((5, columns)), "q")
     assert caught.value.given == columns
 
 
 def test_a_good_array_stays_as_it_is() -> None:
     qs = samples(ARM, 10)
-    assert checked_positions(ARM, qs) is qs
+    assert checked_rows(ARM, qs, "q") is qs
 
 
 # Limits

@@ -1,5 +1,6 @@
 """Robots on disk: what is acknowledged is there after a kill at any moment; every process sees it at once."""
 
+import errno
 import json
 import multiprocessing
 import os
@@ -84,7 +85,7 @@ def test_a_replacement_leaves_only_its_own_files(library: Library, tmp_path: Pat
     library.replace(RobotUpload("arm", "urdf", one_joint(2)))
     names = sorted(path.name for path in (tmp_path / "robots" / "arm").iterdir())
     record = json.loads((tmp_path / "robots" / "arm" / "robot.json").read_text())
-    assert names == sorted(["robot.json", record["model"]])
+    assert names == sorted(["robot.json", record["model"].split("/")[0]])
 
 
 def test_another_process_sees_it_at_once(library: Library, tmp_path: Path) -> None:
@@ -171,6 +172,69 @@ def test_a_kill_at_any_moment_leaves_the_old_robot_or_the_new(library: Library, 
     assert added
 
 
+REPLACER = """
+import sys
+from pathlib import Path
+from app.store.library import Library, RobotUpload
+from tests.store.test_library import one_joint
+library = Library(Path("robots"), Path(sys.argv[1]))
+print("ready", flush=True)
+library.replace(RobotUpload("by_hand", "urdf", one_joint(2)))
+library.remove("by_hand")
+print("removed", flush=True)
+"""
+
+
+def test_a_folder_dropped_in_by_hand_is_replaced_and_removed_as_safely(tmp_path: Path) -> None:
+    """Killed anywhere between its replacement and its removal, it is the old robot, the new one, or gone."""
+    root = tmp_path / "robots"
+    chance = random.Random(2)
+    for _ in range(KILLS):
+        folder = root / "by_hand"
+        folder.mkdir(parents=True)
+        (folder / "mine.urdf").write_bytes(one_joint(1))
+        with subprocess.Popen([sys.executable, "-c", REPLACER, str(root)], stdout=subprocess.PIPE, text=True) as writer:
+            assert writer.stdout is not None
+            writer.stdout.readline()
+            time.sleep(chance.uniform(0.0, 0.03))
+            os.kill(writer.pid, signal.SIGKILL)
+            removed = "removed" in writer.stdout.read()
+        library = Library(CATALOGUE, root)
+        library.prepare()
+        if folder.exists():
+            assert not removed
+            assert height_of(library, "by_hand") in {1, 2}
+            library.remove("by_hand")
+        else:
+            with pytest.raises(UnknownRobot):
+                library.get("by_hand")
+        assert [path.name for path in root.iterdir()] in ([".lock"], [])
+
+
+def test_a_stale_version_is_swept_and_notes_of_a_person_are_not(library: Library, tmp_path: Path) -> None:
+    library.add(RobotUpload("arm", "urdf", one_joint(1)))
+    folder = tmp_path / "robots" / "arm"
+    (folder / "files-0123456789ab").mkdir()
+    (folder / "notes.txt").write_text("mine")
+    library.prepare()
+    assert not (folder / "files-0123456789ab").exists()
+    assert (folder / "notes.txt").exists()
+    assert height_of(library, "arm") == 1
+
+
+def test_a_data_folder_that_cannot_be_written_to_does_not_keep_the_service_from_starting(
+    library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "robots").mkdir()
+    monkeypatch.setattr("app.store.folders.fcntl.flock", refuse_to_write)
+    library.prepare()
+    assert library.get("panda")
+
+
+def refuse_to_write(*_: object) -> None:
+    raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+
 def test_orphans_are_swept_under_the_lock(tmp_path: Path) -> None:
     root = tmp_path / "robots"
     (root / ".new-1").mkdir(parents=True)
@@ -194,7 +258,9 @@ def test_names_come_with_those_that_are_near(library: Library) -> None:
 
 def test_memory_is_bounded(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.store.library._MEMORY", 2_000_000)
+    monkeypatch.setattr("app.store.library._weight", lambda _: 500_000)
     for name in ("ur3", "ur5", "ur10", "scara", "planar_2r"):
         library.get(name)
-    assert library.loaded("ur3") is None
+        assert library.loaded("ur3")  # what is in use stays
+    assert library.loaded("ur5") is None
     assert library.loaded("planar_2r") is not None

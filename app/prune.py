@@ -1,4 +1,4 @@
-"""Take from an environment what the service never opens: `python -m app.store.prune PREFIX`, for the container image.
+"""Take from an environment what the service never opens: `python -m app.prune PREFIX`, for the container image.
 
 Wheels carry headers, static libraries, three copies of one library, tests, and all of example-robot-data. What is
 needed is found by use: all robots of the catalogue are loaded, then the libraries that this process has mapped stay.
@@ -11,7 +11,7 @@ from pathlib import Path
 from app.store.library import Library
 from app.store.records import package_data
 
-_CATALOGUE = Path(__file__).resolve().parents[2] / "robots"
+_CATALOGUE = Path(__file__).resolve().parents[1] / "robots"
 _FOR_DEVELOPERS = frozenset({".a", ".cmake", ".h", ".hh", ".hpp", ".hxx", ".pc", ".pxd", ".pyi", ".pyx"})
 _SHAPES = frozenset({".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf"})
 _LICENCES = ("LICENSE", "LICENCE", "COPYING", "NOTICE")
@@ -20,7 +20,7 @@ _LICENCES = ("LICENSE", "LICENCE", "COPYING", "NOTICE")
 def main() -> None:
     """Prune the environment that runs this; it must be named, so that nobody does it to their own by mistake."""
     if len(sys.argv) != 2 or Path(sys.argv[1]).resolve() != Path(sys.prefix).resolve():
-        sys.exit(f"usage: python -m app.store.prune {sys.prefix}")
+        sys.exit(f"usage: python -m app.prune {sys.prefix}")
     files = list(unneeded({*catalogue_files(), *mapped_files()}))
     size = sum(file.stat().st_size for file in files)
     for file in files:
