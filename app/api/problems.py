@@ -15,6 +15,7 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
+from starlette.routing import compile_path
 
 from app.model import errors
 
@@ -155,7 +156,19 @@ def _http(request: Request, error: Exception) -> Response:
     kind = status.phrase.lower().replace(" ", "-").replace("'", "")
     response = problem(request, status, kind, detail)
     response.headers.update(error.headers or {})
+    if status == HTTPStatus.METHOD_NOT_ALLOWED:
+        response.headers["Allow"] = ", ".join(_allowed_methods(request))
     return response
+
+
+def _allowed_methods(request: Request) -> list[str]:
+    """The methods that the schema has for a path; a single route knows its own alone."""
+    path = request.url.path.removeprefix(request.app.root_path)
+    allowed: set[str] = set()
+    for template, operations in request.app.openapi()["paths"].items():
+        if compile_path(template)[0].fullmatch(path):
+            allowed |= {method.upper() for method in operations}
+    return sorted(allowed | ({"HEAD"} if "GET" in allowed else set()))
 
 
 def _unexpected(request: Request, error: Exception) -> Response:

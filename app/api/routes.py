@@ -83,7 +83,9 @@ class Application(FastAPI):
         self.operations: dict[str, Handler] = {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve a connection."""
+        """Serve a connection; HEAD is GET, whose body the server keeps to itself."""
+        if scope["type"] == "http" and scope["method"] == "HEAD":
+            scope = {**scope, "method": "GET"}
         if scope["type"] == "http" and scope["method"] == "POST":
             scope["root_path"] = self.root_path
             match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))

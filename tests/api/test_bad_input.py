@@ -134,7 +134,12 @@ def test_unknown_paths_and_methods_are_problems(client: TestClient) -> None:
         answer = client.request(method, path)
         assert (answer.status_code, answer.headers["content-type"]) == (status, "application/problem+json"), path
         if status == 405:
-            assert answer.headers["allow"]
+            assert answer.headers["allow"] == {"GET": "POST", "PATCH": "GET, HEAD, POST"}[method]
+
+
+def test_head_is_get_without_a_body(client: TestClient) -> None:
+    for path in ("/healthz", "/readyz", "/v1/robots/panda", "/docs"):
+        assert client.head(path).status_code == 200
 
 
 def to_json(value: object) -> bytes:

@@ -3,7 +3,6 @@
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -61,40 +60,3 @@ def test_packages_hold_a_docstring_and_nothing_else(package: Path) -> None:
     code = compile((package / "__init__.py").read_text(), str(package), "exec")
     assert code.co_consts[0]
     assert set(code.co_names) <= {"__doc__"}
-
-
-# What no committed file may hold
-
-FORBIDDEN = {
-    "a path of one machine": r"[/]work/|[/]root/|[/]home/\w+/",
-    "the address of a package index": r"pypi[.]org/|pythonhosted[.]org|npmjs[.]org|yarnpkg[.]com",
-    "who or what wrote it": r"clau[d]e|anthropi[c]|chatgp[t]|opena[i]|co-authored[-]by|\bissue[ ]#?\d|sub-?[a]gent",
-}
-"""Brackets keep the patterns from finding themselves."""
-BINARY = {".npy", ".npz", ".png", ".jpg", ".ico", ".stl", ".dae", ".obj", ".zip", ".woff2", ".glb"}
-
-
-def committed() -> Iterator[Path]:
-    """Text files that are, or would be, committed."""
-    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "-z"]
-    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    for name in filter(None, answer.stdout.split("\0")):
-        path = ROOT / name
-        if path.suffix not in BINARY and path.is_file():
-            yield path
-
-
-@pytest.mark.parametrize("pattern", FORBIDDEN.values(), ids=FORBIDDEN)
-def test_no_file_names(pattern: str) -> None:
-    found = re.compile(pattern, re.IGNORECASE)
-    places = [
-        f"{path.relative_to(ROOT)}:{number}: {match[0]}"
-        for path in committed()
-        for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1)
-        if (match := found.search(line))
-    ]
-    assert not places
-
-
-def test_the_files_are_seen() -> None:
-    assert {ROOT / "pyproject.toml", Path(__file__)} <= set(committed())
