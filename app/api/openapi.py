@@ -10,8 +10,10 @@ from app.api.payloads import NPY
 from app.api.problems import MEDIA_TYPE
 from app.schemas.problem import Problem
 
-RobotPath = Annotated[str, Path(description="Name of a robot.", examples=["panda"])]
-UploadedRobotPath = Annotated[str, Path(description="Name of an uploaded robot.", examples=["my_planar_arm"])]
+RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
+UploadedRobotPath = Annotated[
+    str, Path(description="Name of an uploaded robot.", openapi_examples={"my_planar_arm": {"value": "my_planar_arm"}})
+]
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 

@@ -126,7 +126,9 @@ def robots_router(library: Library) -> APIRouter:
             str,
             Path(
                 description="As `meshes` of the robot lists it.",
-                examples=["example-robot-data/robots/panda_description/meshes/visual/link0.dae"],
+                openapi_examples={
+                    "link0": {"value": "example-robot-data/robots/panda_description/meshes/visual/link0.dae"}
+                },
             ),
         ],
     ) -> Response:

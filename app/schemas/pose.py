@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
-from pydantic import Field, SerializerFunctionWrapHandler, model_serializer, model_validator
+from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from app.model.arrays import Array
 from app.model.errors import InvalidPose
@@ -43,6 +43,10 @@ class Pose(Payload):
 
     An orientation further than 1e-6 from a rotation is refused, within that it is projected.
     """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"position": [0.3, 0.0, 0.6], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}]}
+    )
 
     position: Vector3 | None = Field(None, description="Origin, [m].")
     quaternion_xyzw: Vector4 | None = Field(None, description="Unit quaternion, scalar last.")
