@@ -163,6 +163,8 @@ class Library:
         if not _NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)
         if upload.name in self._catalogue:
+            if upload.model == self._catalogue[upload.name].model_path.read_bytes() and not upload.meshes:
+                return False
             raise RobotExists(upload.name)
         file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):

@@ -169,9 +169,10 @@ def describe(name: str, format_: str, content: bytes) -> tuple[Description, str,
 
 
 def mesh_file(loaded: LoadedRobot, path: str) -> Path | None:
-    """The file below the robot's mesh root, where it is one that may be served."""
+    """The file of the robot at a path below its meshes: that of the list, or `name/folder/file` of a `package://`."""
     root = loaded.record.mesh_root
-    return None if root is None else _file_below(root, path)
+    found = _mesh_path(loaded.record, f"package://{path}")
+    return _file_below(root, found) if root and found else None
 
 
 def package_data() -> Path:

@@ -128,6 +128,8 @@ def test_the_same_again_is_no_conflict_and_another_is(own: TestClient) -> None:
     assert own.post("/v1/robots", json={**new, "description": "other"}).status_code == 409
     assert own.post("/v1/robots", json={**new, "urdf": URDF + "\n"}).status_code == 409
     assert own.post("/v1/robots", json={**new, "name": "panda"}).status_code == 409
+    panda = own.get("/v1/robots/panda/urdf").text
+    assert own.post("/v1/robots", json={"name": "panda", "urdf": panda}).status_code == 200
 
 
 def test_the_catalogue_is_read_only(client: TestClient) -> None:
@@ -178,7 +180,8 @@ def test_a_zip_of_urdf_and_meshes(own: TestClient, top: str) -> None:
     assert created.status_code == 201, created.text
     assert not any("missing" in warning for warning in created.json()["warnings"])
     path = created.json()["meshes"][0]["path"]
-    assert own.get(f"/v1/robots/zipped/meshes/{path}").content == mesh
+    for name in (path, "arm_description/meshes/arm.stl"):
+        assert own.get(f"/v1/robots/zipped/meshes/{name}").content == mesh
     assert upload_zip(own, content).status_code == 200
     replaced = own.put("/v1/robots/zipped", files={"archive": ("robot.zip", zipped({"arm.urdf": URDF}))})
     assert replaced.status_code == 200, replaced.text
