@@ -5,6 +5,7 @@ Kernels and Pinocchio share nothing but the checked description. What differs by
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 import pinocchio as pin
@@ -14,6 +15,9 @@ from app.model.chain import Chain
 from app.model.errors import CertificationFailed
 from app.model.poses import Poses, pose_errors
 from app.model.robot import Robot
+
+View: TypeAlias = Literal["local_world_aligned", "local", "world", "zyz", "rpy"]
+"""What a Jacobian is expressed in: a reference frame, or rates of angles."""
 
 MAX_SAMPLES = 16
 """Configurations of a batch that are recomputed; all of a smaller one."""
@@ -80,7 +84,14 @@ def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Po
 
 
 def certify_jacobians(
-    robot: Robot, chain: Chain, qs: Array, Js: Array, hessians: Array | None = None, seed: int = 0
+    robot: Robot,
+    chain: Chain,
+    qs: Array,
+    Js: Array,
+    hessians: Array | None = None,
+    view: View = "local_world_aligned",
+    values: Array | None = None,
+    seed: int = 0,
 ) -> JacobianCertificate:
     """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q by way of J̇.
 
@@ -89,7 +100,9 @@ def certify_jacobians(
         chain: The chain.
         qs: Its configurations; shape (N, n).
         Js: Jacobians; shape (N, 6, n).
-        hessians: ∂J/∂q; shape (N, 6, n, n).
+        hessians: ∂J/∂q of these; shape (N, 6, n, n).
+        view: The reference frame, or the angles, of `values`.
+        values: The Jacobians as they are sent; shape (N, 6, n), `Js` themselves if left out.
         seed: Chooses the samples of a large batch, and the joint velocities for J̇.
 
     Raises:
@@ -100,8 +113,11 @@ def certify_jacobians(
     speeds = np.random.default_rng(seed).uniform(-1.0, 1.0, len(chain))
     worst, worst_rate = 0.0, 0.0
     for row in rows:
-        J, J_dot = _jacobian(robot, chain, qs[row], speeds, with_rate=hessians is not None)
+        T_base_tip, J, J_dot = _jacobian(robot, chain, qs[row], speeds, with_rate=hessians is not None)
         worst = max(worst, _demand("the Jacobian", _largest(J - Js[row]), _largest(J)))
+        if values is not None:
+            error = _view_error(view, T_base_tip, J, values[row])
+            worst = max(worst, _demand("the Jacobian", error, _largest(values[row])))
         if hessians is not None:
             error = _largest(J_dot - hessians[row] @ speeds)
             worst_rate = max(worst_rate, _demand("the Jacobian's derivative", error, _largest(J_dot)))
@@ -142,8 +158,28 @@ def _poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int
     return positions, rotations
 
 
-def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate: bool) -> tuple[Array, Array]:
-    """Pinocchio's geometric Jacobian of the chain and its time variation at given joint velocities, both (6, n).
+def _view_error(view: View, T_base_tip: pin.SE3, J: Array, value: Array) -> float:
+    """How far a Jacobian (6, n) in some view is from the geometric one, by Pinocchio's algebra of motions.
+
+    For angles the rates are turned back into an angular velocity: by Pinocchio for RPY, and for ZYZ by the three axes
+    they turn about, which are the base's z, the normal of both z axes, and the tip's z.
+    """
+    if view == "local":
+        return _largest(pin.SE3(T_base_tip.rotation, np.zeros(3)).toActionMatrixInverse() @ J - value)
+    if view == "world":
+        return _largest(pin.SE3(np.eye(3), T_base_tip.translation).toActionMatrix() @ J - value)
+    axes = np.eye(3)
+    if view == "rpy":
+        axes = pin.rpy.computeRpyJacobian(pin.rpy.matrixToRpy(T_base_tip.rotation), pin.LOCAL_WORLD_ALIGNED)
+    elif view == "zyz":
+        z, tip_z = np.array([0.0, 0.0, 1.0]), T_base_tip.rotation[:, 2]
+        normal = np.cross(z, tip_z)
+        axes = np.column_stack((z, normal / np.linalg.norm(normal), tip_z))
+    return _largest(np.vstack((value[:3], axes @ value[3:])) - J)
+
+
+def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate: bool) -> tuple[pin.SE3, Array, Array]:
+    """Pinocchio's T_base_tip, geometric Jacobian and its time variation at given joint velocities, both (6, n).
 
     Pinocchio gives both for each frame against the world. With r from base to tip, in the world's axes, the relative
     Jacobian is Rᵀ(J_tip - J_base - ω_base × r) in its linear rows and Rᵀ(J_tip - J_base) in the angular ones, R the
@@ -152,12 +188,13 @@ def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate:
     expansion = robot.expansion(chain)
     full_q, full_speeds = expansion.offset + expansion.matrix @ q, expansion.matrix @ speeds
     with robot.lock:
-        R, r, J_base, J_tip = _world_jacobians(robot, chain, full_q)
+        T_base, T_tip, J_base, J_tip = _world_jacobians(robot, chain, full_q)
         D_base, D_tip = _world_variations(robot, chain, full_q, full_speeds) if with_rate else (J_base, J_tip)
     # Of a robot with one joint Pinocchio gives a flat (6,).
     J_base, J_tip, D_base, D_tip = (
         columns.reshape(6, -1) @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip)
     )
+    R, r = T_base.rotation, T_tip.translation - T_base.translation
     J_world = J_tip - J_base
     J_world[:3] -= np.cross(J_base[3:], r, axis=0)
     r_dot = (J_tip[:3] - J_base[:3]) @ speeds
@@ -166,16 +203,17 @@ def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate:
     omega = J_base[3:] @ speeds
     D_world[:3] -= np.cross(omega, J_world[:3], axisa=0, axisb=0, axisc=0)
     D_world[3:] -= np.cross(omega, J_world[3:], axisa=0, axisb=0, axisc=0)
-    return np.vstack((R.T @ J_world[:3], R.T @ J_world[3:])), np.vstack((R.T @ D_world[:3], R.T @ D_world[3:]))
+    J, D = (np.vstack((R.T @ rows[:3], R.T @ rows[3:])) for rows in (J_world, D_world))
+    return T_base.actInv(T_tip), J, D
 
 
-def _world_jacobians(robot: Robot, chain: Chain, q: Array) -> tuple[Array, Array, Array, Array]:
-    """The base's rotation (3, 3), base → tip (3,), and both frames' Jacobians (6, nv), all in the world's axes."""
+def _world_jacobians(robot: Robot, chain: Chain, q: Array) -> tuple[pin.SE3, pin.SE3, Array, Array]:
+    """T_world_base, T_world_tip, and both frames' Jacobians in the world's axes, (6, nv) each."""
     pin.computeJointJacobians(robot.model, robot.data, q)
     frames = robot.frame_id(chain.base_frame), robot.frame_id(chain.tip_frame)
-    T_base, T_tip = (pin.updateFramePlacement(robot.model, robot.data, frame) for frame in frames)
+    T_base, T_tip = (pin.updateFramePlacement(robot.model, robot.data, frame).copy() for frame in frames)
     J_base, J_tip = (pin.getFrameJacobian(robot.model, robot.data, frame, pin.LOCAL_WORLD_ALIGNED) for frame in frames)
-    return T_base.rotation.copy(), T_tip.translation - T_base.translation, J_base, J_tip
+    return T_base, T_tip, J_base, J_tip
 
 
 def _world_variations(robot: Robot, chain: Chain, q: Array, speeds: Array) -> tuple[Array, Array]:

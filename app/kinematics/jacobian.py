@@ -75,15 +75,17 @@ def jacobians(
     """
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     Hs = chain_hessians(chain.flat, qs) if derivatives else None
-    certificate = certify_jacobians(robot, chain, qs, Js, Hs)
     poses = Poses(positions, rotations)
-    if representation != "geometric":
-        Js, Hs = _analytic(representation, poses, Js, Hs)
-    elif reference == "local":
-        Js, Hs = _in_tip_axes(poses, Js, Hs)
-    elif reference == "world":
-        Js, Hs = _at_base_origin(poses, Js, Hs)
-    return Jacobians(poses, Js, Hs, certificate)
+    view = reference if representation == "geometric" else representation
+    values, derivative = Js, Hs
+    if view in {"zyz", "rpy"}:
+        values, derivative = _analytic(representation, poses, Js, Hs)
+    elif view == "local":
+        values, derivative = _in_tip_axes(poses, Js, Hs)
+    elif view == "world":
+        values, derivative = _at_base_origin(poses, Js, Hs)
+    certificate = certify_jacobians(robot, chain, qs, Js, Hs, view, values)
+    return Jacobians(poses, values, derivative, certificate)
 
 
 def singular_values(Js: Array) -> Array:

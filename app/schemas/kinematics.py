@@ -120,11 +120,12 @@ class JacobianCertificateInfo(Answer):
 
     samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
     max_error: float = Field(
-        description="Largest difference of an entry of the geometric Jacobian, [m or rad] per [rad or m]."
+        description="Largest difference of an entry, of the geometric Jacobian and of the one that is sent, "
+        "[m or rad] per [rad or m]."
     )
     max_time_variation_error: float | None = Field(
-        description="Largest difference of an entry of dJ/dt at random joint velocities, where asked for, "
-        "[m or rad] per [rad or m] and second."
+        description="Largest difference of an entry of the geometric dJ/dt at random joint velocities, "
+        "[m or rad] per [rad or m] and second; null where no derivative was asked for."
     )
     seed: int = Field(description="Of the choice of samples.")
 

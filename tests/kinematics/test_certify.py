@@ -5,7 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from app.kinematics.certify import MAX_SAMPLES, TOLERANCE, certify_jacobians, certify_poses
+from app.kinematics.certify import MAX_SAMPLES, TOLERANCE, View, certify_jacobians, certify_poses
+from app.kinematics.jacobian import Reference, Representation, jacobians
 from app.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
 from app.model.arrays import Array
 from app.model.errors import CertificationFailed
@@ -18,6 +19,13 @@ ENDS = [
     ("baxter", "left_gripper", "right_gripper"),
     ("panda", "panda_rightfinger", "panda_link2"),
 ]
+VIEWS: dict[View, tuple[Reference, Representation]] = {
+    "local_world_aligned": ("local_world_aligned", "geometric"),
+    "local": ("local", "geometric"),
+    "world": ("world", "geometric"),
+    "zyz": ("local_world_aligned", "zyz"),
+    "rpy": ("local_world_aligned", "rpy"),
+}
 every_chain = pytest.mark.parametrize("ends", ENDS, ids=["arm", "across", "up from a follower"])
 
 
@@ -86,6 +94,26 @@ def test_a_wrong_jacobian_is_withheld(ends: tuple[str, str | None, str | None], 
             certify_jacobians(machine, chain, qs, tampered(Js, amount))
         else:
             certify_jacobians(machine, chain, qs, Js, tampered(Hs, amount))
+
+
+@every_chain
+@pytest.mark.parametrize("amount", [1e-6, np.nan])
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_wrong_view_of_a_right_jacobian_is_withheld(
+    ends: tuple[str, str | None, str | None], view: View, amount: float
+) -> None:
+    machine = robot(ends[0])
+    chain = machine.chain(*ends[1:])
+    qs = samples(chain, 10)
+    reference, representation = VIEWS[view]
+    Js = jacobians(machine, chain, qs).values
+    values = jacobians(machine, chain, qs, reference=reference, representation=representation).values
+    assert certify_jacobians(machine, chain, qs, Js, view=view, values=values).max_error < 1e-12
+    for row in (0, 5):
+        wrong = values.copy()
+        wrong[-1, row, -1] += amount
+        with pytest.raises(CertificationFailed, match="Jacobian"):
+            certify_jacobians(machine, chain, qs, Js, view=view, values=wrong)
 
 
 def test_a_large_batch_is_certified_by_samples() -> None:
