@@ -24,7 +24,7 @@ class Settings:
         root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
         max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
-        threads: Threads for batches and uploads in each worker process (`GELENK_THREADS`).
+        threads: Threads for batches in each worker process (`GELENK_THREADS`).
     """
 
     data_dir: Path = field(default_factory=lambda: user_data_path("gelenk", appauthor=False))

@@ -22,7 +22,8 @@ from app.schemas.common import Payload
 MAX_MEMBERS = 1_000_000
 """Members of objects in a body: each unknown one would be a validation error of its own."""
 
-MAX_PARAMETERS = 500
+MAX_PARAMETERS = 1000
+"""Parameters in a query: enough for the frames of the largest robot, one by one."""
 
 JSON = "application/json"
 NPY = "application/x-npy"
@@ -125,9 +126,13 @@ def read_query(model: type[_Model], query: QueryParams) -> _Model:
 
     Raises:
         InvalidPayload: It is not what the model asks for.
+        TooLarge: More than `MAX_PARAMETERS`.
     """
+    items = query.multi_items()
+    if len(items) > MAX_PARAMETERS:
+        raise TooLarge("parameters in the query", len(items), MAX_PARAMETERS)
     values: dict[str, Any] = {}
-    for key, value in query.multi_items()[:MAX_PARAMETERS]:
+    for key, value in items:
         if key in model.list_fields and value != "all":
             values.setdefault(key, []).append(value)
         else:

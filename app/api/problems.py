@@ -150,7 +150,6 @@ def _http(request: Request, error: Exception) -> Response:
     details = {
         HTTPStatus.NOT_FOUND: "there is nothing at this path; /docs lists what there is",
         HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not allowed here",
-        HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "the body is larger than the service takes",
     }
     detail = details.get(status, str(error.detail))
     kind = status.phrase.lower().replace(" ", "-").replace("'", "")

@@ -6,7 +6,6 @@ from concurrent.futures import Executor
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path, Response
-from pydantic import model_validator
 from starlette.background import BackgroundTask
 from starlette.datastructures import UploadFile
 from starlette.responses import StreamingResponse
@@ -18,20 +17,21 @@ from app.api.routes import DocumentedRoute, in_thread
 from app.model.chain import Chain
 from app.model.description import Joint
 from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
-from app.schemas.common import ChainEnds, FrameName, Payload, RobotName
+from app.schemas.common import ChainEnds
 from app.schemas.pose import Pose
 from app.schemas.robots import (
     EXAMPLE_DH,
+    ArchiveReplacement,
     JointInfo,
     LimitsInfo,
     MeshInfo,
     MimicInfo,
+    NewArchive,
     NewRobot,
     RobotInfo,
     RobotList,
     RobotReplacement,
     RobotSummary,
-    Text,
 )
 from app.store.archive import unpacked
 from app.store.library import Library, RobotUpload
@@ -50,32 +50,6 @@ _MESH_TYPES = {
     ".jpg": "image/jpeg",
     ".jpeg": "image/jpeg",
 }
-
-
-class ArchiveReplacement(Payload):
-    """The text fields that come with an archive."""
-
-    description: Text = ""
-    base_frame: FrameName | None = None
-    tip_frame: FrameName | None = None
-
-    @model_validator(mode="after")
-    def _both_ends(self) -> "ArchiveReplacement":
-        if (self.base_frame is None) != (self.tip_frame is None):
-            raise ValueError("`base_frame` and `tip_frame` of the default chain go together")
-        return self
-
-    def ends(self) -> ChainEnds | None:
-        """The default chain, where one is given."""
-        if self.base_frame is None or self.tip_frame is None:
-            return None
-        return ChainEnds(base_frame=self.base_frame, tip_frame=self.tip_frame)
-
-
-class NewArchive(ArchiveReplacement):
-    """The same with a name, for a robot to add."""
-
-    name: RobotName
 
 
 def robots_router(library: Library) -> APIRouter:
@@ -209,7 +183,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
                 200: {"model": RobotInfo, "description": "It was there"},
                 **problem_responses(400, 404, 409, 413, 415, 422, 503, 507),
             },
-            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(named=True)}}},
+            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(NewArchive)}}},
         ),
         DocumentedRoute(
             "/v1/robots/{robot}",
@@ -225,7 +199,7 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
                 "requestBody": {
                     "content": {
                         **json_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
-                        **_form(named=False),
+                        **_form(ArchiveReplacement),
                     }
                 }
             },
@@ -342,14 +316,13 @@ def _summary(library: Library, record: Record) -> RobotSummary | None:
     )
 
 
-def _form(*, named: bool) -> dict[str, Any]:
-    properties: dict[str, Any] = {
-        "archive": {"type": "string", "format": "binary", "description": "Zip of one URDF and its meshes."},
-        "description": {"type": "string"},
-        "base_frame": {"type": "string", "description": "Of the default chain, together with tip_frame."},
-        "tip_frame": {"type": "string"},
+def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
+    """A form with these fields and an archive, as a further content of a request."""
+    schema = fields.model_json_schema()
+    schema["properties"]["archive"] = {
+        "type": "string",
+        "format": "binary",
+        "description": "Zip of one URDF and its meshes.",
     }
-    if named:
-        properties = {"name": {"type": "string"}, **properties}
-    required = ["name", "archive"] if named else ["archive"]
-    return {MULTIPART: {"schema": {"type": "object", "required": required, "properties": properties}}}
+    schema["required"] = [*schema.get("required", []), "archive"]
+    return {MULTIPART: {"schema": schema}}

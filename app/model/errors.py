@@ -401,14 +401,14 @@ class ReadOnlyRobot(KinematicsError):
 
 @dataclass(eq=False)
 class StorageFailed(KinematicsError):
-    """Robots cannot be written to disk; nothing has changed."""
+    """A robot cannot be written to disk durably."""
 
     reason: str
 
     @property
     def detail(self) -> str:
         """What the system says."""
-        return f"the robot was not kept, and nothing has changed: {self.reason}"
+        return f"the disk does not take it, so that it is not safely kept: {self.reason}"
 
 
 class StorageFull(StorageFailed):

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from app.schemas.common import Answer, ChainEnds, Payload, RobotName
+from app.schemas.common import Answer, ChainEnds, FrameName, Payload, RobotName
 from app.schemas.dh import DhTablePayload
 from app.schemas.pose import Pose
 
@@ -52,6 +52,32 @@ class RobotReplacement(Payload):
 
 class NewRobot(RobotReplacement):
     """A robot to add, under a name."""
+
+    name: RobotName
+
+
+class ArchiveReplacement(Payload):
+    """The text fields that come with an archive."""
+
+    description: Text = ""
+    base_frame: FrameName | None = Field(None, description="Of the default chain, together with `tip_frame`.")
+    tip_frame: FrameName | None = Field(None, description="Of the default chain, together with `base_frame`.")
+
+    @model_validator(mode="after")
+    def _both_ends(self) -> "ArchiveReplacement":
+        if (self.base_frame is None) != (self.tip_frame is None):
+            raise ValueError("`base_frame` and `tip_frame` of the default chain go together")
+        return self
+
+    def ends(self) -> ChainEnds | None:
+        """The default chain, where one is given."""
+        if self.base_frame is None or self.tip_frame is None:
+            return None
+        return ChainEnds(base_frame=self.base_frame, tip_frame=self.tip_frame)
+
+
+class NewArchive(ArchiveReplacement):
+    """The same with a name, for a robot to add."""
 
     name: RobotName
 

@@ -11,7 +11,7 @@ import os
 import shutil
 import uuid
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from app.model.errors import StorageFailed, StorageFull
@@ -88,11 +88,12 @@ def remove_others(folder: Path, keep: set[str]) -> None:
 
 
 def _discard(path: Path) -> None:
-    """Remove a file, a link or a whole folder."""
+    """Remove a file, a link or a whole folder that nobody needs any more; what resists is left to the next sweep."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
-        path.unlink(missing_ok=True)
+        with suppress(OSError):
+            path.unlink()
 
 
 @contextmanager

@@ -36,7 +36,7 @@ from app.store.records import ROBOT_FILE, LoadedRobot, Record, describe, load, m
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _MEMORY = 512 * 1024 * 1024
 """Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
-_VERSION = "files-"
+_VERSION = re.compile(r"files-[0-9a-f]{12}")
 _MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
 _ATTEMPTS = 3
 """A folder may be replaced between the reading of its record and of its model."""
@@ -186,14 +186,15 @@ class Library:
             InvalidInput: It does not describe a robot.
             StorageFailed: It cannot be written.
         """
-        self._check_writable(upload.name)
+        folder = self._writable(upload.name)
         file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):
-            folder = self._uploads / upload.name
-            if not folder.is_dir():
-                raise self._unknown(upload.name)
+            self._writable(upload.name)
             folders.create_folder(folder, version, _contents(upload))
-            folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+            try:
+                folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+            finally:
+                self._remove_stale_versions(folder)
             folders.remove_others(folder, {ROBOT_FILE, version})
 
     def remove(self, name: str) -> None:
@@ -204,12 +205,9 @@ class Library:
             ReadOnlyRobot: It belongs to the catalogue.
             StorageFailed: It cannot be removed.
         """
-        self._check_writable(name)
-        if not (self._uploads / name).is_dir():
-            raise self._unknown(name)
+        self._writable(name)
         with folders.exclusive(self._uploads):
-            if not (self._uploads / name).is_dir():
-                raise self._unknown(name)
+            self._writable(name)
             folders.remove_folder(self._uploads, name)
         with self._lock:
             self._loaded.pop(name, None)
@@ -227,15 +225,19 @@ class Library:
             record = read_record(folder, "uploaded")
         except (KinematicsError, OSError):
             return
-        if record is not None and record.file.digest is not None:
-            stale = {path.name for path in folder.glob(_VERSION + "*")} - {record.model_path.parent.name}
-            folders.remove_others(folder, {path.name for path in folder.iterdir()} - stale)
+        if record is not None:
+            names = {path.name for path in folder.iterdir()}
+            stale = {name for name in names if _VERSION.fullmatch(name)} - {record.model_path.parent.name}
+            folders.remove_others(folder, names - stale)
 
-    def _check_writable(self, name: str) -> None:
+    def _writable(self, name: str) -> Path:
+        """The folder of an uploaded robot; asked before the lock, which makes the root, and again while holding it."""
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
-        if not _NAME.fullmatch(name):
+        folder = self._uploads / name
+        if not _NAME.fullmatch(name) or not folder.is_dir():
             raise self._unknown(name)
+        return folder
 
     def _record(self, name: str) -> Record:
         if name in self._catalogue:
@@ -271,7 +273,7 @@ def _robot_file(upload: RobotUpload) -> tuple[RobotFile, str]:
     ends = upload.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
     base_frame, tip_frame = robot.default_chain
-    version = f"{_VERSION}{uuid.uuid4().hex[:12]}"
+    version = f"files-{uuid.uuid4().hex[:12]}"
     file = RobotFile(
         description=upload.description,
         format=upload.format,

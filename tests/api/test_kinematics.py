@@ -186,7 +186,10 @@ def test_options_of_an_npy_call_are_those_of_json(client: TestClient) -> None:
     answer = client.post(f"/v1/robots/panda/jacobian?{query}", content=npy(qs), headers=headers)
     assert (answer.status_code, answer.json()["field"]) == (422, "joint_velocities")
     many = "&".join(f"key{i}=1" for i in range(3000))
-    assert client.post(f"/v1/robots/panda/fk?{many}", content=npy(qs), headers=headers).status_code == 422
+    assert client.post(f"/v1/robots/panda/fk?{many}", content=npy(qs), headers=headers).status_code == 413
+    repeated = "&".join(["frames=panda_link3"] * 600 + ["frames=panda_link4"])
+    answer = client.post(f"/v1/robots/panda/fk?{repeated}", content=npy(qs), headers=headers)
+    assert set(answer.json()["frames"][0]) == {"panda_link3", "panda_link4"}
     answer = client.post("/v1/robots/panda/fk?pose_format=rpy", json={"joint_positions": [READY]})
     assert (answer.status_code, answer.json()["field"]) == (422, "query")
 

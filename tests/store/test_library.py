@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from app.model.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, UnknownRobot
+from app.model.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, StorageFailed, UnknownRobot
 from app.store import folders
 from app.store.library import Library, RobotUpload
 
@@ -219,6 +219,24 @@ def test_a_stale_version_is_swept_and_notes_of_a_person_are_not(library: Library
     library.prepare()
     assert not (folder / "files-0123456789ab").exists()
     assert (folder / "notes.txt").exists()
+    assert height_of(library, "arm") == 1
+
+
+@pytest.mark.parametrize("by_hand", [True, False])
+def test_a_replacement_that_fails_at_its_last_step_leaves_the_old_robot_and_nothing_else(
+    library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, by_hand: bool
+) -> None:
+    folder = tmp_path / "robots" / "arm"
+    if by_hand:
+        folder.mkdir(parents=True)
+        (folder / "mine.urdf").write_bytes(one_joint(1))
+    else:
+        library.add(RobotUpload("arm", "urdf", one_joint(1)))
+    before = sorted(folder.rglob("*"))
+    monkeypatch.setattr("app.store.folders.Path.replace", refuse_to_write)
+    with pytest.raises(StorageFailed):
+        library.replace(RobotUpload("arm", "urdf", one_joint(2)))
+    assert sorted(folder.rglob("*")) == before
     assert height_of(library, "arm") == 1
 
 
