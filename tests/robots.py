@@ -61,7 +61,7 @@ def of_table(dh: DhTable) -> Robot:
 
 def samples(chain: Chain, count: int, seed: int = 0) -> Array:
     """Configurations of a chain: all the way round for turning joints, ±1 m for sliding ones; shape (count, n)."""
-    slides = {int(i) for i, prismatic in zip(chain.flat.variables, chain.flat.prismatic, strict=True) if prismatic}
+    slides = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     reach = np.array([1.0 if i in slides else np.pi for i in range(len(chain))])
     return np.random.default_rng(seed).uniform(-reach, reach, (count, len(chain)))
 

@@ -1,19 +1,23 @@
-"""Compiled batches over the flat arrays of a chain; one configuration a row, released from the GIL.
+"""Compiled batches over the flat arrays of a chain; eight configurations at a time, released from the GIL.
 
-Each function walks the chain once: constant placement, then the joint about or along local z. Nothing here knows
-Pinocchio, which makes the two honest judges of each other.
+Each function walks the chain once: constant placement, then the joint about or along local z. The eight configurations
+stand side by side in vector registers (`lanes`), whatever the number and the types of the joints; the last group of a
+batch repeats its last row. Nothing here knows Pinocchio, which makes the two honest judges of each other.
 """
 
-import math
 from typing import TypeAlias
 
 import numpy as np
 
-from app.model.arrays import Array, compiled
+from app.kinematics.lanes import LANES, Lanes, floor_lanes, lanes, load, rint_lanes, store, where
+from app.model.arrays import Array, compiled, inlined
 from app.model.chain import FlatChain
 
-_Frame: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float, float, float]
-"""A pose in registers: rotation row by row, then position."""
+Frame: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
+"""Poses in registers: rotation row by row, then position."""
+
+COLUMN = 6
+"""Rows of the work array that a joint's column takes."""
 
 
 @compiled
@@ -28,12 +32,16 @@ def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
         Positions, shape (N, 3), [m], and rotations, shape (N, 3, 3).
     """
     positions, rotations = np.empty((len(qs), 3)), np.empty((len(qs), 3, 3))
-    for row in range(len(qs)):
-        frame = _first(flat)
-        for i in range(len(flat.prismatic)):
-            value = flat.multipliers[i] * qs[row, flat.variables[i]] + flat.offsets[i]
-            frame = _placed(_moved(frame, flat.prismatic[i], value), flat, i + 1)
-        _store(frame, positions[row], rotations[row])
+    work, pose = np.empty(max(qs.shape[1], 1) * LANES), np.empty(12 * LANES)
+    for first in range(0, len(qs), LANES):
+        gather_rows(qs, first, work)
+        frame = first_frame(flat)
+        for i in range(len(flat.joints)):
+            value = flat.drives[i, 0] * load(work, flat.joints[i, 1]) + flat.drives[i, 1]
+            frame = placed(moved(frame, flat.joints[i, 0], value), flat, i + 1)
+        store_frame(frame, pose)
+        for lane in range(min(LANES, len(qs) - first)):
+            _scatter_pose(pose, lane, positions[first + lane], rotations[first + lane])
     return positions, rotations
 
 
@@ -48,16 +56,20 @@ def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
     Returns:
         Positions, shape (N, 3), [m]; rotations, shape (N, 3, 3); Jacobians, shape (N, 6, n), linear before angular.
     """
-    positions, rotations = np.empty((len(qs), 3)), np.empty((len(qs), 3, 3))
-    Js = np.empty((len(qs), 6, qs.shape[1]))
-    columns = np.empty((len(flat.prismatic), 6))
-    for row in range(len(qs)):
-        _store(_columns(flat, qs[row], columns), positions[row], rotations[row])
-        J = Js[row]
-        J[:] = 0.0
-        for i in range(len(columns)):
+    count, n = qs.shape
+    positions, rotations, Js = np.empty((count, 3)), np.empty((count, 3, 3)), np.empty((count, 6, n))
+    work, pose = np.empty(max(n, 1) * LANES), np.empty(12 * LANES)
+    columns, J = np.empty(COLUMN * len(flat.joints) * LANES), np.empty(COLUMN * n * LANES)
+    for first in range(0, count, LANES):
+        gather_rows(qs, first, work)
+        store_frame(joint_columns(flat, work, columns), pose)
+        variable_columns(flat, columns, J)
+        for lane in range(min(LANES, count - first)):
+            _scatter_pose(pose, lane, positions[first + lane], rotations[first + lane])
+            rows = Js[first + lane]
             for k in range(6):
-                J[k, flat.variables[i]] += flat.multipliers[i] * columns[i, k]
+                for i in range(n):
+                    rows[k, i] = J[(COLUMN * i + k) * LANES + lane]
     return positions, rotations, Js
 
 
@@ -75,64 +87,108 @@ def chain_hessians(flat: FlatChain, qs: Array) -> Array:
     Returns:
         H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n).
     """
-    count = qs.shape[1]
-    Hs = np.zeros((len(qs), 6, count, count))
-    columns = np.empty((len(flat.prismatic), 6))
-    for row in range(len(qs)):
-        _columns(flat, qs[row], columns)
-        H = Hs[row]
-        for i in range(len(columns)):
-            for j in range(len(columns)):
-                weight = flat.multipliers[i] * flat.multipliers[j]
-                a, b = flat.variables[i], flat.variables[j]
-                w, v = columns[min(i, j), 3:], columns[max(i, j), :3]
-                H[0, a, b] += weight * (w[1] * v[2] - w[2] * v[1])
-                H[1, a, b] += weight * (w[2] * v[0] - w[0] * v[2])
-                H[2, a, b] += weight * (w[0] * v[1] - w[1] * v[0])
-                if j < i:
-                    u = columns[i, 3:]
-                    H[3, a, b] += weight * (w[1] * u[2] - w[2] * u[1])
-                    H[4, a, b] += weight * (w[2] * u[0] - w[0] * u[2])
-                    H[5, a, b] += weight * (w[0] * u[1] - w[1] * u[0])
+    count, n = qs.shape
+    joints = len(flat.joints)
+    Hs = np.zeros((count, 6, n, n))
+    work, columns = np.empty(max(n, 1) * LANES), np.empty(COLUMN * joints * LANES)
+    for first in range(0, count, LANES):
+        gather_rows(qs, first, work)
+        joint_columns(flat, work, columns)
+        by_joint = columns.reshape((joints, COLUMN, LANES))
+        for lane in range(min(LANES, count - first)):
+            _add_hessian(flat, by_joint[:, :, lane], Hs[first + lane])
     return Hs
 
 
 @compiled
-def _columns(flat: FlatChain, q: Array, columns: Array) -> _Frame:
-    """The tip's frame at one configuration, and the Jacobian's column of each joint of the way, mimic ones apart.
+def _add_hessian(flat: FlatChain, columns: Array, H: Array) -> None:
+    """Sum the derivatives of each joint's column by each joint into those by the variables; columns (m, 6)."""
+    for i in range(len(columns)):
+        for j in range(len(columns)):
+            weight = flat.drives[i, 0] * flat.drives[j, 0]
+            a, b = flat.joints[i, 1], flat.joints[j, 1]
+            w, v = columns[min(i, j), 3:], columns[max(i, j), :3]
+            H[0, a, b] += weight * (w[1] * v[2] - w[2] * v[1])
+            H[1, a, b] += weight * (w[2] * v[0] - w[0] * v[2])
+            H[2, a, b] += weight * (w[0] * v[1] - w[1] * v[0])
+            if j < i:
+                u = columns[i, 3:]
+                H[3, a, b] += weight * (w[1] * u[2] - w[2] * u[1])
+                H[4, a, b] += weight * (w[2] * u[0] - w[0] * u[2])
+                H[5, a, b] += weight * (w[0] * u[1] - w[1] * u[0])
+
+
+@inlined
+def joint_columns(flat: FlatChain, work: Array, columns: Array) -> Frame:
+    """The tip's frame, and the Jacobian's column of each joint of the way, mimic ones apart.
 
     The column is (z_i × (p - o_i); z_i) of a revolute joint and (z_i; 0) of a prismatic one; z_i is the joint's
-    axis, o_i a point on it, p the tip. `columns` (m, 6) is filled.
+    axis, o_i a point on it, p the tip.
+
+    Args:
+        flat: The chain.
+        work: The variables, a row of lanes each.
+        columns: Filled, `COLUMN` rows of lanes a joint.
     """
-    frame = _first(flat)
-    for i in range(len(columns)):
+    frame = first_frame(flat)
+    for i in range(len(flat.joints)):
         # The point on the axis waits in the linear part until the tip is known.
-        columns[i, 0], columns[i, 1], columns[i, 2] = frame[9], frame[10], frame[11]
-        columns[i, 3], columns[i, 4], columns[i, 5] = frame[2], frame[5], frame[8]
-        value = flat.multipliers[i] * q[flat.variables[i]] + flat.offsets[i]
-        frame = _placed(_moved(frame, flat.prismatic[i], value), flat, i + 1)
-    for i in range(len(columns)):
-        z0, z1, z2 = columns[i, 3], columns[i, 4], columns[i, 5]
-        if flat.prismatic[i]:
-            columns[i, 0], columns[i, 1], columns[i, 2] = z0, z1, z2
-            columns[i, 3], columns[i, 4], columns[i, 5] = 0.0, 0.0, 0.0
+        for k in range(3):
+            store(columns, COLUMN * i + k, frame[9 + k])
+            store(columns, COLUMN * i + 3 + k, frame[2 + 3 * k])
+        value = flat.drives[i, 0] * load(work, flat.joints[i, 1]) + flat.drives[i, 1]
+        frame = placed(moved(frame, flat.joints[i, 0], value), flat, i + 1)
+    for i in range(len(flat.joints)):
+        row = COLUMN * i
+        z0, z1, z2 = load(columns, row + 3), load(columns, row + 4), load(columns, row + 5)
+        if flat.joints[i, 0]:
+            store(columns, row, z0)
+            store(columns, row + 1, z1)
+            store(columns, row + 2, z2)
+            for k in range(3):
+                store(columns, row + 3 + k, lanes(0.0))
         else:
-            d0, d1, d2 = frame[9] - columns[i, 0], frame[10] - columns[i, 1], frame[11] - columns[i, 2]
-            columns[i, 0] = z1 * d2 - z2 * d1
-            columns[i, 1] = z2 * d0 - z0 * d2
-            columns[i, 2] = z0 * d1 - z1 * d0
+            d0, d1, d2 = (
+                frame[9] - load(columns, row), frame[10] - load(columns, row + 1), frame[11] - load(columns, row + 2)
+            )  # fmt: skip
+            store(columns, row, z1 * d2 - z2 * d1)
+            store(columns, row + 1, z2 * d0 - z0 * d2)
+            store(columns, row + 2, z0 * d1 - z1 * d0)
     return frame
 
 
-@compiled
-def _first(flat: FlatChain) -> _Frame:
+@inlined
+def variable_columns(flat: FlatChain, columns: Array, J: Array) -> None:
+    """The columns of the joints summed into those of the variables that move them, `COLUMN` rows of lanes each."""
+    J[:] = 0.0
+    for i in range(len(flat.joints)):
+        row = COLUMN * flat.joints[i, 1]
+        for k in range(6):
+            store(J, row + k, load(J, row + k) + flat.drives[i, 0] * load(columns, COLUMN * i + k))
+
+
+@inlined
+def gather_rows(qs: Array, first: int, work: Array) -> None:
+    """The configurations from row `first` on, side by side: a row of lanes a variable."""
+    last = len(qs) - 1
+    for lane in range(LANES):
+        row = min(first + lane, last)
+        for i in range(qs.shape[1]):
+            work[i * LANES + lane] = qs[row, i]
+
+
+@inlined
+def first_frame(flat: FlatChain) -> Frame:
     """The placement before the first joint."""
-    R, p = flat.rotations[0], flat.translations[0]
-    return (R[0, 0], R[0, 1], R[0, 2], R[1, 0], R[1, 1], R[1, 2], R[2, 0], R[2, 1], R[2, 2], p[0], p[1], p[2])
+    A = flat.placements[0]
+    return (
+        lanes(A[0]), lanes(A[1]), lanes(A[2]), lanes(A[3]), lanes(A[4]), lanes(A[5]),
+        lanes(A[6]), lanes(A[7]), lanes(A[8]), lanes(A[9]), lanes(A[10]), lanes(A[11]),
+    )  # fmt: skip
 
 
-@compiled
-def _moved(frame: _Frame, prismatic: int, value: float) -> _Frame:
+@inlined
+def moved(frame: Frame, prismatic: int, value: Lanes) -> Frame:
     """A frame slid along its own z by `value` [m], or turned about it by `value` [rad]."""
     r00, r01, r02, r10, r11, r12, r20, r21, r22, p0, p1, p2 = frame
     if prismatic:
@@ -140,7 +196,7 @@ def _moved(frame: _Frame, prismatic: int, value: float) -> _Frame:
             r00, r01, r02, r10, r11, r12, r20, r21, r22,
             p0 + value * r02, p1 + value * r12, p2 + value * r22,
         )  # fmt: skip
-    c, s = math.cos(value), math.sin(value)
+    c, s = cosine_sine(value)
     return (
         c * r00 + s * r01, c * r01 - s * r00, r02,
         c * r10 + s * r11, c * r11 - s * r10, r12,
@@ -149,15 +205,13 @@ def _moved(frame: _Frame, prismatic: int, value: float) -> _Frame:
     )  # fmt: skip
 
 
-@compiled
-def _placed(frame: _Frame, flat: FlatChain, i: int) -> _Frame:
+@inlined
+def placed(frame: Frame, flat: FlatChain, i: int) -> Frame:
     """A frame followed by the constant placement i."""
     r00, r01, r02, r10, r11, r12, r20, r21, r22, p0, p1, p2 = frame
-    A, t = flat.rotations[i], flat.translations[i]
-    t0, t1, t2 = t[0], t[1], t[2]
-    a00, a01, a02 = A[0, 0], A[0, 1], A[0, 2]
-    a10, a11, a12 = A[1, 0], A[1, 1], A[1, 2]
-    a20, a21, a22 = A[2, 0], A[2, 1], A[2, 2]
+    A = flat.placements[i]
+    a00, a01, a02, a10, a11, a12, a20, a21, a22 = A[0], A[1], A[2], A[3], A[4], A[5], A[6], A[7], A[8]
+    t0, t1, t2 = A[9], A[10], A[11]
     return (
         r00 * a00 + r01 * a10 + r02 * a20, r00 * a01 + r01 * a11 + r02 * a21, r00 * a02 + r01 * a12 + r02 * a22,
         r10 * a00 + r11 * a10 + r12 * a20, r10 * a01 + r11 * a11 + r12 * a21, r10 * a02 + r11 * a12 + r12 * a22,
@@ -166,10 +220,45 @@ def _placed(frame: _Frame, flat: FlatChain, i: int) -> _Frame:
     )  # fmt: skip
 
 
-@compiled
-def _store(frame: _Frame, position: Array, rotation: Array) -> None:
-    """Write a frame into a row of the results."""
+_TURNS = 0.6366197723675814
+_QUARTER_1, _QUARTER_2, _QUARTER_3 = 1.5707962512969971, 7.549789415861596e-08, 5.390302858158119e-15
+"""π/2 in three parts, the first two short enough that their products with a whole number are exact [Cody1980]."""
+
+
+@inlined
+def cosine_sine(angle: Lanes) -> tuple[Lanes, Lanes]:
+    """Cosine and sine, within 2e-16 (and 1e-16 times the magnitude) up to 1e6 rad, by short polynomials on ±π/4.
+
+    The coefficients are those of Moshier's Cephes library.
+    """
+    quarters = rint_lanes(angle * _TURNS)
+    x = ((angle - quarters * _QUARTER_1) - quarters * _QUARTER_2) - quarters * _QUARTER_3
+    y = x * x
+    sine = x + x * y * (
+        ((((1.58962301576546568060e-10 * y - 2.50507477628578072866e-8) * y + 2.75573136213857245213e-6) * y
+           - 1.98412698295895385996e-4) * y + 8.33333333332211858878e-3) * y - 1.66666666666666307295e-1
+    )  # fmt: skip
+    cosine = 1.0 - 0.5 * y + y * y * (
+        ((((-1.13585365213876817300e-11 * y + 2.08757008419747316778e-9) * y - 2.75573141792967388112e-7) * y
+           + 2.48015872888517045348e-5) * y - 1.38888888888730564116e-3) * y + 4.16666666666665929218e-2
+    )  # fmt: skip
+    halves = floor_lanes(0.5 * quarters)
+    odd = quarters - 2.0 * halves > 0.5
+    sign = 1.0 - 2.0 * (halves - 2.0 * floor_lanes(0.5 * halves))
+    return sign * where(odd, -sine, cosine), sign * where(odd, cosine, sine)
+
+
+@inlined
+def store_frame(frame: Frame, rows: Array) -> None:
+    """A frame into twelve rows of lanes."""
+    for k in range(12):
+        store(rows, k, frame[k])
+
+
+@inlined
+def _scatter_pose(pose: Array, lane: int, position: Array, rotation: Array) -> None:
+    """One lane's frame as a row of the results."""
     for j in range(3):
-        position[j] = frame[9 + j]
+        position[j] = pose[(9 + j) * LANES + lane]
         for k in range(3):
-            rotation[j, k] = frame[3 * j + k]
+            rotation[j, k] = pose[(3 * j + k) * LANES + lane]

@@ -1,6 +1,8 @@
-"""Array types, and the one decorator for compiled functions."""
+"""Array types, and the decorators for compiled functions."""
 
+import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeAlias, TypeVar, cast
 
 import numba
@@ -9,8 +11,27 @@ import numpy.typing as npt
 
 Array: TypeAlias = npt.NDArray[np.float64]
 Indices: TypeAlias = npt.NDArray[np.int64]
+Flags: TypeAlias = npt.NDArray[np.bool_]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _core_digest() -> str:
+    """What tells one state of the core's sources from another."""
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parents[1].glob("[mk]*/**/*.py")):
+        digest.update(source.name.encode() + source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+# Numba renews what it has stored of a function when the function's own file changes, but not when one does from which
+# it took another function: so each state of the sources has a store of its own.
+_SETTINGS: Any = numba.config
+_STORE = Path(_SETTINGS.CACHE_DIR or Path(__file__).parents[1] / "__pycache__" / "kernels")
+_SETTINGS.CACHE_DIR = str(_STORE / _core_digest())
+
+_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+_UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
 
 
 def compiled(function: _Function) -> _Function:
@@ -19,4 +40,17 @@ def compiled(function: _Function) -> _Function:
     Division follows IEEE 754 as NumPy's does: the functions guard their own denominators. A product and a sum may
     be contracted to one rounding, nothing else is reordered.
     """
-    return cast(_Function, numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function))
+    return cast(_Function, numba.njit(**_OPTIONS)(function))
+
+
+def unmanaged(function: _Function) -> _Function:
+    """Compile what neither makes nor returns an array, and then need not count references to those it is given.
+
+    In a loop over many small functions the counting costs more than the arithmetic.
+    """
+    return cast(_Function, numba.njit(**_UNMANAGED)(function))
+
+
+def inlined(function: _Function) -> _Function:
+    """The same as a part of each function that calls it, so that numbers stay in registers between the two."""
+    return cast(_Function, numba.njit(**_UNMANAGED, forceinline=True)(function))

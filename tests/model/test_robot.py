@@ -71,7 +71,7 @@ def test_joints_stand_from_base_to_tip() -> None:
 
 def test_a_frame_seen_from_itself_does_not_move() -> None:
     chain = robot("panda").chain("panda_hand", "panda_hand")
-    assert (len(chain), chain.lower.shape, chain.flat.prismatic.shape) == (0, (0,), (0,))
+    assert (len(chain), chain.lower.shape, chain.flat.joints.shape) == (0, (0,), (0, 2))
 
 
 # Joints that follow others

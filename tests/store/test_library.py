@@ -30,7 +30,7 @@ def one_joint(height: float) -> bytes:
 
 
 def height_of(library: Library, name: str) -> float:
-    return float(library.get(name).robot.chain(None, None).flat.translations[0, 2])
+    return float(library.get(name).robot.chain(None, None).flat.placements[0, 11])
 
 
 @pytest.fixture

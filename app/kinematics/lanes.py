@@ -1,0 +1,247 @@
+"""Eight numbers side by side in one vector register, as a numba type of their own.
+
+A compiled function that is written for one number (`frame` products, polynomials, factorisations) works on `Lanes`
+as it stands: the operators are the machine's vector instructions. So one source serves one configuration and eight,
+for any number of joints, and nothing depends on whether a compiler recognises a loop. Where the processor has shorter
+registers LLVM splits the operations. `Lanes` live inside compiled functions only; a comparison gives a `Mask`.
+"""
+
+import operator
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from llvmlite import ir
+from numba.core import types
+from numba.core.imputils import lower_builtin, lower_cast
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import intrinsic, models, register_model
+
+Lanes: TypeAlias = Any
+"""Eight doubles; what it is to a reader of signatures, the compiler has a type of its own."""
+
+LANES = 8
+"""How many numbers a register holds: AVX-512's count."""
+
+_DOUBLES = ir.VectorType(ir.DoubleType(), LANES)
+_BOOLS = ir.VectorType(ir.IntType(1), LANES)
+
+
+class LanesType(types.Type):
+    """Eight doubles."""
+
+    def __init__(self) -> None:
+        super().__init__(name="Lanes")
+
+
+class MaskType(types.Type):
+    """Eight truth values."""
+
+    def __init__(self) -> None:
+        super().__init__(name="Mask")
+
+
+lanes_type, mask_type = LanesType(), MaskType()
+
+
+@register_model(LanesType)
+class _LanesModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, type_: LanesType) -> None:
+        super().__init__(manager, type_, _DOUBLES)
+
+
+@register_model(MaskType)
+class _MaskModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, type_: MaskType) -> None:
+        super().__init__(manager, type_, _BOOLS)
+
+
+def _compiled_call(emitter: Callable[..., Any]) -> Any:
+    """A function of compiled code, given by what types it takes and the instructions it stands for."""
+    return intrinsic(emitter)
+
+
+def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
+    """The same number in every lane."""
+    vector = builder.insert_element(ir.Constant(_DOUBLES, ir.Undefined), scalar, ir.Constant(ir.IntType(32), 0))
+    zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
+    return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)
+
+
+@lower_cast(types.Float, LanesType)
+@lower_cast(types.Integer, LanesType)
+def _cast_scalar(context: Any, builder: ir.IRBuilder, given: Any, _: Any, value: ir.Value) -> ir.Value:
+    return _splat(builder, context.cast(builder, value, given, types.float64))
+
+
+def _as_lanes(context: Any, builder: ir.IRBuilder, type_: Any, value: ir.Value) -> ir.Value:
+    return value if isinstance(type_, LanesType) else _cast_scalar(context, builder, type_, lanes_type, value)
+
+
+def _binary(function: Callable[..., Any], result: Any, emit: Callable[[ir.IRBuilder, Any, Any], Any]) -> None:
+    """An operator on lanes and lanes, or lanes and a number."""
+
+    class Template(AbstractTemplate):
+        key = function
+
+        def generic(self, args: Any, kws: Any) -> Any:
+            if kws or not any(isinstance(arg, LanesType) for arg in args):
+                return None
+            if all(isinstance(arg, (LanesType, types.Float, types.Integer)) for arg in args):
+                return signature(result, *args)
+            return None
+
+    infer_global(function)(Template)
+
+    def lower(context: Any, builder: ir.IRBuilder, sig: Any, args: Any) -> Any:
+        a, b = (_as_lanes(context, builder, type_, value) for type_, value in zip(sig.args, args, strict=True))
+        return emit(builder, a, b)
+
+    for pair in (
+        (LanesType, LanesType),
+        (LanesType, types.Float),
+        (types.Float, LanesType),
+        (LanesType, types.Integer),
+        (types.Integer, LanesType),
+    ):
+        lower_builtin(function, *pair)(lower)
+
+
+def _ordered(relation: str) -> Callable[[ir.IRBuilder, Any, Any], Any]:
+    return lambda builder, a, b: builder.fcmp_ordered(relation, a, b)
+
+
+_binary(operator.add, lanes_type, lambda builder, a, b: builder.fadd(a, b))
+_binary(operator.sub, lanes_type, lambda builder, a, b: builder.fsub(a, b))
+_binary(operator.mul, lanes_type, lambda builder, a, b: builder.fmul(a, b))
+_binary(operator.truediv, lanes_type, lambda builder, a, b: builder.fdiv(a, b))
+_binary(operator.lt, mask_type, _ordered("<"))
+_binary(operator.le, mask_type, _ordered("<="))
+_binary(operator.gt, mask_type, _ordered(">"))
+_binary(operator.ge, mask_type, _ordered(">="))
+
+
+@infer_global(operator.neg)
+class _Negation(AbstractTemplate):
+    def generic(self, args: Any, kws: Any) -> Any:
+        return signature(lanes_type, lanes_type) if args == (lanes_type,) and not kws else None
+
+
+@lower_builtin(operator.neg, LanesType)
+def _negate(_context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
+    return builder.fneg(args[0])
+
+
+def _mask_operator(function: Callable[..., Any], emit: Callable[[ir.IRBuilder, Any, Any], Any]) -> None:
+    class Template(AbstractTemplate):
+        key = function
+
+        def generic(self, args: Any, kws: Any) -> Any:
+            return signature(mask_type, *args) if args == (mask_type, mask_type) and not kws else None
+
+    infer_global(function)(Template)
+    lower_builtin(function, MaskType, MaskType)(lambda _context, builder, _sig, args: emit(builder, *args))
+
+
+_mask_operator(operator.and_, lambda builder, a, b: builder.and_(a, b))
+_mask_operator(operator.or_, lambda builder, a, b: builder.or_(a, b))
+
+
+def _call(builder: ir.IRBuilder, name: str, *values: ir.Value) -> ir.Value:
+    """An LLVM intrinsic on vectors."""
+    function_type = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
+    module = builder.module
+    full = f"llvm.{name}.v{LANES}f64"
+    function = module.globals.get(full) or ir.Function(module, function_type, full)
+    return builder.call(function, values)
+
+
+def _elementwise(name: str) -> Any:
+    @_compiled_call
+    def function(_typing: Any, x: Any) -> Any:
+        if x != lanes_type:
+            return None
+        return lanes_type(lanes_type), lambda _c, builder, _s, args: _call(builder, name, args[0])
+
+    return function
+
+
+sqrt_lanes, rint_lanes, floor_lanes, abs_lanes = (_elementwise(name) for name in ("sqrt", "rint", "floor", "fabs"))
+
+
+def _extreme(relation: str) -> Any:
+    @_compiled_call
+    def function(_typing: Any, a: Any, b: Any) -> Any:
+        def emit(context: Any, builder: ir.IRBuilder, sig: Any, args: Any) -> Any:
+            x, y = (_as_lanes(context, builder, type_, value) for type_, value in zip(sig.args, args, strict=True))
+            return builder.select(builder.fcmp_ordered(relation, x, y), x, y)
+
+        return lanes_type(a, b), emit
+
+    return function
+
+
+min_lanes, max_lanes = _extreme("<"), _extreme(">")
+"""Smaller and larger of two; the second where one is NaN."""
+
+
+@_compiled_call
+def lanes(_typing: Any, x: Any) -> Any:
+    """The same number in every lane."""
+    return lanes_type(types.float64), lambda _c, builder, _s, args: _splat(builder, args[0])
+
+
+def _address(context: Any, builder: ir.IRBuilder, array_type: Any, array: Any, index: ir.Value) -> ir.Value:
+    data = context.make_array(array_type)(context, builder, array).data
+    return builder.bitcast(builder.gep(data, [index]), _DOUBLES.as_pointer())
+
+
+def _is_flat(array: Any) -> bool:
+    return isinstance(array, types.Array) and array.ndim == 1 and array.layout == "C" and array.dtype == types.float64
+
+
+@_compiled_call
+def load(_typing: Any, array: Any, row: Any) -> Any:
+    """Lanes from row `row` of a flat work array, LANES numbers a row."""
+    if not _is_flat(array):
+        return None
+
+    def emit(context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
+        start = builder.mul(args[1], ir.Constant(ir.IntType(64), LANES))
+        return builder.load(_address(context, builder, array, args[0], start), align=8)
+
+    return lanes_type(array, types.int64), emit
+
+
+@_compiled_call
+def store(_typing: Any, array: Any, row: Any, value: Any) -> Any:
+    """Lanes into row `row` of a flat work array."""
+    if not _is_flat(array):
+        return None
+
+    def emit(context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
+        start = builder.mul(args[1], ir.Constant(ir.IntType(64), LANES))
+        builder.store(args[2], _address(context, builder, array, args[0], start), align=8)
+        return context.get_dummy_value()
+
+    return types.none(array, types.int64, lanes_type), emit
+
+
+@_compiled_call
+def where(_typing: Any, mask: Any, a: Any, b: Any) -> Any:
+    """`a` in the lanes where the mask holds, else `b`."""
+
+    def emit(context: Any, builder: ir.IRBuilder, sig: Any, args: Any) -> Any:
+        a_value, b_value = (_as_lanes(context, builder, sig.args[i], args[i]) for i in (1, 2))
+        return builder.select(args[0], a_value, b_value)
+
+    return lanes_type(mask_type, a, b), emit
+
+
+@_compiled_call
+def bits(_typing: Any, mask: Any) -> Any:
+    """A mask as an integer, lane 0 the lowest bit."""
+
+    def emit(_context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
+        return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), ir.IntType(64))
+
+    return types.int64(mask_type), emit
