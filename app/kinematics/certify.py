@@ -76,8 +76,8 @@ def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Po
     worst_distance, worst_angle = 0.0, 0.0
     for name, poses in frames.items():
         samples = poses if len(rows) == len(qs) else Poses(poses.positions[rows], poses.rotations[rows])
-        positions, rotations = _poses(robot, chain, name, qs, rows)
-        distance, angle, extent = pose_errors(samples.positions, samples.rotations, positions, rotations)
+        judge = pinocchio_poses(robot, chain, name, qs, rows)
+        distance, angle, extent = pose_errors(samples.positions, samples.rotations, judge.positions, judge.rotations)
         worst_distance = max(worst_distance, _demand("a position", distance, extent))
         worst_angle = max(worst_angle, _demand("an orientation", angle, 1.0))
     return Certificate(len(rows), worst_distance, worst_angle, seed)
@@ -143,19 +143,20 @@ def _demand(quantity: str, error: float, scale: float) -> float:
     return error
 
 
-def _poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> tuple[Array, Array]:
-    """Pinocchio's T_base_frame at some of the configurations; shapes (k, 3) and (k, 3, 3)."""
-    model, data = robot.model, robot.data
+def pinocchio_poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
+    """Pinocchio's T_base_frame at some of the configurations, by their numbers."""
+    model, data, lock = robot.model, robot.data, robot.lock
     expansion = robot.expansion(chain)
     base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
+    full_qs = expansion.offset + qs[rows] @ expansion.matrix.T
     positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
-    with robot.lock:
-        for k, row in enumerate(rows):
-            pin.forwardKinematics(model, data, expansion.offset + expansion.matrix @ qs[row])
+    for k, q in enumerate(full_qs):
+        with lock:
+            pin.forwardKinematics(model, data, q)
             T_world_base = pin.updateFramePlacement(model, data, base)
             T_base_frame = T_world_base.actInv(pin.updateFramePlacement(model, data, tip))
-            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
-    return positions, rotations
+        positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
+    return Poses(positions, rotations)
 
 
 def _view_error(view: View, T_base_tip: pin.SE3, J: Array, value: Array) -> float:

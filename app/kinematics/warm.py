@@ -4,10 +4,13 @@ import numpy as np
 
 from app.kinematics.configuration import configurations
 from app.kinematics.forward import forward_kinematics
+from app.kinematics.ik.search import mid_range, start_of
+from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.jacobian import jacobians
 from app.model.convert import describe_dh
 from app.model.dh import DhJoint, DhTable
 from app.model.poses import (
+    Poses,
     quaternions_xyzw_from_rotations,
     rotations_from_quaternions_xyzw,
     rotations_from_vectors,
@@ -26,6 +29,11 @@ def warm_up() -> None:
     forward_kinematics(robot, chain, qs)
     for representation in ("zyz", "rpy"):
         Rs = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses.rotations
+    targets = Poses(np.array([[0.4, 0.3, 0.2]]), np.ascontiguousarray(Rs))
+    for every in (False, True):
+        inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(every=every))
+    inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(trace=True, max_iterations=1))
+    start_of(chain, mid_range(chain), True, 0, 1)
     rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
     rotations_from_vectors(vectors_from_rotations(Rs))
     rotations_from_zyz(np.zeros((1, 3)))

@@ -4,4 +4,5 @@
 - `batch`: pose + Jacobian by the kernels against a Python loop over Pinocchio.
 - `volume`: large batches over HTTP, end to end, with the server's peak memory.
 - `start`: from `./dev serve` to ready.
+- `ik`: inverse kinematics against TRAC-IK and other solvers, arm by arm (`ik-few`: the same with few targets).
 """

@@ -1,0 +1,214 @@
+"""Every distinct solution of a target: starts spread over the joints, what they converge to sorted out."""
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from app.kinematics.ik import kernels
+from app.kinematics.ik.null_space import Objective, settle
+from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, make_goal
+from app.kinematics.ik.task import Task
+from app.model.arrays import Array, Flags, Indices, compiled
+from app.model.chain import Chain
+from app.model.poses import Poses
+
+STARTS = 2048
+"""Starts of one target, half of them without regard to the limits: what they find may still be within."""
+
+_SAME = 1e-4
+"""Distance in every joint up to which two solutions are one, [rad or m]."""
+_SPACING = 0.2
+"""The same where solutions form a continuum, of which a sample is given."""
+_TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Branches:
+    """Solutions of one target, nearest to the seed first.
+
+    Attributes:
+        qs: Shape (k, n), [rad or m].
+        complete: Whether these are all; False of a continuum, or where there are more than were asked for.
+    """
+
+    qs: Array
+    complete: bool
+
+
+def all_branches(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    *,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+    most: int,
+    windings: bool,
+) -> Branches:
+    """Every distinct solution, modulo full turns unless `windings` are wanted.
+
+    A redundant arm, and any arm at a singularity where a joint turns for nothing, has infinitely many: then the answer
+    is a sample of them, no two nearer than 0.2 rad or m in every joint, picked from the nearest to the seed outwards.
+
+    Args:
+        chain: Base and tip.
+        row: The target: rotation row by row, then position; shape (12,).
+        seed: What distances are measured from; shape (n,).
+        task: Which directions count.
+        tolerances: Of position [m] and orientation [rad].
+        respect_limits: Whether solutions are to be within the limits.
+        random_seed: Of the starts.
+        most: Largest number of solutions.
+        windings: Whether solutions that differ by full turns count as different, where limits allow them.
+    """
+    candidates = _converged(chain, row, seed, task, tolerances, respect_limits, random_seed)
+    order = np.argsort(_distances(candidates, seed), kind="stable")
+    candidates = candidates[order]
+    free = free_variables(chain)
+    redundant = len(chain) > len(task)
+    chosen = thin_out(candidates, free, _SAME, most + 1)
+    if redundant and len(candidates):
+        # Of infinitely many the nearest is none of those found, but close to the first.
+        target = Poses(row[None, 9:], row[:9].reshape(1, 3, 3))
+        nearest = settle(
+            chain, target, candidates[:1], Objective("posture", seed), task=task, respect_limits=respect_limits
+        )
+        candidates = np.concatenate((nearest, candidates))
+        chosen = thin_out(candidates, free, _SPACING, most + 1)
+    continuum = redundant or len(chosen) > most
+    if continuum and not redundant:
+        chosen = thin_out(candidates, free, _SPACING, most + 1)
+    qs = candidates[chosen[:most]]
+    complete = not continuum
+    if windings and len(qs):
+        qs, complete = _wound(chain, qs, seed, most, complete, respect_limits)
+    return Branches(qs, complete)
+
+
+def _converged(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+) -> Array:
+    """Where starts converge, within the limits and as near to the seed as full turns allow; shape (k, n)."""
+    found = []
+    for limited in {respect_limits, False}:
+        # Rounding apart, so that a double solution does not come as two; if it is beyond that, as near as asked for.
+        for tolerance in ((1e-10, 1e-10), tolerances):
+            goal = make_goal(
+                chain,
+                task,
+                min(tolerance[0], tolerances[0]),
+                min(tolerance[1], tolerances[1]),
+                limited,
+                STARTS // 2 * ITERATIONS_PER_START,
+                random_seed + limited,
+            )
+            qs = kernels.gather(chain.flat, goal, row, seed)
+            if len(qs):
+                found.append(qs)
+                break
+    if not found:
+        return np.empty((0, len(chain)))
+    qs = np.concatenate(found)
+    if not respect_limits:
+        return wound_near(chain, qs, seed, np.full(len(chain), -np.inf), np.full(len(chain), np.inf))
+    qs = wound_near(chain, qs, seed, chain.lower, chain.upper)
+    # A solution at a limit may miss it by rounding.
+    within = ((qs >= chain.lower - 1e-9) & (qs <= chain.upper + 1e-9)).all(axis=1)
+    return np.clip(qs[within], chain.lower, chain.upper)
+
+
+def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:
+    """Configurations with their free variables turned by full turns into the limits, as near to the seed as they allow.
+
+    What has no place within the limits is left as near to them as full turns bring it.
+    """
+    wound = qs.copy()
+    for j in np.flatnonzero(free_variables(chain)):
+        values = qs[:, j] + _TURN * np.rint((seed[j] - qs[:, j]) / _TURN)
+        if np.isfinite(upper[j]):
+            values -= _TURN * np.maximum(0.0, np.ceil((values - upper[j]) / _TURN - 1e-10))
+        if np.isfinite(lower[j]):
+            below = np.maximum(0.0, np.ceil((lower[j] - values) / _TURN - 1e-10))
+            raised = values + _TURN * below
+            # Where neither is within, the nearer of the two.
+            worse = (raised > upper[j] + 1e-9) & (raised - upper[j] > lower[j] - values)
+            values = np.where(worse, values, raised)
+        wound[:, j] = values
+    return wound
+
+
+def _distances(qs: Array, seed: Array) -> Array:
+    distances: Array = np.sqrt(np.square(qs - seed).sum(axis=1))
+    return distances
+
+
+@compiled
+def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
+    """Pick rows in order, each further than `spacing` in some variable from all before it; at most so many.
+
+    Args:
+        qs: Configurations; shape (N, n).
+        free: Which variables count modulo full turns; shape (n,).
+        spacing: [rad or m].
+        most: Bound on the number.
+
+    Returns:
+        Their indices; shape (k,).
+    """
+    chosen = np.empty(min(most, len(qs)), np.int64)
+    count = 0
+    for i in range(len(qs)):
+        if count == most:
+            break
+        distinct = True
+        for c in range(count):
+            largest = 0.0
+            for j in range(qs.shape[1]):
+                difference = qs[i, j] - qs[chosen[c], j]
+                if free[j]:
+                    difference -= 2.0 * np.pi * np.rint(difference / (2.0 * np.pi))
+                largest = max(largest, abs(difference))
+            if largest <= spacing:
+                distinct = False
+                break
+        if distinct:
+            chosen[count] = i
+            count += 1
+    return chosen[:count]
+
+
+def _wound(chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool) -> tuple[Array, bool]:
+    """Each solution in all the full turns that the limits allow, nearest to the seed first.
+
+    A joint without limits keeps the turn nearest to the seed.
+    """
+    free = free_variables(chain)
+    results: list[Array] = []
+    for q in qs:
+        choices = []
+        for j, value in enumerate(q):
+            bounded = respect_limits and free[j] and np.isfinite(chain.lower[j]) and np.isfinite(chain.upper[j])
+            if not bounded:
+                choices.append([value])
+                continue
+            first = int(np.ceil((chain.lower[j] - value) / _TURN - 1e-10))
+            last = int(np.floor((chain.upper[j] - value) / _TURN + 1e-10))
+            choices.append([value + _TURN * k for k in range(first, last + 1)])
+        total = int(np.prod([len(values) for values in choices]))
+        if total > 100_000:
+            choices, complete = [[value] for value in q], False
+        results.extend(np.array(list(product(*choices))))
+    table = np.array(results)
+    if respect_limits:
+        table = np.clip(table, chain.lower, chain.upper)
+    table = table[np.argsort(_distances(table, seed), kind="stable")]
+    return table[:most], complete and len(table) <= most

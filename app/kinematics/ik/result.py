@@ -1,0 +1,97 @@
+"""What inverse kinematics answers with."""
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from app.kinematics.ik.descent import Iterate, StopReason
+from app.model.arrays import Array, Indices
+
+Status: TypeAlias = Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"]
+
+
+@dataclass(frozen=True, slots=True)
+class BlockingJoint:
+    """A joint whose limit keeps a target from being reached.
+
+    Attributes:
+        name: Of the joint.
+        position: Where it would have to be, [rad or m].
+        lower: Its lower limit.
+        upper: Its upper limit.
+        excess: How far beyond the limit that is.
+    """
+
+    name: str
+    position: float
+    lower: float
+    upper: float
+    excess: float
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a target is not solved, and what comes nearest.
+
+    Attributes:
+        reason: In a sentence.
+        nearest: The configuration that comes nearest, within the limits where they count; shape (n,).
+        position_error: Its distance from the target, [m].
+        orientation_error: Its angle from the target, [rad].
+        blocking_joints: With `outside_limits`, the joints and by how much.
+        unserved_directions: Unit twists in the base's axes, linear before angular, that the tip cannot follow there;
+            shape (k, 6).
+    """
+
+    reason: str
+    nearest: Array
+    position_error: float
+    orientation_error: float
+    blocking_joints: tuple[BlockingJoint, ...] = ()
+    unserved_directions: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """How a single method got to where it stopped.
+
+    Attributes:
+        stop_reason: Why it went no further.
+        trace: Every configuration on the way, where it was asked for.
+    """
+
+    stop_reason: StopReason
+    trace: list[Iterate] | None
+
+
+@dataclass(frozen=True, slots=True)
+class InverseKinematics:
+    """Solutions of N targets, all of them in one table: those of target i are its rows firsts[i] to firsts[i + 1].
+
+    Attributes:
+        qs: Solutions; shape (M, n), [rad or m].
+        position_errors: Recomputed through Pinocchio; shape (M,), [m].
+        orientation_errors: Likewise; shape (M,), [rad].
+        iterations: Of the start that led there; shape (M,).
+        restarts: How many starts had failed before; shape (M,).
+        method: What found them.
+        firsts: Where each target's solutions begin; shape (N + 1,).
+        statuses: The verdict on each target; N.
+        failures: Of each unsolved target, by its number.
+        complete: Whether these are all solutions, of each target; None where one was asked for.
+        paths: Of each target, where a single method was followed or a trace was asked for.
+    """
+
+    qs: Array
+    position_errors: Array
+    orientation_errors: Array
+    iterations: Indices
+    restarts: Indices
+    method: str
+    firsts: Indices
+    statuses: list[Status]
+    failures: dict[int, Failure] = field(default_factory=dict)
+    complete: list[bool] | None = None
+    paths: list[Path] | None = None
+
+    def __len__(self) -> int:
+        return len(self.statuses)

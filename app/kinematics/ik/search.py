@@ -1,0 +1,215 @@
+"""Many starts of damped least squares for each target: the solver behind `auto`, without its verdicts.
+
+The answer is deterministic: it depends on the chain, the target, the seed and the random seed, not on the batch it
+comes in, nor on the number of threads.
+"""
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from app.kinematics.ik import kernels
+from app.kinematics.ik.kernels import SOME, Goal
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.model.arrays import Array, Flags, Indices
+from app.model.chain import Chain
+from app.model.poses import Poses
+
+MAX_ITERATIONS = 20_000
+"""Default budget for a target: of 78,000 targets on 39 arms the hardest needed an eighth of it."""
+ITERATIONS_PER_START = 20
+"""What a start costs on average, so that a budget in iterations becomes a number of starts."""
+
+_TURN = 2.0 * np.pi
+_PARALLEL = 512
+"""Targets from which on threads share a batch."""
+_CHUNK = 256
+"""Targets between two looks at the clock."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a search came to, one entry a target.
+
+    Attributes:
+        qs: The solution, within the limits and as near to the seed as full turns allow; of an unsolved target the
+            nearest that was found; shape (N, n), [rad or m].
+        solved: Whether the errors are within the tolerances; shape (N,).
+        restarts: How many starts failed before; shape (N,).
+        iterations: Of the start that converged; shape (N,).
+        in_time: Whether the target was tried before time ran out; shape (N,).
+    """
+
+    qs: Array
+    solved: Flags
+    restarts: Indices
+    iterations: Indices
+    in_time: Flags
+
+
+def search(
+    chain: Chain,
+    targets: Poses,
+    seeds: Array,
+    *,
+    task: Task = FULL_POSE,
+    position_tolerance: float = 1e-6,
+    orientation_tolerance: float = 1e-6,
+    respect_limits: bool = True,
+    max_iterations: int = MAX_ITERATIONS,
+    random_seed: int = 0,
+    deadline: float | None = None,
+    threads: int | None = None,
+) -> Found:
+    """Solve each target by the first of its starts that converges; start 0 is the seed, the others are random.
+
+    Args:
+        chain: Base and tip.
+        targets: T_base_tip wanted, N of them.
+        seeds: One configuration for all or one each, not necessarily within the limits; shape (1 or N, n).
+        task: Which directions count.
+        position_tolerance: [m].
+        orientation_tolerance: [rad].
+        respect_limits: Whether a solution is to be within the joint limits.
+        max_iterations: Budget for each target.
+        random_seed: Of the starts.
+        deadline: When to stop, on the clock of `time.monotonic`, [s].
+        threads: How many share a large batch; by default as many as there are processors.
+    """
+    goal = make_goal(
+        chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed
+    )
+    rows = target_rows(targets)
+    if len(rows) < _PARALLEL and deadline is None:
+        qs, winners, iterations = kernels.search(chain.flat, goal, rows, seeds)
+        return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, np.ones(len(rows), dtype=bool))
+    return _in_parts(chain, goal, rows, seeds, deadline, threads or os.cpu_count() or 1)
+
+
+def make_goal(
+    chain: Chain,
+    task: Task,
+    position_tolerance: float,
+    orientation_tolerance: float,
+    respect_limits: bool,
+    max_iterations: int,
+    random_seed: int,
+) -> Goal:
+    """What the kernels need to know, arguments as of `search`."""
+    return Goal(
+        search_bounds(chain, respect_limits),
+        task.weights,
+        task.kind,
+        task.axis,
+        position_tolerance,
+        # The kernels measure 2 sin(θ/2), of some components no less than 2/π of the angle.
+        orientation_tolerance * (2.0 / np.pi if task.kind == SOME else 1.0),
+        max(1, max_iterations // ITERATIONS_PER_START),
+        random_seed,
+    )
+
+
+def target_rows(targets: Poses) -> Array:
+    """Poses as the kernels take them: rotation row by row, then position; shape (N, 12)."""
+    rows = np.empty((len(targets), 12))
+    rows[:, :9] = targets.rotations.reshape(-1, 9)
+    rows[:, 9:] = targets.positions
+    return rows
+
+
+def start_of(chain: Chain, seed: Array, respect_limits: bool, random_seed: int, start: int) -> Array:
+    """The configuration from which a start sets out; shape (n,)."""
+    bounds = search_bounds(chain, respect_limits)
+    q: Array = np.array(seed, dtype=float)
+    if start > 0:
+        shares = np.array([kernels.uniform(random_seed, start, j) for j in range(len(chain))])
+        q = bounds[2] + shares * (bounds[3] - bounds[2])
+    np.clip(q, bounds[0], bounds[1], out=q)
+    return q
+
+
+@lru_cache(maxsize=256)
+def mid_range(chain: Chain) -> Array:
+    """The middle of the joint limits, 0 where a joint turns without end; shape (n,), [rad or m]."""
+    lower, upper = chain.lower, chain.upper
+    middle = np.zeros(len(chain))
+    bounded = np.isfinite(lower) & np.isfinite(upper)
+    middle[bounded] = 0.5 * (lower[bounded] + upper[bounded])
+    middle = np.where(np.isfinite(lower) & ~bounded, np.maximum(lower, 0.0), middle)
+    return np.where(np.isfinite(upper) & ~bounded, np.minimum(upper, 0.0), middle)
+
+
+@lru_cache(maxsize=256)
+def free_variables(chain: Chain) -> Flags:
+    """Which variables come to the same pose after a full turn: joints that turn, geared 1:1 or by whole numbers."""
+    free = np.ones(len(chain), dtype=bool)
+    for (prismatic, variable), (multiplier, _) in zip(chain.flat.joints, chain.flat.drives, strict=True):
+        if prismatic or multiplier != np.rint(multiplier):
+            free[variable] = False
+    return free
+
+
+@lru_cache(maxsize=256)
+def search_bounds(chain: Chain, respect_limits: bool) -> Array:
+    """See `Goal.bounds`.
+
+    A joint with a full turn or more between its limits turns freely, and is wound back at the end.
+    """
+    n = len(chain)
+    lower = chain.lower if respect_limits else np.full(n, -np.inf)
+    upper = chain.upper if respect_limits else np.full(n, np.inf)
+    free = free_variables(chain) & (upper - lower >= _TURN)
+    spread = np.array([np.pi if turns else _span(chain) for turns in free_variables(chain)])
+    middle = mid_range(chain)
+    bounds = np.empty((6, n))
+    bounds[0], bounds[1] = np.where(free, -np.inf, lower), np.where(free, np.inf, upper)
+    bounds[2] = np.where(free, -np.pi, np.where(np.isfinite(lower), lower, middle - spread))
+    bounds[3] = np.where(free, np.pi, np.where(np.isfinite(upper), upper, middle + spread))
+    bounds[4], bounds[5] = np.where(free, lower, np.nan), np.where(free, upper, np.nan)
+    return bounds
+
+
+def _span(chain: Chain) -> float:
+    """A length to draw unlimited sliding joints from: that of the chain's constant parts, at least a metre."""
+    return max(1.0, float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum()))
+
+
+def _in_parts(chain: Chain, goal: Goal, rows: Array, seeds: Array, deadline: float | None, threads: int) -> Found:
+    """A large batch, shared by threads and in pieces where time is limited."""
+    count, n = len(rows), len(chain)
+    qs, winners, iterations = np.zeros((count, n)), np.full(count, -1), np.zeros(count, dtype=np.int64)
+    in_time = np.zeros(count, dtype=bool)
+
+    def solve(part: slice) -> None:
+        if deadline is not None and time.monotonic() > deadline:
+            return
+        own = seeds[part] if len(seeds) > 1 else seeds
+        qs[part], winners[part], iterations[part] = kernels.search(chain.flat, goal, rows[part], own)
+        in_time[part] = True
+
+    _each(solve, _slices(count, threads, deadline is not None), threads)
+    return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, in_time)
+
+
+def _slices(count: int, threads: int, small: bool) -> Iterator[slice]:
+    """A batch in pieces: a few for each thread, or many small ones to look at the clock between them."""
+    size = _CHUNK if small else max(_CHUNK, -(-count // (4 * threads)))
+    return (slice(first, min(first + size, count)) for first in range(0, count, size))
+
+
+def _each(work: Callable[[slice], None], parts: Iterator[slice], threads: int) -> None:
+    if threads == 1:
+        for part in parts:
+            work(part)
+    else:
+        list(_pool(threads).map(work, parts))
+
+
+@lru_cache(maxsize=1)
+def _pool(threads: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(threads, thread_name_prefix="search")

@@ -1,0 +1,336 @@
+"""Inverse kinematics: solutions, each recomputed through Pinocchio, or a verdict why there is none."""
+
+import time
+from dataclasses import dataclass, replace
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from app.kinematics.certify import pinocchio_poses
+from app.kinematics.ik.branches import all_branches
+from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
+from app.kinematics.ik.null_space import Objective, settle
+from app.kinematics.ik.result import Failure, InverseKinematics, Path, Status
+from app.kinematics.ik.search import MAX_ITERATIONS, Found, search, start_of, target_rows
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.verdict import Question, explain, verdict_on_path
+from app.model.arrays import Array, Flags
+from app.model.chain import Chain
+from app.model.poses import Poses
+from app.model.robot import Robot
+
+Method: TypeAlias = Literal["auto"] | StepMethod
+
+_FAR_ITERATIONS = 320
+"""Budget for a target that is out of reach by distance: only the nearest configuration is wanted."""
+_WITHIN = 1e-9
+"""How far beyond a limit rounding may put a joint, [rad or m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How inverse kinematics are wanted.
+
+    Attributes:
+        task: Which directions of the pose count.
+        position_tolerance: [m].
+        orientation_tolerance: [rad].
+        respect_limits: Whether solutions are to be within the joint limits.
+        every: Whether all solutions are wanted.
+        most: Largest number of solutions of one target.
+        windings: Whether solutions that differ by full turns count as different.
+        method: `auto`, or one of the course's methods from the seed alone.
+        rule: How that steps.
+        max_iterations: Budget for a target; None for the method's default.
+        time_limit: For all targets, [s].
+        random_seed: Of the starts.
+        objective: What the freedom of a redundant arm is used for.
+        trace: Whether each iteration is to be told.
+    """
+
+    task: Task = FULL_POSE
+    position_tolerance: float = 1e-6
+    orientation_tolerance: float = 1e-6
+    respect_limits: bool = True
+    every: bool = False
+    most: int = 100
+    windings: bool = False
+    method: Method = "auto"
+    rule: Rule | None = None
+    max_iterations: int | None = None
+    time_limit: float | None = None
+    random_seed: int = 0
+    objective: Objective | None = None
+    trace: bool = False
+
+    @property
+    def tolerances(self) -> tuple[float, float]:
+        """Of position [m] and orientation [rad]."""
+        return self.position_tolerance, self.orientation_tolerance
+
+
+def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array, options: Options) -> InverseKinematics:
+    """Configurations that bring the tip to each target.
+
+    Args:
+        robot: The robot.
+        chain: Base and tip.
+        targets: T_base_tip wanted; N of them.
+        seeds: Where to start, and what solutions are to be near to; one for all or one each, shape (1 or N, n).
+        options: What counts and how.
+    """
+    deadline = None if options.time_limit is None else time.monotonic() + options.time_limit
+    question = Question(robot, chain, targets, seeds, options.task, options.tolerances, options.respect_limits)
+    if options.every:
+        return _every(question, options, deadline)
+    if options.method == "auto":
+        return _one(question, options, deadline)
+    return _followed(question, options, options.method, deadline)
+
+
+def _one(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
+    """One solution a target, by many starts."""
+    found, too_far = _searched(question, options, deadline)
+    if options.objective is not None and found.solved.any():
+        found = _settled(question, options.objective, found)
+    solved, position_errors, orientation_errors = judged(question, found.qs, found.solved)
+    paths = None
+    if options.trace:
+        paths = [_replayed(question, options, found, i) for i in range(len(solved))]
+    if solved.all():
+        return InverseKinematics(
+            found.qs,
+            position_errors,
+            orientation_errors,
+            found.iterations,
+            found.restarts,
+            "damped_least_squares",
+            np.arange(len(solved) + 1),
+            ["solved"] * len(solved),
+            paths=paths,
+        )
+    statuses: list[Status] = ["solved"] * len(solved)
+    failures: dict[int, Failure] = {}
+    for i in np.flatnonzero(~solved).tolist():
+        timed_out = not found.in_time[i] or (deadline is not None and time.monotonic() > deadline)
+        statuses[i], failures[i] = explain(
+            question,
+            i,
+            found.qs[i],
+            (float(position_errors[i]), float(orientation_errors[i])),
+            too_far=bool(too_far[i]),
+            budget=options.max_iterations or MAX_ITERATIONS,
+            timed_out=timed_out,
+            random_seed=options.random_seed,
+        )
+    return InverseKinematics(
+        found.qs[solved],
+        position_errors[solved],
+        orientation_errors[solved],
+        found.iterations[solved],
+        found.restarts[solved],
+        "damped_least_squares",
+        np.concatenate(([0], np.cumsum(solved))),
+        statuses,
+        failures,
+        paths=paths,
+    )
+
+
+def _searched(question: Question, options: Options, deadline: float | None) -> tuple[Found, Flags]:
+    """What a search finds, and which targets are beyond reach by distance alone."""
+    budget = options.max_iterations or MAX_ITERATIONS
+
+    def run(targets: Poses, seeds: Array, most: int) -> Found:
+        return search(
+            question.chain,
+            targets,
+            seeds,
+            task=options.task,
+            position_tolerance=options.position_tolerance,
+            orientation_tolerance=options.orientation_tolerance,
+            respect_limits=options.respect_limits,
+            max_iterations=most,
+            random_seed=options.random_seed,
+            deadline=deadline,
+        )
+
+    too_far = question.too_far()
+    if not too_far.any():
+        return run(question.targets, question.seeds, budget), too_far
+    found = run(*question.part(~too_far), budget)
+    nearest = run(*question.part(too_far), min(budget, _FAR_ITERATIONS))
+    return _merged(too_far, found, nearest), too_far
+
+
+def _merged(second: Flags, first_found: Found, second_found: Found) -> Found:
+    """Two searches in the order of their targets."""
+
+    def merge(a: Any, b: Any) -> Any:
+        merged = np.empty((len(second), *a.shape[1:]), a.dtype)
+        merged[~second], merged[second] = a, b
+        return merged
+
+    names = ("qs", "solved", "restarts", "iterations", "in_time")
+    return Found(**{name: merge(getattr(first_found, name), getattr(second_found, name)) for name in names})
+
+
+def judged(question: Question, qs: Array, claimed: Flags) -> tuple[Flags, Array, Array]:
+    """Which configurations solve their targets, recomputed through Pinocchio and within the limits; and the errors.
+
+    Args:
+        question: The targets, one a configuration.
+        qs: Shape (N, n).
+        claimed: Which of them are said to; shape (N,).
+
+    Returns:
+        Flags, shape (N,); distances [m] and angles [rad], shape (N,).
+    """
+    chain = question.chain
+    poses = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, range(len(qs)))
+    position_errors, orientation_errors = question.task.errors(question.targets, poses)
+    solved = claimed & (position_errors <= question.tolerances[0]) & (orientation_errors <= question.tolerances[1])
+    if question.respect_limits:
+        solved &= ((qs >= chain.lower - _WITHIN) & (qs <= chain.upper + _WITHIN)).all(axis=1)
+    return solved, position_errors, orientation_errors
+
+
+def _settled(question: Question, objective: Objective, found: Found) -> Found:
+    """The solutions moved along their self-motion; what an objective is no use for stays."""
+    rows = found.solved
+    if objective.name == "posture" and objective.posture is None:
+        objective = Objective("posture", question.seeds)
+    if objective.posture is not None and objective.posture.ndim == 2 and len(objective.posture) > 1:
+        objective = replace(objective, posture=objective.posture[rows])
+    qs = found.qs.copy()
+    targets, _ = question.part(rows)
+    qs[rows] = settle(
+        question.chain, targets, qs[rows], objective, task=question.task, respect_limits=question.respect_limits
+    )
+    return replace(found, qs=qs)
+
+
+def _every(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
+    """All solutions of each target; what has none is explained as for one."""
+    rows = target_rows(question.targets)
+    tables, complete, without = [], [], []
+    for i in range(len(question)):
+        if deadline is not None and time.monotonic() > deadline:
+            tables.append(np.empty((0, len(question.chain))))
+            complete.append(False)
+            without.append(i)
+            continue
+        branches = all_branches(
+            question.chain,
+            rows[i],
+            question.seed(i),
+            task=options.task,
+            tolerances=options.tolerances,
+            respect_limits=options.respect_limits,
+            random_seed=options.random_seed,
+            most=options.most,
+            windings=options.windings,
+        )
+        tables.append(branches.qs)
+        complete.append(branches.complete)
+        if len(branches.qs) == 0:
+            without.append(i)
+    counts = np.array([len(table) for table in tables], dtype=np.int64)
+    owners = np.repeat(np.arange(len(question)), counts)
+    qs = np.concatenate([*tables, np.empty((0, len(question.chain)))])
+    solved, position_errors, orientation_errors = judged(question.taken(owners), qs, np.ones(len(qs), dtype=bool))
+    kept = np.bincount(owners[solved], minlength=len(question))
+    statuses: list[Status] = ["solved"] * len(question)
+    failures: dict[int, Failure] = {}
+    missing = np.flatnonzero(kept == 0)
+    if len(missing):
+        single = _one(question.taken(missing), replace(options, every=False, trace=False), deadline)
+        for k, i in enumerate(missing.tolist()):
+            statuses[i] = single.statuses[k]
+            if k in single.failures:
+                failures[i] = single.failures[k]
+            else:
+                # The many starts of one found what those of all did not.
+                row = single.firsts[k]
+                qs = np.concatenate((qs, single.qs[row : row + 1]))
+                owners, solved = np.append(owners, i), np.append(solved, True)
+                position_errors = np.append(position_errors, single.position_errors[row])
+                orientation_errors = np.append(orientation_errors, single.orientation_errors[row])
+                complete[i] = False
+        order = np.argsort(owners, kind="stable")
+        qs, owners, solved = qs[order], owners[order], solved[order]
+        position_errors, orientation_errors = position_errors[order], orientation_errors[order]
+        kept = np.bincount(owners[solved], minlength=len(question))
+    zeros = np.zeros(int(kept.sum()), dtype=np.int64)
+    return InverseKinematics(
+        qs[solved],
+        position_errors[solved],
+        orientation_errors[solved],
+        zeros,
+        zeros,
+        "damped_least_squares",
+        np.concatenate(([0], np.cumsum(kept))),
+        statuses,
+        failures,
+        complete=complete,
+    )
+
+
+def _followed(question: Question, options: Options, method: StepMethod, deadline: float | None) -> InverseKinematics:
+    """One of the course's methods from each seed, and from no other start."""
+    rule = options.rule or Rule(method)
+    if options.max_iterations is not None:
+        rule = replace(rule, max_iterations=options.max_iterations)
+    descents: list[Descent | None] = []
+    for i in range(len(question)):
+        late = deadline is not None and time.monotonic() > deadline
+        descents.append(None if late else _descent(question, i, question.seed(i), rule))
+    ends = [question.seed(i) if d is None else d.joint_positions for i, d in enumerate(descents)]
+    qs = np.array(ends).reshape(len(question), len(question.chain))
+    wound = question.wound(qs)
+    claimed = np.array([d is not None and d.stop_reason == "converged" for d in descents], dtype=bool)
+    solved, position_errors, orientation_errors = judged(question, wound, claimed)
+    statuses: list[Status] = ["solved"] * len(question)
+    failures: dict[int, Failure] = {}
+    for i in np.flatnonzero(~solved).tolist():
+        statuses[i], failures[i] = verdict_on_path(
+            question, i, wound[i], (float(position_errors[i]), float(orientation_errors[i])), descents[i]
+        )
+    counts = np.array([0 if d is None else len(d.trace) - 1 for d in descents], dtype=np.int64)
+    paths = [
+        Path("iterations", None) if d is None else Path(d.stop_reason, d.trace if options.trace else None)
+        for d in descents
+    ]
+    return InverseKinematics(
+        wound[solved],
+        position_errors[solved],
+        orientation_errors[solved],
+        counts[solved],
+        np.zeros(int(solved.sum()), dtype=np.int64),
+        method,
+        np.concatenate(([0], np.cumsum(solved))),
+        statuses,
+        failures,
+        paths=paths,
+    )
+
+
+def _descent(question: Question, i: int, start: Array, rule: Rule) -> Descent:
+    return descend(
+        question.chain,
+        question.target(i),
+        start,
+        rule,
+        task=question.task,
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+    )
+
+
+def _replayed(question: Question, options: Options, found: Found, i: int) -> Path:
+    """The way of the start that converged, or of the seed, as damped least squares go it step by step."""
+    start = start_of(
+        question.chain, question.seed(i), options.respect_limits, options.random_seed, int(found.restarts[i])
+    )
+    descent = _descent(question, i, start, Rule("damped_least_squares"))
+    return Path(descent.stop_reason, descent.trace)

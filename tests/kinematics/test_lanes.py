@@ -1,0 +1,94 @@
+"""Eight numbers at a time: the same results as NumPy's, in the widest registers that the processor has."""
+
+import re
+from typing import Any
+
+import llvmlite.binding as llvm
+import numpy as np
+import pytest
+
+from app.kinematics import kernels
+from app.kinematics.ik import kernels as ik_kernels
+from app.kinematics.kernels import cosine_sine
+from app.kinematics.lanes import (
+    LANES,
+    abs_lanes,
+    bits,
+    floor_lanes,
+    lanes,
+    load,
+    max_lanes,
+    min_lanes,
+    rint_lanes,
+    sqrt_lanes,
+    store,
+    where,
+)
+from app.kinematics.warm import warm_up
+from app.model.arrays import Array, inlined, unmanaged
+
+EXPRESSIONS: dict[str, tuple[Any, Any]] = {
+    "sum": (lambda a, b: a + b, lambda a, b: a + b),
+    "difference": (lambda a, b: a - 2.5 * b, lambda a, b: a - 2.5 * b),
+    "quotient": (lambda a, b: (a * b) / (1.0 + b * b), lambda a, b: (a * b) / (1.0 + b * b)),
+    "negation": (lambda a, b: -a + 3 * b, lambda a, b: -a + 3 * b),
+    "root": (lambda a, b: sqrt_lanes(abs_lanes(a)) + b, lambda a, b: np.sqrt(np.abs(a)) + b),
+    "rounding": (lambda a, b: rint_lanes(a) + floor_lanes(b), lambda a, b: np.rint(a) + np.floor(b)),
+    "extremes": (
+        lambda a, b: min_lanes(a, b) - max_lanes(a, 0.25),
+        lambda a, b: np.minimum(a, b) - np.maximum(a, 0.25),
+    ),
+    "choice": (lambda a, b: where((a < b) & (b > 0.0), a, b), lambda a, b: np.where((a < b) & (b > 0.0), a, b)),
+    "either": (lambda a, b: where((a >= b) | (b <= 0.0), 1.0, b), lambda a, b: np.where((a >= b) | (b <= 0.0), 1.0, b)),
+    "broadcast": (lambda a, b: lanes(0.5) * a + b, lambda a, b: 0.5 * a + b),
+}
+
+
+@pytest.mark.parametrize("name", EXPRESSIONS)
+def test_the_operators_agree_with_numpy(name: str) -> None:
+    in_lanes, in_numpy = EXPRESSIONS[name]
+    compute = inlined(in_lanes)
+
+    @unmanaged
+    def run(numbers: Array, result: Array) -> None:
+        store(result, 0, compute(load(numbers, 0), load(numbers, 1)))
+
+    numbers, result = np.random.default_rng(3).uniform(-4.0, 4.0, 2 * LANES), np.empty(LANES)
+    run(numbers, result)
+    np.testing.assert_allclose(result, in_numpy(numbers[:LANES], numbers[LANES:]), rtol=1e-15, atol=1e-15)
+
+
+def test_a_mask_tells_its_lanes_as_bits() -> None:
+    @unmanaged
+    def negative(numbers: Array) -> int:
+        mask: int = bits(load(numbers, 0) < 0.0)
+        return mask
+
+    numbers = np.array([-1.0, 2.0, 3.0, -4.0, 5.0, 6.0, np.nan, -8.0])
+    assert negative(numbers) == 0b10001001
+
+
+@pytest.mark.parametrize("largest", [1.0, np.pi, 100.0, 1e4, 1e6])
+def test_cosine_and_sine_are_right_to_rounding(largest: float) -> None:
+    @unmanaged
+    def run(angles: Array, cosines: Array, sines: Array) -> None:
+        for row in range(len(angles) // LANES):
+            c, s = cosine_sine(load(angles, row))
+            store(cosines, row, c)
+            store(sines, row, s)
+
+    angles = np.random.default_rng(4).uniform(-largest, largest, 1000 * LANES)
+    angles[:17] = np.arange(-8, 9) * (np.pi / 4)
+    cosines, sines = np.empty_like(angles), np.empty_like(angles)
+    run(angles, cosines, sines)
+    np.testing.assert_allclose(cosines, np.cos(angles), rtol=0.0, atol=2.3e-16)
+    np.testing.assert_allclose(sines, np.sin(angles), rtol=0.0, atol=2.3e-16)
+
+
+def test_vectors_stay_vectors_and_references_are_not_counted() -> None:
+    warm_up()
+    register = "zmm" if "avx512f" in llvm.get_host_cpu_features() and llvm.get_host_cpu_features()["avx512f"] else "mm"
+    for kernel in (kernels.chain_poses, kernels.chain_jacobians, ik_kernels._search):
+        dispatcher: Any = kernel
+        (assembly,) = dispatcher.inspect_asm().values()
+        assert len(re.findall(rf"vf[n]?m\w+pd.*{register}", assembly)) > 50
