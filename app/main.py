@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
+from app.api.inverse import inverse_operation
 from app.api.kinematics import kinematics_operations
 from app.api.robots import robots_router, upload_routes
 from app.api.routes import Application
@@ -64,7 +65,8 @@ def create_app(settings: Settings) -> FastAPI:
     problems.install(app)
     app.include_router(robots_router(library))
     app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
-    for operation in kinematics_operations(settings.max_answer_numbers):
+    most = settings.max_answer_numbers
+    for operation in (*kinematics_operations(most), inverse_operation(most)):
         handler = operation.computation.handler(library, executor)
         app.operations[operation.name] = handler
         app.router.routes.append(operation.route(handler, settings.max_body_bytes))

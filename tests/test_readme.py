@@ -80,7 +80,9 @@ def same(one: Any, other: Any) -> bool:
 
 
 def test_the_limits_are_those_of_the_code() -> None:
+    from app.kinematics.ik import branches, search
     from app.model import dh, tree, urdf, xml
+    from app.schemas import ik
     from app.settings import Settings
     from app.store import archive
 
@@ -93,5 +95,9 @@ def test_the_limits_are_those_of_the_code() -> None:
     assert limits in README
     assert f"| {dh.MAX_JOINTS} joints" in README
     assert f"{archive.MAX_ENTRIES:,} entries, {archive.MAX_UNPACKED // 2**20} MiB unpacked" in README
+    assert f"targets in one call | {ik.MAX_TARGETS:,} |" in README
+    assert f"with `trace` | {ik.MAX_STEPWISE:,} |" in README
+    assert f"the budget of {search.MAX_ITERATIONS:,} iterations" in README
+    assert f"where {branches.STARTS:,} starts converge" in README
     count = len(list(Path("robots").glob("*/robot.json")))
     assert f"({count} robots come with the service" in README

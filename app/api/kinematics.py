@@ -27,6 +27,7 @@ _QUICK_POSES = 100
 _QUICK_JACOBIANS = 10
 """Configurations that take the event loop less than about a millisecond; more go to a thread."""
 
+_NPY_BODY = "`joint_positions` as an array of shape (N, n); the other fields go in the query string."
 _PANDA_READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 
 
@@ -54,8 +55,8 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
             answer["certificate"] = result.certificate
             return answer
 
-        array = None if call.frames is not None else lambda: pose_array(result.poses, call.pose_format)
-        return Outcome(content, array)
+        fits = call.frames is None
+        return Outcome(content, (lambda: (pose_array(result.poses, call.pose_format), {})) if fits else None)
 
     def jacobian(loaded: LoadedRobot, call: JacobianRequest) -> Outcome:
         """Jacobian of the tip at each configuration, with rank, singular values and condition number.
@@ -79,7 +80,7 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
         )
         return Outcome(
             lambda: _jacobian_content(chain, call, result, velocities),
-            None if call.derivatives else lambda: result.values,
+            None if call.derivatives else lambda: (result.values, {}),
         )
 
     return [
@@ -95,6 +96,7 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
                 is_heavy=lambda call: call.frames is not None or len(call.joint_positions) > _QUICK_POSES,
             ),
             answer=ForwardAnswer,
+            npy_body=_NPY_BODY,
             npy_answer="Poses as one array: (N, 7) position and quaternion, (N, 6) with a triple of angles, "
             "(N, 4, 4) matrices.",
             example={"joint_positions": [_PANDA_READY], "tip_frame": "panda_link8", "pose_format": "rpy"},
@@ -111,6 +113,7 @@ def kinematics_operations(max_answer_numbers: int) -> list[Operation]:
                 is_heavy=lambda call: bool(call.derivatives) or len(call.joint_positions) > _QUICK_JACOBIANS,
             ),
             answer=JacobianAnswer,
+            npy_body=_NPY_BODY,
             npy_answer="Jacobians as one array of shape (N, 6, n).",
             example={"joint_positions": [_PANDA_READY], "reference": "local_world_aligned"},
         ),

@@ -100,11 +100,11 @@ def json_response(content: Any, status: int = 200, headers: dict[str, str] | Non
     return Response(body, status, headers, JSON)
 
 
-def npy_response(array: Array) -> Response:
+def npy_response(array: Array, headers: dict[str, str]) -> Response:
     """An array as npy."""
     buffer = BytesIO()
     np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
-    return Response(buffer.getvalue(), media_type=NPY)
+    return Response(buffer.getvalue(), headers=headers, media_type=NPY)
 
 
 def read_json(model: type[_Model], body: bytes) -> _Model:
@@ -162,6 +162,8 @@ def read_npy(body: bytes) -> Array:
         raise InvalidArray("the body is not an npy array of version 1 or 2") from error
     if dtype.kind not in "fiu" or dtype.itemsize > 8 or dtype.hasobject:
         raise InvalidArray(f"the array holds {dtype.str}; allowed are integers and floats of up to 64 bits")
+    if not shape:
+        raise InvalidArray("the array is a single number; its first dimension counts the entries")
     if len(shape) > 4 or not all(0 <= size <= len(body) for size in shape):
         raise InvalidArray("the array's shape does not go with the bytes of the body")
     count = math.prod(shape)

@@ -191,8 +191,10 @@ def _place(error: errors.KinematicsError) -> str | None:
             return "#/dh"
         case errors.InvalidDhTable(joint=joint, parameter=parameter):
             return f"#/dh/joints/{joint}" + (f"/{parameter}" if parameter else "")
-    index = getattr(error, "index", None)
-    return None if index is None else f"#/joint_positions/{index}"
+    index, field = getattr(error, "index", None), getattr(error, "field", "joint_positions")
+    if field is None or not hasattr(error, "index"):
+        return None
+    return f"#/{field}" if index is None else f"#/{field}/{index}"
 
 
 def _pointer(location: Sequence[int | str]) -> str:

@@ -115,11 +115,12 @@ class Outcome:
 
     Attributes:
         content: For JSON.
-        array: For npy; None where the call asked for something that one array cannot hold.
+        array: For npy, with headers that say what the array cannot; None where the call asked for something that one
+            array cannot hold.
     """
 
     content: Callable[[], Any]
-    array: Callable[[], Array] | None
+    array: Callable[[], tuple[Array, dict[str, str]]] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +133,7 @@ class Computation(Generic[_Request]):
         options: The same without the array that an npy body brings.
         array_field: The field that such an array stands for.
         is_heavy: Whether a request of few bytes can still be much work.
+        attempt: The operation where it is quick; None when called if it is not.
     """
 
     run: Callable[[LoadedRobot, _Request], Outcome]
@@ -139,6 +141,7 @@ class Computation(Generic[_Request]):
     options: type[Payload]
     array_field: str
     is_heavy: Callable[[_Request], bool]
+    attempt: Callable[[LoadedRobot, _Request], Outcome | None] | None = None
 
     def handler(self, library: Library, executor: Executor) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
@@ -157,7 +160,10 @@ class Computation(Generic[_Request]):
             loaded = library.loaded(name)
             if loaded is None or self.is_heavy(call):
                 return await in_thread(executor, lambda: compute(library.get(name), call))
-            return compute(loaded, call)
+            outcome = (self.attempt or self.run)(loaded, call)
+            if outcome is None:
+                return await in_thread(executor, lambda: compute(loaded, call))
+            return _response(outcome, npy_out)
 
         return handle
 
@@ -181,6 +187,7 @@ class Operation:
         summary: In a few words.
         computation: What it does; its docstring is the description.
         answer: Model of the JSON answer.
+        npy_body: What an npy body holds.
         npy_answer: What the npy answer holds.
         example: A JSON request that runs as it stands, on the Panda.
     """
@@ -190,6 +197,7 @@ class Operation:
     summary: str
     computation: Computation[Any]
     answer: type[Answer]
+    npy_body: str
     npy_answer: str
     example: dict[str, Any]
 
@@ -199,9 +207,6 @@ class Operation:
         def endpoint(robot: str, call: Any) -> Any: ...
 
         endpoint.__annotations__ = {"robot": RobotPath, "call": self.computation.request, "return": self.answer}
-        array = (
-            f"`{self.computation.array_field}` as an array of shape (N, n); the other fields go in the query string."
-        )
         return DocumentedRoute(
             f"/v1/robots/{{robot}}/{self.name}",
             endpoint,
@@ -213,7 +218,7 @@ class Operation:
             description=inspect.getdoc(self.computation.run),
             tags=["Kinematics"],
             responses={200: {"content": npy_content(self.npy_answer)}, **problem_responses(400, 404, 413, 415, 422)},
-            openapi_extra={"requestBody": {"content": {**json_example(self.example), **npy_content(array)}}},
+            openapi_extra={"requestBody": {"content": {**json_example(self.example), **npy_content(self.npy_body)}}},
         )
 
 
@@ -229,4 +234,4 @@ def _response(outcome: Outcome, npy: bool) -> Response:
         return json_response(outcome.content())
     if outcome.array is None:
         raise InvalidArray("what this call asks for does not fit into one array: leave `Accept` out for JSON")
-    return npy_response(outcome.array())
+    return npy_response(*outcome.array())

@@ -1,5 +1,6 @@
 """About the service itself: whether it lives, and whether it is ready."""
 
+import gc
 import threading
 from http import HTTPStatus
 
@@ -33,6 +34,9 @@ class Readiness:
     def _prepare(self) -> None:
         try:
             warm_up()
+            # What stands now stays: the collector of garbage need not look through it again and again.
+            gc.collect()
+            gc.freeze()
             self.waiting_for.remove("kernels")
         except Exception as error:
             self.failure = f"{type(error).__name__}: {error}"

@@ -148,14 +148,15 @@ def pinocchio_poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Seq
     model, data, lock = robot.model, robot.data, robot.lock
     expansion = robot.expansion(chain)
     base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
-    full_qs = expansion.offset + qs[rows] @ expansion.matrix.T
+    full_qs = expansion.offset + (qs if len(rows) == len(qs) else qs[rows]) @ expansion.matrix.T
     positions, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 3, 3))
     for k, q in enumerate(full_qs):
         with lock:
             pin.forwardKinematics(model, data, q)
-            T_world_base = pin.updateFramePlacement(model, data, base)
-            T_base_frame = T_world_base.actInv(pin.updateFramePlacement(model, data, tip))
-        positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
+            T_base_frame = pin.updateFramePlacement(model, data, tip)
+            if chain.base_frame != robot.description.root:
+                T_base_frame = pin.updateFramePlacement(model, data, base).actInv(T_base_frame)
+            positions[k], rotations[k] = T_base_frame.translation, T_base_frame.rotation
     return Poses(positions, rotations)
 
 

@@ -1,6 +1,7 @@
 """Configurations as callers give them, by order or by name → one array in the chain's order, checked."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -40,11 +41,19 @@ def configurations(chain: Chain, values: Sequence[Configuration] | Array, field:
     """
     if isinstance(values, np.ndarray):
         return checked_rows(chain, values, field)
-    rows = [_by_name(chain, i, value) if isinstance(value, Mapping) else value for i, value in enumerate(values)]
+    rows = [_by_name(chain, i, value, field) if isinstance(value, Mapping) else value for i, value in enumerate(values)]
     for i, row in enumerate(rows):
         if len(row) != len(chain):
-            raise WrongJointCount(len(row), chain.joint_names, i)
+            raise WrongJointCount(len(row), chain.joint_names, i, field)
     return checked_rows(chain, np.array(rows, dtype=float).reshape(len(rows), len(chain)), field)
+
+
+def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
+    """A configuration that stands alone; shape (1, n). Raises as `configurations` does."""
+    try:
+        return configurations(chain, [value], field)
+    except (WrongJointCount, MissingJoint, UnknownJoint) as error:
+        raise replace(error, index=None) from None
 
 
 def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
@@ -58,7 +67,7 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
     if rows.ndim != 2:
         raise InvalidArray(f"{field} form an array of shape (N, {len(chain)}); this one has {rows.ndim} dimensions")
     if rows.shape[1] != len(chain):
-        raise WrongJointCount(rows.shape[1], chain.joint_names)
+        raise WrongJointCount(rows.shape[1], chain.joint_names, None, field)
     if not _within(rows, MAX_MAGNITUDE):
         row, column = np.argwhere(~(np.abs(rows) <= MAX_MAGNITUDE))[0]
         name = quoted(chain.joint_names[column])
@@ -96,11 +105,11 @@ def check_limits(chain: Chain, qs: Array) -> None:
         )
 
 
-def _by_name(chain: Chain, index: int, value: Mapping[str, float]) -> list[float]:
+def _by_name(chain: Chain, index: int, value: Mapping[str, float], field: str) -> list[float]:
     for name in value:
         if name not in chain.robot_joints:
-            raise UnknownJoint(name, chain.joint_names, index)
+            raise UnknownJoint(name, chain.joint_names, index, field)
     for name in chain.joint_names:
         if name not in value:
-            raise MissingJoint(name, chain.joint_names, index)
+            raise MissingJoint(name, chain.joint_names, index, field)
     return [value[name] for name in chain.joint_names]

@@ -110,11 +110,16 @@ class InvalidPose(InvalidInput):
 
     reason: str
     distance: float | None = None
+    field: str | None = None
+    index: int | None = None
 
     @property
     def detail(self) -> str:
-        """The reason, with the distance where one was measured."""
-        return self.reason if self.distance is None else f"{self.reason} (distance {self.distance:.3g})"
+        """Which pose, the reason, and the distance where one was measured."""
+        where = "" if self.field is None else f"{quoted(self.field)}: "
+        if self.index is not None:
+            where += f"entry {self.index}: "
+        return where + (self.reason if self.distance is None else f"{self.reason} (distance {self.distance:.3g})")
 
 
 @dataclass(eq=False)
@@ -187,6 +192,10 @@ class InvalidArray(InvalidInput):
         return self.reason
 
 
+def _configuration(index: int | None) -> str:
+    return "a configuration" if index is None else f"configuration {index}"
+
+
 @dataclass(eq=False)
 class WrongJointCount(InvalidInput):
     """A configuration has not one number a joint of the chain."""
@@ -194,11 +203,12 @@ class WrongJointCount(InvalidInput):
     given: int
     expected: tuple[str, ...]
     index: int | None = None
+    field: str = "joint_positions"
 
     @property
     def detail(self) -> str:
         """Both counts, and the names in order."""
-        which = "a configuration" if self.index is None else f"configuration {self.index}"
+        which = _configuration(self.index)
         return (
             f"{which} has {self.given} numbers where the chain has {len(self.expected)} joints, "
             f"in this order: {listed(self.expected)}"
@@ -211,12 +221,13 @@ class MissingJoint(InvalidInput):
 
     joint: str
     expected: tuple[str, ...]
-    index: int
+    index: int | None
+    field: str = "joint_positions"
 
     @property
     def detail(self) -> str:
         """The joint that is missing."""
-        return f"configuration {self.index} gives no value for joint {quoted(self.joint)} of the chain"
+        return f"{_configuration(self.index)} gives no value for joint {quoted(self.joint)} of the chain"
 
 
 @dataclass(eq=False)
@@ -225,13 +236,14 @@ class UnknownJoint(InvalidInput):
 
     joint: str
     expected: tuple[str, ...]
-    index: int
+    index: int | None
+    field: str = "joint_positions"
 
     @property
     def detail(self) -> str:
         """The joint, and those that are allowed."""
         return (
-            f"configuration {self.index} gives a value for {quoted(self.joint)}, which is no joint of the robot; "
+            f"{_configuration(self.index)} gives a value for {quoted(self.joint)}, which is no joint of the robot; "
             f"the chain's joints are {listed(self.expected)}"
         )
 

@@ -222,7 +222,7 @@ def unit_quaternion(quaternion: Array) -> Array:
     Raises:
         InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.
     """
-    length = math.hypot(*quaternion)
+    length = math.hypot(*quaternion.tolist())
     if abs(length - 1.0) > ROTATION_TOLERANCE:
         raise InvalidPose(
             f"the quaternion has length {length:.9g}; allowed is 1 ± {ROTATION_TOLERANCE:g}",

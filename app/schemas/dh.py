@@ -63,4 +63,4 @@ def _placed(place: str, pose: Pose | None) -> Array:
     try:
         return pose.transform()
     except InvalidPose as error:
-        raise InvalidPose(f"{place}: {error.reason}", error.distance) from error
+        raise InvalidPose(error.reason, error.distance, place) from error

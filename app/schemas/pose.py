@@ -1,13 +1,15 @@
 """Poses on the wire: one position, one orientation, in the notation that the caller likes."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from app.model.arrays import Array
-from app.model.errors import InvalidPose
+from app.model.errors import InvalidArray, InvalidField, InvalidPose
 from app.model.poses import (
+    ROTATION_TOLERANCE,
     Poses,
     nearest_rotation,
     quaternions_xyzw_from_rotations,
@@ -81,14 +83,24 @@ class Pose(Payload):
         Raises:
             InvalidPose: The orientation is no rotation, or the last row of the matrix is not 0 0 0 1.
         """
-        if self.matrix is not None:
-            T = np.array(self.matrix)
-            if not np.array_equal(T[3], [0.0, 0.0, 0.0, 1.0]):
-                raise InvalidPose("the last row of a homogeneous matrix is 0 0 0 1")
-            return transform(T[:3, 3], nearest_rotation(T[:3, :3]))
-        return transform(np.array(self.position), self._rotation())
+        return transform(np.array(self.origin()), self.orientation())
 
-    def _rotation(self) -> Array:
+    def origin(self) -> list[float]:
+        """The position, [m]."""
+        if self.matrix is not None:
+            return [row[3] for row in self.matrix[:3]]
+        return self.position or []
+
+    def orientation(self) -> Array:
+        """The rotation; shape (3, 3).
+
+        Raises:
+            InvalidPose: It is no rotation, or the last row of the matrix is not 0 0 0 1.
+        """
+        if self.matrix is not None:
+            if self.matrix[3] != [0.0, 0.0, 0.0, 1.0]:
+                raise InvalidPose("the last row of a homogeneous matrix is 0 0 0 1")
+            return nearest_rotation(np.array(self.matrix)[:3, :3])
         if self.rotation is not None:
             return nearest_rotation(np.array(self.rotation))
         Rs: Array
@@ -105,6 +117,59 @@ class Pose(Payload):
             Rs = rotations_from_quaternions_xyzw(unit_quaternion(quaternion)[None])
         rotation: Array = Rs[0]
         return rotation
+
+
+def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
+    """A batch of poses as it came: payloads, or an array of (N, 7), position and quaternion x y z w, or (N, 4, 4).
+
+    Raises:
+        InvalidPose: An orientation is no rotation, or the last row of a matrix is not 0 0 0 1.
+        InvalidArray: The array has another shape.
+        InvalidField: A number of the array is not finite, or too large.
+    """
+    if isinstance(given, np.ndarray):
+        return _poses_from_array(given, field)
+    positions, rotations = np.empty((len(given), 3)), np.empty((len(given), 3, 3))
+    for i, pose in enumerate(given):
+        try:
+            positions[i], rotations[i] = pose.origin(), pose.orientation()
+        except InvalidPose as error:
+            raise InvalidPose(error.reason, error.distance, field, i) from None
+    return Poses(positions, rotations)
+
+
+def _poses_from_array(array: Array, field: str) -> Poses:
+    if array.shape[1:] not in {(7,), (4, 4)}:
+        raise InvalidArray(f"{field} form an array of shape (N, 7) or (N, 4, 4); this one has the shape {array.shape}")
+    bad = ~(np.abs(array) <= MAX_MAGNITUDE)
+    if bad.any():
+        row = int(np.argwhere(bad)[0][0])
+        raise InvalidField(field, f"entry {row}: numbers must be finite and of magnitude ≤ {MAX_MAGNITUDE:g}")
+    if array.ndim == 2:
+        norms = np.linalg.norm(array[:, 3:], axis=1)
+        _refuse(np.abs(norms - 1.0), "the quaternion's length differs from 1", field)
+        unit = np.ascontiguousarray(array[:, 3:] / norms[:, None])
+        return Poses(np.ascontiguousarray(array[:, :3]), rotations_from_quaternions_xyzw(unit))
+    wrong = (array[:, 3] != [0.0, 0.0, 0.0, 1.0]).any(axis=1)
+    if wrong.any():
+        raise InvalidPose("the last row of a homogeneous matrix is 0 0 0 1", None, field, int(np.argmax(wrong)))
+    Rs = np.ascontiguousarray(array[:, :3, :3])
+    deviations = np.linalg.norm(Rs.transpose(0, 2, 1) @ Rs - np.eye(3), axis=(1, 2))
+    # A reflection is as orthogonal as a rotation.
+    deviations = np.where(np.linalg.det(Rs) > 0.0, 0.5 * deviations, 2.0)
+    _refuse(deviations, "the matrix is not a rotation", field)
+    for _ in range(2):
+        # Newton's step to the nearest rotation [Higham2008, 8.3]: from 1e-6 to 1e-12 and on to rounding.
+        Rs = 0.5 * Rs @ (3.0 * np.eye(3) - Rs.transpose(0, 2, 1) @ Rs)
+    return Poses(np.ascontiguousarray(array[:, :3, 3]), np.ascontiguousarray(Rs))
+
+
+def _refuse(deviations: Array, what: str, field: str) -> None:
+    far = deviations > ROTATION_TOLERANCE
+    if far.any():
+        row = int(np.argmax(far))
+        reason = f"{what}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)"
+        raise InvalidPose(reason, float(deviations[row]), field, row)
 
 
 def orientations(poses: Poses, pose_format: PoseFormat) -> Array:

@@ -4,13 +4,18 @@ import json
 import statistics
 import time
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
+from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array
+from app.model.poses import Poses
+from app.schemas.pose import pose_array
+from app.settings import Settings
+from app.store.library import Library
 from tests.benchmarks.server import Running, running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST
@@ -25,43 +30,68 @@ def measure() -> list[Row]:
     return [
         row("`fk` of 100,000 configurations as npy, end to end", send_npy, qs),
         row("`fk` of 10,000 configurations as JSON, end to end", send_json, qs[:10_000]),
+        row("`ik` of 10,000 targets as npy, end to end", send_targets, reachable(10_000), "≤ 500 ms"),
     ]
 
 
-def row(what: str, send: Callable[[Running, Array], None], qs: Array) -> Row:
+def reachable(count: int) -> Array:
+    """Poses that the Panda reaches, position and quaternion; shape (N, 7)."""
+    library = Library(Settings().catalogue_dir, Settings().catalogue_dir / "none")
+    chain = library.get("panda").robot.chain(None, None)
+    qs = np.random.default_rng(3).uniform(chain.lower, chain.upper, (count, len(chain)))
+    return pose_array(Poses(*chain_poses(chain.flat, qs)), "quaternion_xyzw")
+
+
+def row(what: str, send: Callable[[Running, Array], None], rows: Array, wanted: str = "") -> Row:
     """Median time of some calls, on a server of their own, because a process's peak memory never falls."""
     with running("service", "/readyz") as server:
         idle = peak_memory(server.pid)
         times = []
         for _ in range(ROUNDS):
             started = time.perf_counter()
-            send(server, qs)
+            send(server, rows)
             times.append(time.perf_counter() - started)
         peak = peak_memory(server.pid)
     memory = f"peak memory {peak / 2**20:.0f} MiB, idle {idle / 2**20:.0f} MiB"
-    return Row(what, f"{statistics.median(times) * 1000:.0f} ms", memory)
+    return Row(what, f"{statistics.median(times) * 1000:.0f} ms", memory, wanted=wanted)
 
 
 def send_npy(server: Running, qs: Array) -> None:
     """One request, and the answer as an array again."""
     buffer = BytesIO()
     np.save(buffer, qs)
-    answer = post(server, buffer.getvalue(), NPY, NPY)
+    answer = post(server, "fk", buffer.getvalue(), NPY, NPY)
     assert np.load(BytesIO(answer)).shape == (len(qs), 7)
+
+
+def send_targets(server: Running, targets: Array) -> None:
+    """The same for the inverse; that all are solved is what the header says."""
+    buffer = BytesIO()
+    np.save(buffer, targets)
+    answer = post(server, "ik", buffer.getvalue(), NPY, NPY, {"Gelenk-Unsolved": "0"})
+    assert np.load(BytesIO(answer)).shape == (len(targets), 7)
 
 
 def send_json(server: Running, qs: Array) -> None:
     """One request, and the answer as Python objects again."""
     body = json.dumps({"joint_positions": qs.tolist()}).encode()
-    answer = json.loads(post(server, body, "application/json", "application/json"))
+    answer = json.loads(post(server, "fk", body, "application/json", "application/json"))
     assert len(answer["poses"]) == len(qs)
 
 
-def post(server: Running, body: bytes, content_type: str, accept: str) -> bytes:
-    """Post to `fk` of the Panda."""
-    url = f"http://{HOST}:{server.port}/v1/robots/panda/fk"
+def post(
+    server: Running,
+    operation: str,
+    body: bytes,
+    content_type: str,
+    accept: str,
+    headers: Mapping[str, str] | None = None,
+) -> bytes:
+    """Post to an operation of the Panda; its answer has these headers."""
+    url = f"http://{HOST}:{server.port}/v1/robots/panda/{operation}"
     request = urllib.request.Request(url, body, {"Content-Type": content_type, "Accept": accept})
     with urllib.request.urlopen(request, timeout=120) as answer:
+        assert all(answer.headers[name] == value for name, value in (headers or {}).items())
         return bytes(answer.read())
 
 

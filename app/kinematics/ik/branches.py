@@ -7,7 +7,7 @@ import numpy as np
 
 from app.kinematics.ik import kernels
 from app.kinematics.ik.null_space import Objective, settle
-from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, make_goal
+from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, make_goal, no_limits
 from app.kinematics.ik.task import Task
 from app.model.arrays import Array, Flags, Indices, compiled
 from app.model.chain import Chain
@@ -119,7 +119,7 @@ def _converged(
         return np.empty((0, len(chain)))
     qs = np.concatenate(found)
     if not respect_limits:
-        return wound_near(chain, qs, seed, np.full(len(chain), -np.inf), np.full(len(chain), np.inf))
+        return wound_near(chain, qs, seed, *no_limits(chain))
     qs = wound_near(chain, qs, seed, chain.lower, chain.upper)
     # A solution at a limit may miss it by rounding.
     within = ((qs >= chain.lower - 1e-9) & (qs <= chain.upper + 1e-9)).all(axis=1)

@@ -77,6 +77,8 @@ class Rule:
         damping: λ of damped least squares; None takes it in proportion to the squared error.
         switch_error: ‖e‖ at which `gradient_then_newton` changes over.
         max_iterations: Bound on the steps; None for the method's default.
+        as_searched: Whether damped least squares step exactly as in the kernels, which never take a step back and
+            measure rotations by 2 sin(θ/2).
     """
 
     method: StepMethod
@@ -84,6 +86,7 @@ class Rule:
     damping: float | None = None
     switch_error: float = 1e-2
     max_iterations: int | None = None
+    as_searched: bool = False
 
 
 def descend(
@@ -117,7 +120,7 @@ def descend(
     linear = sum(direction in {"x", "y", "z"} for direction in task.directions)
 
     def at(q: Array) -> tuple[Array, Array]:
-        es, Js = linearise(chain, target, q[None], task)
+        es, Js = linearise(chain, target, q[None], task, chords=rule.as_searched)
         return es[0], Js[0]
 
     for count in range(most + 1):
@@ -184,17 +187,17 @@ def _step(
     free = np.where(blocked(J.T @ e, q, bounds), 0.0, 1.0)
     if rule.damping is not None:
         return damped_step(J * free, e, rule.damping)
-    return _adaptive_step(J * free, e, q, bounds, error_at)
+    return _adaptive_step(J * free, e, q, bounds, None if rule.as_searched else error_at)
 
 
-def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array]) -> Array:
-    """A damped step, damped ten times more until it makes the error smaller [Marquardt1963]."""
+def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array] | None) -> Array:
+    """A damped step, damped ten times more until it makes the error smaller [Marquardt1963], where that is asked."""
     damping = error_damping(e)
     step = np.zeros_like(q)
     for _ in range(20):
         step = damped_step(J, e, damping)
         step *= min(1.0, _LONGEST_STEP / max(float(np.abs(step).max(initial=0.0)), _LONGEST_STEP))
-        if np.linalg.norm(error_at(np.clip(q + step, *bounds))) < np.linalg.norm(e):
+        if error_at is None or np.linalg.norm(error_at(np.clip(q + step, *bounds))) < np.linalg.norm(e):
             break
         damping *= 10.0
     return step

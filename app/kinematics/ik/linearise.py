@@ -10,7 +10,7 @@ from app.model.chain import Chain
 from app.model.poses import Poses, vectors_from_rotations
 
 
-def linearise(chain: Chain, targets: Poses, qs: Array, task: Task) -> tuple[Array, Array]:
+def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bool = False) -> tuple[Array, Array]:
     """Errors e and Jacobians J with e(q + Δq) ≈ e(q) - J Δq, the rows that count alone.
 
     e is the way still to go: the position's difference, and the rotation vector from the tip to the target, in the
@@ -22,6 +22,7 @@ def linearise(chain: Chain, targets: Poses, qs: Array, task: Task) -> tuple[Arra
         targets: T_base_tip wanted; N.
         qs: Configurations; shape (N, n), [rad or m].
         task: Which directions count; m of them.
+        chords: Whether a rotation counts 2 sin(θ/2), as in the kernels, instead of its angle θ.
 
     Returns:
         e, shape (N, m), [m, rad], and J, shape (N, m, n).
@@ -33,6 +34,9 @@ def linearise(chain: Chain, targets: Poses, qs: Array, task: Task) -> tuple[Arra
         errors[:, 3:] = _swings(Rs[:, :, task.axis], targets.rotations[:, :, task.axis])
     else:
         errors[:, 3:] = vectors_from_rotations(np.ascontiguousarray(targets.rotations @ Rs.transpose(0, 2, 1)))
+    if chords:
+        angles = np.linalg.norm(errors[:, 3:], axis=1)
+        errors[:, 3:] *= np.sinc(0.5 * angles / np.pi)[:, None]
     if task.kind == FULL:
         return errors, Js
     to_target = targets.rotations.transpose(0, 2, 1)

@@ -26,10 +26,8 @@ ITERATIONS_PER_START = 20
 """What a start costs on average, so that a budget in iterations becomes a number of starts."""
 
 _TURN = 2.0 * np.pi
-_PARALLEL = 512
-"""Targets from which on threads share a batch."""
 _CHUNK = 256
-"""Targets between two looks at the clock."""
+"""Targets that one thread takes at once: the others share a larger batch, and the clock is looked at in between."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,12 +83,13 @@ def search(
         chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed
     )
     rows = target_rows(targets)
-    if len(rows) < _PARALLEL and deadline is None:
+    if len(rows) <= _CHUNK:
         qs, winners, iterations = kernels.search(chain.flat, goal, rows, seeds)
         return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, np.ones(len(rows), dtype=bool))
     return _in_parts(chain, goal, rows, seeds, deadline, threads or os.cpu_count() or 1)
 
 
+@lru_cache(maxsize=1024)
 def make_goal(
     chain: Chain,
     task: Task,
@@ -145,6 +144,12 @@ def mid_range(chain: Chain) -> Array:
 
 
 @lru_cache(maxsize=256)
+def no_limits(chain: Chain) -> tuple[Array, Array]:
+    """Infinite bounds for each variable, lower and upper; shape (n,) each."""
+    return np.full(len(chain), -np.inf), np.full(len(chain), np.inf)
+
+
+@lru_cache(maxsize=256)
 def free_variables(chain: Chain) -> Flags:
     """Which variables come to the same pose after a full turn: joints that turn, geared 1:1 or by whole numbers."""
     free = np.ones(len(chain), dtype=bool)
@@ -161,8 +166,7 @@ def search_bounds(chain: Chain, respect_limits: bool) -> Array:
     A joint with a full turn or more between its limits turns freely, and is wound back at the end.
     """
     n = len(chain)
-    lower = chain.lower if respect_limits else np.full(n, -np.inf)
-    upper = chain.upper if respect_limits else np.full(n, np.inf)
+    lower, upper = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
     free = free_variables(chain) & (upper - lower >= _TURN)
     spread = np.array([np.pi if turns else _span(chain) for turns in free_variables(chain)])
     middle = mid_range(chain)

@@ -7,14 +7,24 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from app.kinematics.certify import pinocchio_poses
+from app.kinematics.ik import kernels
 from app.kinematics.ik.branches import all_branches
 from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
 from app.kinematics.ik.null_space import Objective, settle
 from app.kinematics.ik.result import Failure, InverseKinematics, Path, Status
-from app.kinematics.ik.search import MAX_ITERATIONS, Found, search, start_of, target_rows
+from app.kinematics.ik.search import (
+    ITERATIONS_PER_START,
+    MAX_ITERATIONS,
+    Found,
+    make_goal,
+    no_limits,
+    search,
+    start_of,
+    target_rows,
+)
 from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.ik.verdict import Question, explain, verdict_on_path
-from app.model.arrays import Array, Flags
+from app.model.arrays import Array, Flags, compiled
 from app.model.chain import Chain
 from app.model.poses import Poses
 from app.model.robot import Robot
@@ -86,6 +96,43 @@ def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array,
     if options.method == "auto":
         return _one(question, options, deadline)
     return _followed(question, options, options.method, deadline)
+
+
+def solve_quickly(question: Question, starts: int, random_seed: int) -> InverseKinematics | None:
+    """The same for one solution a target where a few starts suffice, in tens of microseconds; else None.
+
+    Args:
+        question: The targets; a few.
+        starts: Of each target.
+        random_seed: Of the starts.
+    """
+    chain = question.chain
+    goal = make_goal(
+        chain,
+        question.task,
+        *question.tolerances,
+        question.respect_limits,
+        starts * ITERATIONS_PER_START,
+        random_seed,
+    )
+    qs, winners, iterations = kernels.search(chain.flat, goal, target_rows(question.targets), question.seeds)
+    # Lists, because of a few numbers they tell quicker than arrays.
+    if -1 in winners.tolist():
+        return None
+    solved, position_errors, orientation_errors = judged(question, qs, np.ones(len(qs), dtype=np.bool_))
+    if False in solved.tolist():
+        return None
+    count = len(qs)
+    return InverseKinematics(
+        qs,
+        position_errors,
+        orientation_errors,
+        iterations,
+        winners,
+        "damped_least_squares",
+        np.arange(count + 1),
+        ["solved"] * count,
+    )
 
 
 def _one(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
@@ -186,13 +233,30 @@ def judged(question: Question, qs: Array, claimed: Flags) -> tuple[Flags, Array,
     Returns:
         Flags, shape (N,); distances [m] and angles [rad], shape (N,).
     """
-    chain = question.chain
+    chain, task = question.chain, question.task
     poses = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, range(len(qs)))
-    position_errors, orientation_errors = question.task.errors(question.targets, poses)
-    solved = claimed & (position_errors <= question.tolerances[0]) & (orientation_errors <= question.tolerances[1])
-    if question.respect_limits:
-        solved &= ((qs >= chain.lower - _WITHIN) & (qs <= chain.upper + _WITHIN)).all(axis=1)
-    return solved, position_errors, orientation_errors
+    errors = task.errors(question.targets, poses)
+    limits = (chain.lower, chain.upper) if question.respect_limits else no_limits(chain)
+    return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
+
+
+@compiled
+def accepted(
+    qs: Array,
+    claimed: Flags,
+    errors: Array,
+    position_tolerance: float,
+    orientation_tolerance: float,
+    lower: Array,
+    upper: Array,
+) -> Flags:
+    """Which of the configurations that are said to be solutions are within the tolerances and the limits."""
+    good = claimed.copy()
+    for i in range(len(qs)):
+        good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
+        for j in range(qs.shape[1]):
+            good[i] &= lower[j] - _WITHIN <= qs[i, j] <= upper[j] + _WITHIN
+    return good
 
 
 def _settled(question: Question, objective: Objective, found: Found) -> Found:
@@ -332,5 +396,5 @@ def _replayed(question: Question, options: Options, found: Found, i: int) -> Pat
     start = start_of(
         question.chain, question.seed(i), options.respect_limits, options.random_seed, int(found.restarts[i])
     )
-    descent = _descent(question, i, start, Rule("damped_least_squares"))
+    descent = _descent(question, i, start, Rule("damped_least_squares", as_searched=True))
     return Path(descent.stop_reason, descent.trace)

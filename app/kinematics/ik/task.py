@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, TypeAlias, get_args
 
 import numpy as np
@@ -14,7 +15,7 @@ Direction: TypeAlias = Literal["x", "y", "z", "rx", "ry", "rz"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Task:
     """The directions that count: x y z along the base's axes, rx ry rz about the target's axes.
 
@@ -25,35 +26,35 @@ class Task:
 
     directions: tuple[Direction, ...] = DIRECTIONS
 
-    @property
+    @cached_property
     def weights(self) -> Array:
         """1 for each direction that counts, else 0; shape (6,)."""
         return np.array([float(direction in self.directions) for direction in DIRECTIONS])
 
-    @property
+    @cached_property
     def kind(self) -> int:
         """`FULL`, `AXIS` or `SOME`, as the kernels know it."""
         if len(self.directions) == len(DIRECTIONS):
             return FULL
         return AXIS if self._rotations == 2 else SOME
 
-    @property
+    @cached_property
     def axis(self) -> int:
         """Which axis is to be aligned where two rotations count; else 0."""
         if self._rotations != 2:
             return 0
         return next(i for i in range(3) if DIRECTIONS[3 + i] not in self.directions)
 
-    @property
+    @cached_property
     def _rotations(self) -> int:
         return sum(direction in self.directions for direction in DIRECTIONS[3:])
 
     def __len__(self) -> int:
         return len(self.directions)
 
-    def errors(self, targets: Poses, poses: Poses) -> tuple[Array, Array]:
-        """Distance [m] and angle [rad] from each pose to its target, of what counts; shape (N,) each."""
-        errors = task_errors(
+    def errors(self, targets: Poses, poses: Poses) -> Array:
+        """Distance [m] and angle [rad] from each pose to its target, of what counts; shape (2, N)."""
+        errors: Array = task_errors(
             self.weights,
             self.kind,
             self.axis,
@@ -62,7 +63,7 @@ class Task:
             poses.positions,
             poses.rotations,
         )
-        return errors[0], errors[1]
+        return errors
 
 
 FULL_POSE = Task()

@@ -1,0 +1,179 @@
+"""Requests and answers of inverse kinematics."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from app.kinematics.ik.task import Direction
+from app.schemas.common import Answer, ChainOptions
+from app.schemas.kinematics import Configuration, Configurations
+from app.schemas.pose import Pose, PoseFormat
+
+MAX_TARGETS = 1_000_000
+MAX_STEPWISE = 1000
+"""Targets of a call that follows a method step by step, in Python."""
+
+Targets = Annotated[
+    list[Pose],
+    Field(
+        max_length=MAX_TARGETS,
+        fail_fast=True,
+        description="Poses of `tip_frame` in `base_frame` that are to be reached.",
+    ),
+]
+
+Method = Literal["auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares"]
+
+
+class InverseOptions(ChainOptions):
+    """How inverse kinematics are wanted."""
+
+    list_fields = frozenset({"task"})
+
+    method: Method = Field(
+        "auto",
+        description="`auto`: many starts of damped least squares, the first at the seed, the others random. The "
+        "course's methods start at the seed alone: `newton` (the pseudo-inverse where J is not square), `gradient`, "
+        "`gradient_then_newton`, `damped_least_squares`.",
+    )
+    solutions: Literal["one", "all"] = Field(
+        "one",
+        description="`all`: every distinct solution, nearest to the seed first; of a redundant arm a sample of its "
+        "self-motion, no two nearer than 0.2 rad (or m) in every joint.",
+    )
+    position_tolerance: float = Field(1e-6, ge=1e-12, le=1.0, description="[m].")
+    orientation_tolerance: float = Field(1e-6, ge=1e-12, le=1.0, description="[rad].")
+    task: list[Direction] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about "
+        "the target's: with two rotations the tip's axis of the third points as the target's does, so that "
+        "`x y z rx ry` is a position and an approach axis.",
+        examples=[["x", "y", "z", "rx", "ry"]],
+    )
+    respect_limits: bool = Field(True, description="Whether solutions are to be within the joint limits.")
+    max_iterations: int | None = Field(
+        None,
+        ge=1,
+        le=1_000_000,
+        description="Budget for each target: 20000 in all starts of `auto`, which costs a start 20 to 40 of them; of "
+        "one start 100 (`newton`), 500 (`damped_least_squares`) or 5000 (`gradient`) if left out.",
+    )
+    time_limit: float = Field(
+        10.0, gt=0, le=60, description="For the whole call, [s]; targets that are not tried in time say so."
+    )
+    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the starts: the same seed gives the same answer.")
+    max_solutions: int = Field(100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`.")
+    windings: bool = Field(
+        False, description="With `all`: whether solutions that differ by full turns count, where limits allow them."
+    )
+    objective: Literal["posture", "mid_range", "limits", "manipulability"] | None = Field(
+        None,
+        description="What a redundant arm's freedom is for: to be near to `posture` (the seed if left out) or to the "
+        "middle of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ).",
+    )
+    step_size: float | None = Field(
+        None, gt=0, le=1e6, description="α of the gradient; if left out it is found by a line search."
+    )
+    damping: float | None = Field(
+        None,
+        ge=0,
+        le=1e6,
+        description="λ of `damped_least_squares` in Jᵀ(JJᵀ + λI)⁻¹e; if left out it follows the error.",
+    )
+    switch_error: float = Field(
+        1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
+    )
+    trace: bool = Field(False, description="Whether each iteration is told; of `auto` those of the start that counts.")
+    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
+
+
+class InverseRequest(InverseOptions):
+    """Inverse kinematics of a batch of targets."""
+
+    targets: Targets
+    seeds: Configurations | None = Field(
+        default=None,
+        description="Where to start, and what solutions are to be near to: one configuration for all targets or one "
+        "each, not necessarily within the limits; the middle of the ranges if left out.",
+    )
+    posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
+
+
+class SolutionInfo(Answer):
+    """A configuration that brings the tip to the target."""
+
+    joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
+    position_error: float = Field(description="Distance to the target in the directions that count, [m].")
+    orientation_error: float = Field(description="Angle to the target likewise, [rad].")
+    method: str = Field(description="What found it.")
+    iterations: int = Field(description="Of the start that led there; 0 with `all`.")
+    restarts: int = Field(description="How many starts failed before.")
+    branch: str | None = Field(description="Its branch where a closed form found it, else null.")
+
+
+class NearestInfo(Answer):
+    """What comes nearest to a target that is not reached."""
+
+    joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
+    pose: Pose = Field(description="T_base_tip there.")
+    position_error: float = Field(description="Distance to the target in the directions that count, [m].")
+    orientation_error: float = Field(description="Angle to the target likewise, [rad].")
+
+
+class BlockingJointInfo(Answer):
+    """A joint whose limit is in the way."""
+
+    name: str
+    position: float = Field(description="Where it would have to be, [rad or m].")
+    lower: float = Field(description="Lower limit, [rad or m].")
+    upper: float = Field(description="Upper limit, [rad or m].")
+    excess: float = Field(description="How far beyond the limit that is, [rad or m].")
+
+
+class IterationInfo(Answer):
+    """One configuration on the way of a method."""
+
+    error: float = Field(description="‖e‖ of the directions that count, metres and radians mixed.")
+    min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")
+    step_length: float | None = Field(description="‖Δq‖ of the step from here, [rad or m]; null at the last.")
+    method: str | None = Field(description="Which step that was; null at the last.")
+    joint_positions: list[float] = Field(description="[rad or m].")
+
+
+StopReason = Literal["converged", "stagnated", "near_singular", "at_limits", "iterations"]
+
+
+class InverseResult(Answer):
+    """What became of one target."""
+
+    status: Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"] = Field(
+        description="`unreachable`: no configuration comes nearer than `nearest`. `outside_limits`: it would be solved "
+        "without limits. `singular`: the method came to a halt where the Jacobian loses rank. `not_converged`: the "
+        "budget ran out."
+    )
+    solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
+    reason: str | None = Field(description="Why it is not solved.")
+    nearest: NearestInfo | None = Field(None, description="Of an unsolved target.")
+    blocking_joints: list[BlockingJointInfo] | None = Field(None, description="With `outside_limits`.")
+    unserved_directions: list[list[float]] | None = Field(
+        None,
+        description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
+        "follow at `nearest`.",
+    )
+    complete: bool | None = Field(None, description="With `all`: whether these are all solutions.")
+    stop_reason: StopReason | None = Field(
+        None, description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ)."
+    )
+    trace: list[IterationInfo] | None = Field(None, description="Where asked for: every configuration on the way.")
+
+
+class InverseAnswer(Answer):
+    """Verdicts, one entry a target, in order."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Frame in which the targets are expressed.")
+    tip_frame: str = Field(description="Frame that is to reach them.")
+    task: list[Direction] = Field(description="The directions that count.")
+    results: list[InverseResult]
