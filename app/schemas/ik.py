@@ -142,7 +142,7 @@ class IterationInfo(Answer):
     joint_positions: list[float] = Field(description="[rad or m].")
 
 
-StopReason = Literal["converged", "stagnated", "near_singular", "at_limits", "iterations"]
+StopReason = Literal["converged", "stagnated", "near_singular", "at_limits", "diverged", "iterations"]
 
 
 class InverseResult(Answer):

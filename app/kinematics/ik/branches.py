@@ -9,6 +9,7 @@ from app.kinematics.ik import kernels
 from app.kinematics.ik.null_space import Objective, settle
 from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, make_goal, no_limits
 from app.kinematics.ik.task import Task
+from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array, Flags, Indices, compiled
 from app.model.chain import Chain
 from app.model.poses import Poses
@@ -20,6 +21,14 @@ _SAME = 1e-4
 """Distance in every joint up to which two solutions are one, [rad or m]."""
 _SPACING = 0.2
 """The same where solutions form a continuum, of which a sample is given."""
+_NEIGHBOURS = 0.02
+"""Distance up to which two solutions are one if the middle between them is a solution too, [rad or m]."""
+_MOST_DISTINCT = 256
+"""Solutions that are looked at to tell whether they form a continuum."""
+_MOST_ISOLATED = 32
+"""More solutions than this form a continuum: a 6R arm has at most 16 that stand alone [Raghavan1993]."""
+_ROUNDING = 1e-9
+"""How far beyond a limit counts as at it, [rad or m]."""
 _TURN = 2.0 * np.pi
 
 
@@ -65,27 +74,41 @@ def all_branches(
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
     """
     candidates = _converged(chain, row, seed, task, tolerances, respect_limits, random_seed)
-    order = np.argsort(_distances(candidates, seed), kind="stable")
-    candidates = candidates[order]
+    target = Poses(row[None, 9:].copy(), row[:9].reshape(1, 3, 3).copy())
     free = free_variables(chain)
-    redundant = len(chain) > len(task)
-    chosen = thin_out(candidates, free, _SAME, most + 1)
-    if redundant and len(candidates):
+    if len(chain) <= len(task):
+        distinct = sorted_by_distance(candidates[thin_out(candidates, free, _SAME, _MOST_DISTINCT)], seed)
+        isolated = _without_doubles(chain, target, distinct, task, tolerances)
+        continuum = len(isolated) > _MOST_ISOLATED
+    else:
+        continuum = True
+    if continuum:
+        candidates = sorted_by_distance(candidates, seed)
         # Of infinitely many the nearest is none of those found, but close to the first.
-        target = Poses(row[None, 9:], row[:9].reshape(1, 3, 3))
-        nearest = settle(
-            chain, target, candidates[:1], Objective("posture", seed), task=task, respect_limits=respect_limits
-        )
+        objective = Objective("posture", seed)
+        nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
         candidates = np.concatenate((nearest, candidates))
-        chosen = thin_out(candidates, free, _SPACING, most + 1)
-    continuum = redundant or len(chosen) > most
-    if continuum and not redundant:
-        chosen = thin_out(candidates, free, _SPACING, most + 1)
-    qs = candidates[chosen[:most]]
-    complete = not continuum
+        isolated = candidates[thin_out(candidates, free, _SPACING, most)]
+    qs, complete = isolated[:most], not continuum and len(isolated) <= most
     if windings and len(qs):
         qs, complete = _wound(chain, qs, seed, most, complete, respect_limits)
     return Branches(qs, complete)
+
+
+def _without_doubles(chain: Chain, target: Poses, qs: Array, task: Task, tolerances: tuple[float, float]) -> Array:
+    """One of two neighbours between which everything is a solution too: there two solutions meet in a singularity."""
+    kept: list[int] = []
+    free = free_variables(chain)
+    for i in range(len(qs)):
+        differences = qs[kept] - qs[i]
+        differences -= np.where(free, _TURN * np.rint(differences / _TURN), 0.0)
+        near = differences[np.abs(differences).max(axis=1, initial=0.0) <= _NEIGHBOURS]
+        middles = Poses(*chain_poses(chain.flat, qs[i] + 0.5 * near))
+        targets = Poses(np.repeat(target.positions, len(near), axis=0), np.repeat(target.rotations, len(near), axis=0))
+        errors = task.errors(targets, middles)
+        if not ((errors[0] <= tolerances[0]) & (errors[1] <= tolerances[1])).any():
+            kept.append(i)
+    return qs[kept]
 
 
 def _converged(
@@ -129,26 +152,28 @@ def _converged(
 def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:
     """Configurations with their free variables turned by full turns into the limits, as near to the seed as they allow.
 
-    What has no place within the limits is left as near to them as full turns bring it.
+    What has no place within the limits is left as near to them as full turns bring it; what rounding has carried over
+    a limit is put back on it.
     """
     wound = qs.copy()
     for j in np.flatnonzero(free_variables(chain)):
-        values = qs[:, j] + _TURN * np.rint((seed[j] - qs[:, j]) / _TURN)
+        # Whole turns are counted first and added once: going there and back would round.
+        turns = np.rint((seed[j] - qs[:, j]) / _TURN)
         if np.isfinite(upper[j]):
-            values -= _TURN * np.maximum(0.0, np.ceil((values - upper[j]) / _TURN - 1e-10))
+            turns -= np.maximum(0.0, np.ceil((qs[:, j] + _TURN * turns - upper[j] - _ROUNDING) / _TURN))
         if np.isfinite(lower[j]):
-            below = np.maximum(0.0, np.ceil((lower[j] - values) / _TURN - 1e-10))
-            raised = values + _TURN * below
+            raised = turns + np.maximum(0.0, np.ceil((lower[j] - qs[:, j] - _TURN * turns - _ROUNDING) / _TURN))
             # Where neither is within, the nearer of the two.
-            worse = (raised > upper[j] + 1e-9) & (raised - upper[j] > lower[j] - values)
-            values = np.where(worse, values, raised)
-        wound[:, j] = values
-    return wound
+            above, below = qs[:, j] + _TURN * raised - upper[j], lower[j] - qs[:, j] - _TURN * turns
+            turns = np.where((above > _ROUNDING) & (above > below), turns, raised)
+        wound[:, j] = np.where(turns == 0.0, qs[:, j], qs[:, j] + _TURN * turns)
+    inside = np.clip(wound, lower, upper)
+    return np.where(np.abs(wound - inside) <= _ROUNDING, inside, wound)
 
 
-def _distances(qs: Array, seed: Array) -> Array:
-    distances: Array = np.sqrt(np.square(qs - seed).sum(axis=1))
-    return distances
+def sorted_by_distance(qs: Array, seed: Array) -> Array:
+    """Configurations, nearest to the seed first; shape (N, n)."""
+    return qs[np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")]
 
 
 @compiled
@@ -210,5 +235,5 @@ def _wound(chain: Chain, qs: Array, seed: Array, most: int, complete: bool, resp
     table = np.array(results)
     if respect_limits:
         table = np.clip(table, chain.lower, chain.upper)
-    table = table[np.argsort(_distances(table, seed), kind="stable")]
+    table = sorted_by_distance(table, seed)
     return table[:most], complete and len(table) <= most

@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from app.kinematics.configuration import MAX_MAGNITUDE
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import search_bounds
 from app.kinematics.ik.steps import damped_step, error_damping, gradient_step, newton_step
@@ -15,7 +16,7 @@ from app.model.chain import Chain
 from app.model.poses import Poses
 
 StepMethod: TypeAlias = Literal["newton", "gradient", "gradient_then_newton", "damped_least_squares"]
-StopReason: TypeAlias = Literal["converged", "stagnated", "near_singular", "at_limits", "iterations"]
+StopReason: TypeAlias = Literal["converged", "stagnated", "near_singular", "at_limits", "diverged", "iterations"]
 
 DEFAULT_ITERATIONS: dict[StepMethod, int] = {
     "newton": 100,
@@ -41,8 +42,8 @@ class Iterate:
         joint_positions: q; shape (n,), [rad or m].
         error: ‖e‖ of the directions that count, [m and rad mixed].
         min_singular_value: σ_min of J in these directions, [m or rad per rad or m, mixed].
-        step_length: ‖Δq‖ of the step that led on from here; None at the last.
-        method: Which step that was; None at the last.
+        step_length: ‖Δq‖ of the step that led on from here; None where the method stopped.
+        method: Which step that was; None where it stopped.
     """
 
     joint_positions: Array
@@ -137,7 +138,10 @@ def descend(
             return Descent(q, reason, trace)
         step = _step(rule, method, J, e, q, bounds, lambda q: at(q)[0])
         trace.append(Iterate(q, error, smallest, float(np.linalg.norm(step)), method))
-        q = np.clip(q + step, *bounds)
+        following = np.clip(q + step, *bounds)
+        if not np.abs(following).max(initial=0.0) <= MAX_MAGNITUDE:
+            return Descent(q, "diverged", trace)
+        q = following
     raise AssertionError("the last iteration always gives a reason")
 
 

@@ -52,6 +52,8 @@ _APPROACHES = 200
 """Iterations spent on the nearest configuration to an unsolved target."""
 _CLOSE = 1e-18
 """Squared error that is good enough; above it a start within the tolerances takes one step more."""
+_ROUNDING = 1e-10
+"""How far beyond a limit counts as at it, [rad]."""
 _LONGEST_STEP = 1.0
 """Largest step of a joint, [rad or m]."""
 
@@ -71,6 +73,8 @@ class Goal(NamedTuple):
         axis: With `AXIS`, which axis of the tip is to point as the target's does.
         position_tolerance: [m].
         orientation_tolerance: [rad].
+        slack: Share of the tolerances that errors are made smaller by: 0 drives them to zero, which is best, and 0.9
+            uses what loose tolerances allow.
         starts: How many starts a target gets.
         random_seed: Of the starts.
     """
@@ -81,6 +85,7 @@ class Goal(NamedTuple):
     axis: int
     position_tolerance: float
     orientation_tolerance: float
+    slack: float
     starts: int
     random_seed: int
 
@@ -183,6 +188,7 @@ def _search(
     axis: int,
     position_tolerance: float,
     orientation_tolerance: float,
+    slack: float,
     starts: int,
     random_seed: int,
     targets: Array,
@@ -190,7 +196,7 @@ def _search(
 ) -> tuple[Array, Indices]:
     """See `search`."""
     flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, starts, random_seed)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
     qs, outcomes = np.empty((count, n)), np.empty((2, count), np.int64)
     work = _workspace(flat, n)
@@ -209,6 +215,7 @@ def _gather(
     axis: int,
     position_tolerance: float,
     orientation_tolerance: float,
+    slack: float,
     starts: int,
     random_seed: int,
     target: Array,
@@ -216,7 +223,7 @@ def _gather(
 ) -> Array:
     """See `gather`."""
     flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, starts, random_seed)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, slack, starts, random_seed)
     found = np.empty((starts, len(seed)))
     return found[: _gather_all(flat, goal, target, seed, _workspace(flat, len(seed)), found)]
 
@@ -357,8 +364,16 @@ def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
     Levenberg-Marquardt with a damping of its own for each lane: a step that makes it worse is taken back and damped
     ten times more, any other halves the damping twice.
     """
-    for k in range(len(work.candidates)):
-        work.q[k] = work.previous[k] = work.candidates[k]
+    nearest = 0
+    for lane in range(LANES):
+        if work.errors[lane] < work.errors[nearest]:
+            nearest = lane
+    for lane in range(LANES):
+        # A lane whose starts have not failed yet takes the nearest of the others.
+        source = lane if work.errors[lane] < np.inf else nearest
+        for j in range(len(q)):
+            value = work.candidates[j * LANES + source]
+            work.q[j * LANES + lane] = work.previous[j * LANES + lane] = value
     damping, least = lanes(1e-3), lanes(np.inf)
     for _ in range(_APPROACHES):
         e = _linearise(flat, goal, work)
@@ -404,10 +419,11 @@ def _wind(goal: Goal, seed: Array, q: Array) -> None:
         lower, upper = goal.bounds[4, j], goal.bounds[5, j]
         if lower <= upper:
             value = q[j] + turn * np.rint((seed[j] - q[j]) / turn)
-            if value > upper:
-                value -= turn * np.ceil((value - upper) / turn)
-            elif value < lower:
-                value += turn * np.ceil((lower - value) / turn)
+            # Rounding may carry a joint over its limit: that is no reason to turn it all the way round.
+            if value > upper + _ROUNDING:
+                value -= turn * np.ceil((value - upper - _ROUNDING) / turn)
+            elif value < lower - _ROUNDING:
+                value += turn * np.ceil((lower - value - _ROUNDING) / turn)
             q[j] = min(max(value, lower), upper)
 
 
@@ -464,6 +480,11 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
     error = position + orientation
     within = (position <= goal.position_tolerance**2) & (orientation <= goal.orientation_tolerance**2)
+    if goal.slack > 0.0:
+        a = _shortening(position, goal.slack * goal.position_tolerance)
+        b = _shortening(orientation, goal.slack * goal.orientation_tolerance)
+        e = (a * e[0], a * e[1], a * e[2], b * e[3], b * e[4], b * e[5])
+        error = a * a * position + b * b * orientation
     halved = error < 0.5 * load(state, _BEST)
     since = where(halved, 0.0, load(state, _SINCE) + 1.0)
     count = load(state, _COUNT) + 1.0
@@ -476,6 +497,12 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     store(state, _COUNT, count)
     store(state, _REACHED, where(within, 1.0, 0.0))
     return bits(converged | given_up) | (bits(converged) << LANES), e, _DAMPING * error + _FLOOR
+
+
+@inlined
+def _shortening(square: Lanes, length: float) -> Lanes:
+    """The factor that makes vectors of a squared length shorter by a length, those that are no longer to nothing."""
+    return max_lanes(1.0 - length / sqrt_lanes(max_lanes(square, 1e-300)), 0.0)
 
 
 @inlined

@@ -6,9 +6,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.search import mid_range, search_bounds
-from app.kinematics.ik.task import Task
-from app.kinematics.kernels import chain_hessians, chain_jacobians
+from app.kinematics.ik.search import mid_range, no_limits
+from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.kernels import chain_hessians
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
@@ -27,7 +27,7 @@ class Objective:
     Attributes:
         name: `posture`: ½‖q - posture‖². `mid_range`: ½ Σ ((q - middle) / range)² of the joints with limits. `limits`:
             Σ range² / (4 (upper - q)(q - lower)), which grows without bound at the limits. `manipulability`: -log of
-            Yoshikawa's measure √det JJᵀ, metres and radians mixed.
+            Yoshikawa's measure √det JJᵀ of the directions that count, metres and radians mixed.
         posture: For `posture`; shape (n,), or (N, n) for one each.
     """
 
@@ -58,9 +58,9 @@ def settle(
         task: Which directions count.
         respect_limits: Whether joint limits hold.
     """
-    bounds = search_bounds(chain, respect_limits)[:2]
+    bounds = np.array((chain.lower, chain.upper) if respect_limits else no_limits(chain))
     best = qs.copy()
-    values = _value(chain, best, objective)
+    values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)
     for _ in range(_ROUNDS):
         steps = _projected_gradient(chain, targets, best, objective, task, bounds)
@@ -70,7 +70,7 @@ def settle(
         if longest.max(initial=0.0) < 1e-9:
             break
         trial, errors = _corrected(chain, targets, np.clip(best + steps, *bounds), task, bounds)
-        after = _value(chain, trial, objective)
+        after = _value(chain, targets, trial, objective, task)
         better = (after < values) & (errors < 1e-10)
         best[better], values[better] = trial[better], after[better]
         sizes = np.where(better, 1.5 * sizes, 0.3 * sizes)
@@ -104,7 +104,7 @@ def _projected_gradient(
     chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task, bounds: Array
 ) -> Array:
     """The gradient's part in the kernel of J; joints at a limit that it would push further stand still."""
-    gradients = _gradient(chain, qs, objective)
+    gradients = _gradient(chain, targets, qs, objective, task)
     Js = linearise(chain, targets, qs, task)[1]
     for _ in range(2):
         # A joint held still changes the projection of the others, which may push a second joint.
@@ -122,7 +122,7 @@ def _spans(chain: Chain) -> tuple[Array, Array, Array]:
     return np.where(limited, chain.lower, -1.0), np.where(limited, chain.upper, 1.0), np.where(limited, 1 / ranges, 0.0)
 
 
-def _value(chain: Chain, qs: Array, objective: Objective) -> Array:
+def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
     """The objective at each configuration; shape (N,)."""
     lower, upper, inverse_ranges = _spans(chain)
     value: Array
@@ -136,12 +136,12 @@ def _value(chain: Chain, qs: Array, objective: Objective) -> Array:
             room = np.maximum((upper - qs) * (qs - lower), 1e-12)[:, limited]
             value = (0.25 / (np.square(inverse_ranges[limited]) * room)).sum(axis=1)
         case "manipulability":
-            Js = chain_jacobians(chain.flat, qs)[2]
-            value = -0.5 * np.linalg.slogdet(Js @ Js.transpose(0, 2, 1) + 1e-300 * np.eye(6))[1]
+            Js = linearise(chain, targets, qs, task)[1]
+            value = -0.5 * np.linalg.slogdet(Js @ Js.transpose(0, 2, 1) + 1e-300 * np.eye(len(task)))[1]
     return value
 
 
-def _gradient(chain: Chain, qs: Array, objective: Objective) -> Array:
+def _gradient(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
     """The objective's gradient at each configuration; shape (N, n)."""
     lower, upper, inverse_ranges = _spans(chain)
     gradient: Array
@@ -157,7 +157,10 @@ def _gradient(chain: Chain, qs: Array, objective: Objective) -> Array:
             gradient = scale * (2.0 * qs - upper - lower) / np.square(room)
         case "manipulability":
             # ∂ log w/∂q_i = tr((JJᵀ)⁻¹ ∂J/∂q_i Jᵀ)
-            Js, Hs = chain_jacobians(chain.flat, qs)[2], chain_hessians(chain.flat, qs)
+            Js, Hs = linearise(chain, targets, qs, task)[1], chain_hessians(chain.flat, qs)
+            if len(task) < len(DIRECTIONS):
+                Hs[:, 3:] = np.einsum("brk,brij->bkij", targets.rotations, Hs[:, 3:])
+                Hs = Hs[:, np.flatnonzero(task.weights)]
             inverses = np.linalg.pinv(Js @ Js.transpose(0, 2, 1))
             gradient = -np.einsum("bkl,blji,bkj->bi", inverses, Hs, Js)
     return gradient

@@ -61,6 +61,7 @@ def search(
     respect_limits: bool = True,
     max_iterations: int = MAX_ITERATIONS,
     random_seed: int = 0,
+    slack: float = 0.0,
     deadline: float | None = None,
     threads: int | None = None,
 ) -> Found:
@@ -76,11 +77,12 @@ def search(
         respect_limits: Whether a solution is to be within the joint limits.
         max_iterations: Budget for each target.
         random_seed: Of the starts.
+        slack: Share of the tolerances that errors are made smaller by, see `Goal.slack`.
         deadline: When to stop, on the clock of `time.monotonic`, [s].
         threads: How many share a large batch; by default as many as there are processors.
     """
     goal = make_goal(
-        chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed
+        chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed, slack
     )
     rows = target_rows(targets)
     if len(rows) <= _CHUNK:
@@ -98,6 +100,7 @@ def make_goal(
     respect_limits: bool,
     max_iterations: int,
     random_seed: int,
+    slack: float = 0.0,
 ) -> Goal:
     """What the kernels need to know, arguments as of `search`."""
     return Goal(
@@ -108,6 +111,7 @@ def make_goal(
         position_tolerance,
         # The kernels measure 2 sin(θ/2), of some components no less than 2/π of the angle.
         orientation_tolerance * (2.0 / np.pi if task.kind == SOME else 1.0),
+        slack,
         max(1, max_iterations // ITERATIONS_PER_START),
         random_seed,
     )
@@ -168,7 +172,7 @@ def search_bounds(chain: Chain, respect_limits: bool) -> Array:
     n = len(chain)
     lower, upper = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
     free = free_variables(chain) & (upper - lower >= _TURN)
-    spread = np.array([np.pi if turns else _span(chain) for turns in free_variables(chain)])
+    spread = _spreads(chain)
     middle = mid_range(chain)
     bounds = np.empty((6, n))
     bounds[0], bounds[1] = np.where(free, -np.inf, lower), np.where(free, np.inf, upper)
@@ -178,9 +182,17 @@ def search_bounds(chain: Chain, respect_limits: bool) -> Array:
     return bounds
 
 
-def _span(chain: Chain) -> float:
-    """A length to draw unlimited sliding joints from: that of the chain's constant parts, at least a metre."""
-    return max(1.0, float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum()))
+def _spreads(chain: Chain) -> Array:
+    """How far from its middle a variable without limits is drawn; shape (n,), [rad or m].
+
+    Half a turn of what it turns slowest, or a slide as long as the chain's constant parts, at least a metre.
+    """
+    length = max(1.0, float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum()))
+    spreads = np.zeros(len(chain))
+    for (prismatic, variable), (multiplier, _) in zip(chain.flat.joints, chain.flat.drives, strict=True):
+        spread = (length if prismatic else np.pi) / max(abs(multiplier), 1e-3)
+        spreads[variable] = max(spreads[variable], spread)
+    return spreads
 
 
 def _in_parts(chain: Chain, goal: Goal, rows: Array, seeds: Array, deadline: float | None, threads: int) -> Found:

@@ -2,7 +2,7 @@
 
 import time
 from dataclasses import dataclass, replace
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -33,6 +33,8 @@ Method: TypeAlias = Literal["auto"] | StepMethod
 
 _FAR_ITERATIONS = 320
 """Budget for a target that is out of reach by distance: only the nearest configuration is wanted."""
+_LOOSE, _SLACK = 1e-4, 0.9
+"""Tolerances from which on a target that is not met exactly is tried again, and what share of them is used then."""
 _WITHIN = 1e-9
 """How far beyond a limit rounding may put a joint, [rad or m]."""
 
@@ -188,7 +190,7 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
     """What a search finds, and which targets are beyond reach by distance alone."""
     budget = options.max_iterations or MAX_ITERATIONS
 
-    def run(targets: Poses, seeds: Array, most: int) -> Found:
+    def run(targets: Poses, seeds: Array, most: int, slack: float = 0.0) -> Found:
         return search(
             question.chain,
             targets,
@@ -199,27 +201,34 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
             respect_limits=options.respect_limits,
             max_iterations=most,
             random_seed=options.random_seed,
+            slack=slack,
             deadline=deadline,
         )
 
     too_far = question.too_far()
-    if not too_far.any():
-        return run(question.targets, question.seeds, budget), too_far
-    found = run(*question.part(~too_far), budget)
-    nearest = run(*question.part(too_far), min(budget, _FAR_ITERATIONS))
-    return _merged(too_far, found, nearest), too_far
+    if too_far.any():
+        count = len(question)
+        found = Found(
+            np.empty((count, len(question.chain))),
+            np.zeros(count, dtype=bool),
+            np.zeros(count, dtype=np.int64),
+            np.zeros(count, dtype=np.int64),
+            np.ones(count, dtype=bool),
+        )
+        _replace(found, ~too_far, run(*question.part(~too_far), budget))
+        _replace(found, too_far, run(*question.part(too_far), min(budget, _FAR_ITERATIONS)))
+    else:
+        found = run(question.targets, question.seeds, budget)
+    left = ~found.solved & ~too_far
+    if max(options.tolerances) > _LOOSE and left.any():
+        _replace(found, left, run(*question.part(left), budget, _SLACK))
+    return found, too_far
 
 
-def _merged(second: Flags, first_found: Found, second_found: Found) -> Found:
-    """Two searches in the order of their targets."""
-
-    def merge(a: Any, b: Any) -> Any:
-        merged = np.empty((len(second), *a.shape[1:]), a.dtype)
-        merged[~second], merged[second] = a, b
-        return merged
-
-    names = ("qs", "solved", "restarts", "iterations", "in_time")
-    return Found(**{name: merge(getattr(first_found, name), getattr(second_found, name)) for name in names})
+def _replace(found: Found, rows: Flags, other: Found) -> None:
+    """Put what another search found of some targets in the place of what was found before."""
+    for name in ("qs", "solved", "restarts", "iterations", "in_time"):
+        getattr(found, name)[rows] = getattr(other, name)
 
 
 def judged(question: Question, qs: Array, claimed: Flags) -> tuple[Flags, Array, Array]:

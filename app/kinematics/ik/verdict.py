@@ -72,8 +72,9 @@ class Question:
         reach = self.reach
         if reach is None:
             return np.zeros(len(self), dtype=bool)
-        # Sums of lengths round too.
-        return reach.excess(self.targets) > self.tolerances[0] + 1e-9
+        # What the orientation may be off moves the wrist; and sums of lengths round.
+        room = self.tolerances[0] + self.tolerances[1] * float(np.linalg.norm(reach.offset)) + 1e-9
+        return reach.excess(self.targets) > room
 
     def part(self, rows: Flags | Indices | slice) -> tuple[Poses, Array]:
         """Some of the targets, with their seeds."""
@@ -184,6 +185,9 @@ def verdict_on_path(
         case "at_limits":
             names = ", ".join(quoted(question.chain.joint_names[j]) for j in _at_limits(question, i, end))
             reason = f"stopped {away} away, where only joints at their limits could go on: {names}"
+            return "not_converged", Failure(reason, end, *errors)
+        case "diverged":
+            reason = "the steps grew without bound: take a smaller step size, or leave it out for a line search"
             return "not_converged", Failure(reason, end, *errors)
         case "iterations":
             reason = f"{away} away after {len(descent.trace) - 1} iterations; try another start, method or step size"
