@@ -3,26 +3,29 @@
 import sys
 from collections.abc import Callable
 
-from tests.benchmarks import batch, ik, requests, start, volume
+from tests.benchmarks import batch, ik, quality, requests, start, volume
 from tests.benchmarks.table import Row, show
 
 BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
-    "requests": requests.measure,
+    "solvers": ik.measure,
+    "quality": quality.measure,
     "batch": batch.measure,
+    "requests": requests.measure,
     "volume": volume.measure,
     "start": start.measure,
-    "ik": ik.measure,
 }
-ON_REQUEST: dict[str, Callable[[], list[Row]]] = {"ik-few": ik.measure_few}
+ON_REQUEST: dict[str, Callable[[], list[Row]]] = {"solvers-few": ik.measure_few}
+GROUPS = {"ik": ["solvers", "quality", "batch", "requests", "volume"]}
 
 
 def main() -> None:
     """Measure one after the other and print what came out."""
-    names = sys.argv[1:] or list(BENCHMARKS)
+    given = sys.argv[1:] or list(BENCHMARKS)
+    names = list(dict.fromkeys(name for word in given for name in GROUPS.get(word, [word])))
     known = BENCHMARKS | ON_REQUEST
     unknown = [name for name in names if name not in known]
     if unknown:
-        sys.exit(f"no benchmark is named {', '.join(unknown)}; there are {', '.join(known)}")
+        sys.exit(f"no benchmark is named {', '.join(unknown)}; there are {', '.join([*known, *GROUPS])}")
     rows = []
     for name in names:
         print(f"measuring {name} …", file=sys.stderr)

@@ -54,10 +54,13 @@ _CLOSE = 1e-18
 """Squared error that is good enough; above it a start within the tolerances takes one step more."""
 _ROUNDING = 1e-10
 """How far beyond a limit counts as at it, [rad]."""
-_LONGEST_STEP = 1.0
-"""Largest step of a joint, [rad or m]."""
+_LONGEST_STEP, _CAREFUL_STEP = 1.0, 0.05
+"""Largest step of a joint, and where a path is followed closely, [rad or m]."""
+_NEAR, _JUMP, _STRETCH = 0.3, 0.2, 4.0
+"""A seed with no larger error is near its target: an answer that is further from it than a jump, and than so many
+times that error, has left its branch."""
 
-_ERROR, _BEST, _SINCE, _COUNT, _REACHED, _STATE_ROWS = 12, 13, 14, 15, 16, 17
+_ERROR, _BEST, _SINCE, _COUNT, _REACHED, _FIRST, _STATE_ROWS = 12, 13, 14, 15, 16, 17, 18
 """Rows of a state: the target takes the first twelve."""
 
 
@@ -270,7 +273,7 @@ def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _
 def _sweep(
     flat: FlatChain, goal: Goal, targets: Array, seeds: Array, work: _Work, qs: Array, winners: Indices, its: Indices
 ) -> None:
-    """A target a lane, at most `LANES` starts each; what is not solved then is left to a race."""
+    """A target a lane, at most `LANES` starts each; what is not solved then, or not near, is left to a race."""
     most = min(goal.starts, LANES)
     count = len(targets)
     owners, starts = work.owners, work.starts
@@ -289,15 +292,16 @@ def _sweep(
             owner = owners[lane]
             if owner < 0 or not _has(ended, lane):
                 continue
-            solved = _has(ended, lane + LANES)
-            if solved:
+            seed = seeds[owner if len(seeds) > 1 else 0]
+            if _has(ended, lane + LANES):
                 _read(work.previous, lane, qs[owner])
-                _wind(goal, seeds[owner if len(seeds) > 1 else 0], qs[owner])
-                winners[owner] = starts[lane]
-                its[owner] = int(work.state[_COUNT * LANES + lane])
+                _wind(goal, seed, qs[owner])
+                if not _has_jumped(work, lane, seed, qs[owner]):
+                    winners[owner] = starts[lane]
+                    its[owner] = int(work.state[_COUNT * LANES + lane])
             elif starts[lane] + 1 < most:
                 starts[lane] += 1
-                _set_start(goal, work, lane, seeds[owner if len(seeds) > 1 else 0], starts[lane])
+                _set_start(goal, work, lane, seed, starts[lane])
                 continue
             if following < count:
                 owners[lane], starts[lane] = following, 0
@@ -325,7 +329,7 @@ def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, 
             winner, iterations = starts[leader], int(work.state[_COUNT * LANES + leader])
             _read(work.q, leader, q)
             break
-        _descend(goal, work, e, damping, lanes(1.0))
+        _descend(goal, work, e, damping, lanes(1.0), _LONGEST_STEP)
         if ended == 0:
             continue
         for lane in range(LANES):
@@ -344,6 +348,8 @@ def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, 
         _approach(flat, goal, work, q)
         winner = -1
     _wind(goal, seed, q)
+    if winner >= 0 and _has_jumped(work, 0, seed, q):
+        _follow(flat, goal, seed, work, q)
     return winner, iterations
 
 
@@ -359,11 +365,7 @@ def _remember(work: _Work, lane: int, n: int) -> None:
 
 @unmanaged
 def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
-    """Drive the candidates, one a lane, to the least error near them; `q` becomes the best.
-
-    Levenberg-Marquardt with a damping of its own for each lane: a step that makes it worse is taken back and damped
-    ten times more, any other halves the damping twice.
-    """
+    """Drive the candidates, one a lane, to the least error near them; `q` becomes the best."""
     nearest = 0
     for lane in range(LANES):
         if work.errors[lane] < work.errors[nearest]:
@@ -374,20 +376,73 @@ def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
         for j in range(len(q)):
             value = work.candidates[j * LANES + source]
             work.q[j * LANES + lane] = work.previous[j * LANES + lane] = value
-    damping, least = lanes(1e-3), lanes(np.inf)
-    for _ in range(_APPROACHES):
-        e = _linearise(flat, goal, work)
-        error = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
-        better = error <= least
-        least = where(better, error, least)
-        damping = where(better, max_lanes(0.25 * damping, _FLOOR), min_lanes(10.0 * damping, 1e6))
-        _descend(goal, work, e, damping, where(better, 1.0, 0.0))
-    store(work.state, _BEST, least)
+    _improve(flat, goal, work, lanes(1e-3), _LONGEST_STEP)
     best = 0
     for lane in range(LANES):
         if work.state[_BEST * LANES + lane] < work.state[_BEST * LANES + best]:
             best = lane
     _read(work.previous, best, q)
+
+
+@unmanaged
+def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> None:
+    """Go from the seed by small steps, each lane with a damping of its own; `q` becomes what is nearer to the seed."""
+    for lane in range(LANES):
+        _set_start(goal, work, lane, seed, 0)
+        work.state[_SINCE * LANES + lane] = 10.0 ** (-lane)
+        for j in range(len(q)):
+            work.previous[j * LANES + lane] = work.q[j * LANES + lane]
+    _improve(flat, goal, work, load(work.state, _SINCE), _CAREFUL_STEP)
+    nearest = _largest_difference(q, seed)
+    own = work.candidates[: len(q)]
+    for lane in range(LANES):
+        position, orientation = work.state[_SINCE * LANES + lane], work.state[_COUNT * LANES + lane]
+        if position <= goal.position_tolerance**2 and orientation <= goal.orientation_tolerance**2:
+            _read(work.previous, lane, own)
+            _wind(goal, seed, own)
+            if _largest_difference(own, seed) < nearest:
+                nearest = _largest_difference(own, seed)
+                for j in range(len(q)):
+                    q[j] = own[j]
+
+
+@unmanaged
+def _improve(flat: FlatChain, goal: Goal, work: _Work, damping: Lanes, most: float) -> None:
+    """Levenberg-Marquardt with a damping of its own for each lane, never to the worse [Marquardt1963].
+
+    A step that makes it worse is taken back and damped ten times more, any other halves the damping twice. In the end
+    `previous` is where each lane stands, with its squared errors in three rows of the state: both in `_BEST`, position
+    in `_SINCE`, orientation in `_COUNT`.
+    """
+    least = lanes(np.inf)
+    for _ in range(_APPROACHES):
+        e = _linearise(flat, goal, work)
+        position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+        orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        error = position + orientation
+        better = error <= least
+        least = where(better, error, least)
+        store(work.state, _SINCE, where(better, position, load(work.state, _SINCE)))
+        store(work.state, _COUNT, where(better, orientation, load(work.state, _COUNT)))
+        damping = where(better, max_lanes(0.25 * damping, _FLOOR), min_lanes(10.0 * damping, 1e6))
+        _descend(goal, work, e, damping, where(better, 1.0, 0.0), most)
+    store(work.state, _BEST, least)
+
+
+@inlined
+def _has_jumped(work: _Work, lane: int, seed: Array, q: Array) -> bool:
+    """Whether an answer is far from a seed that was near its target."""
+    first = np.sqrt(work.state[_FIRST * LANES + lane])
+    jumped: bool = first < _NEAR and _largest_difference(q, seed) > max(_JUMP, _STRETCH * first)
+    return jumped
+
+
+@inlined
+def _largest_difference(q: Array, other: Array) -> float:
+    largest = 0.0
+    for j in range(len(q)):
+        largest = max(largest, abs(q[j] - other[j]))
+    return largest
 
 
 @inlined
@@ -446,6 +501,8 @@ def _set_start(goal: Goal, work: _Work, lane: int, seed: Array, start: int) -> N
     work.state[_SINCE * LANES + lane] = 0.0
     work.state[_COUNT * LANES + lane] = 0.0
     work.state[_REACHED * LANES + lane] = 0.0
+    if start == 0:
+        work.state[_FIRST * LANES + lane] = -1.0
 
 
 @inlined
@@ -468,7 +525,7 @@ def _iterate(flat: FlatChain, goal: Goal, work: _Work) -> int:
         `previous` is its configuration.
     """
     ended, e, damping = _judge(flat, goal, work)
-    _descend(goal, work, e, damping, lanes(1.0))
+    _descend(goal, work, e, damping, lanes(1.0), _LONGEST_STEP)
     return ended
 
 
@@ -492,6 +549,7 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     # One step more than needed takes the error from the tolerance to rounding.
     converged = within & ((load(state, _REACHED) > 0.5) | given_up | (error <= _CLOSE))
     store(state, _ERROR, error)
+    store(state, _FIRST, where(load(state, _FIRST) < 0.0, error, load(state, _FIRST)))
     store(state, _BEST, where(halved, error, load(state, _BEST)))
     store(state, _SINCE, since)
     store(state, _COUNT, count)
@@ -598,18 +656,21 @@ def _swing(state: Array, frame: Frame, axis: int) -> tuple[Lanes, Lanes, Lanes]:
 
 
 @inlined
-def _descend(goal: Goal, work: _Work, e: _Error, damping: Lanes, keep: Lanes) -> None:
-    """Step q by Jᵀ(JJᵀ + λI)⁻¹e within the bounds and let `previous` be q; where `keep` is 0, take `previous` back."""
+def _descend(goal: Goal, work: _Work, e: _Error, damping: Lanes, keep: Lanes, most: float) -> None:
+    """Step q by Jᵀ(JJᵀ + λI)⁻¹e within the bounds and let `previous` be q; where `keep` is 0, take `previous` back.
+
+    No joint steps further than `most`.
+    """
     J, n = work.J, len(work.J) // (6 * LANES)
     x0, x1, x2, x3, x4, x5 = _solve(_normal_matrix(goal, work, e, damping), e)
-    longest = lanes(_LONGEST_STEP)
+    longest = lanes(most)
     for j in range(n):
         c0, c1, c2 = load(J, 6 * j), load(J, 6 * j + 1), load(J, 6 * j + 2)
         c3, c4, c5 = load(J, 6 * j + 3), load(J, 6 * j + 4), load(J, 6 * j + 5)
         step = c0 * x0 + c1 * x1 + c2 * x2 + c3 * x3 + c4 * x4 + c5 * x5
         longest = max_lanes(longest, abs_lanes(step))
         store(J, 6 * j, step)
-    scale = _LONGEST_STEP / longest
+    scale = most / longest
     kept = keep > 0.5
     for j in range(n):
         q, before = load(work.q, j), load(work.previous, j)
