@@ -88,7 +88,7 @@ class Gelenk(BatchPeer):
         return self.ask_again(T, seed, 1)
 
     def read(self, answer: Any) -> Array | None:
-        qs, winners, _ = answer
+        qs, winners, *_ = answer
         return np.array(qs[0]) if winners[0] >= 0 else None
 
     def ask_again(self, T: Array, seed: Array, times: int) -> Callable[[], Any]:

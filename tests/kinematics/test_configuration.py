@@ -41,19 +41,19 @@ def test_no_joint() -> None:
 def test_wrong_count(value: list[float]) -> None:
     with pytest.raises(WrongJointCount) as caught:
         configurations(ARM, [BY_ORDER, value])
-    assert caught.value.facts() == {"given": len(value), "expected": NAMES, "index": 1}
+    assert caught.value.facts() == {"given": len(value), "expected": NAMES, "index": 1, "field": "joint_positions"}
 
 
 def test_missing_joint() -> None:
     with pytest.raises(MissingJoint) as caught:
         configurations(ARM, [BY_ORDER, {NAMES[0]: 0.1, NAMES[2]: 0.3}])
-    assert caught.value.facts() == {"joint": NAMES[1], "expected": NAMES, "index": 1}
+    assert caught.value.facts() == {"joint": NAMES[1], "expected": NAMES, "index": 1, "field": "joint_positions"}
 
 
 def test_unknown_joint() -> None:
     with pytest.raises(UnknownJoint) as caught:
         configurations(ARM, [{**BY_NAME, "elbow": 1.0}])
-    assert caught.value.facts() == {"joint": "elbow", "expected": NAMES, "index": 0}
+    assert caught.value.facts() == {"joint": "elbow", "expected": NAMES, "index": 0, "field": "joint_positions"}
 
 
 @pytest.mark.parametrize("number", [nan, inf, -inf, 1.1e6, -1e300])

@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.kinematics.configuration import MAX_MAGNITUDE
+from app.kinematics.ik.kernels import LONGEST_STEP
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import search_bounds
 from app.kinematics.ik.steps import damped_step, error_damping, gradient_step, newton_step
@@ -30,8 +31,6 @@ _KERNEL = 1e-8
 """Share of σ_max‖e‖ below which Jᵀe counts as zero: e lies in ker Jᵀ."""
 _SINGULAR = 1e-12
 """Share of σ_max below which σ_min counts as zero: Newton's step is not defined."""
-_LONGEST_STEP = 1.0
-"""Largest joint step of the damped method, [rad or m]; Newton and the gradient are the course's, unbounded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +77,6 @@ class Rule:
         damping: λ of damped least squares; None takes it in proportion to the squared error.
         switch_error: ‖e‖ at which `gradient_then_newton` changes over.
         max_iterations: Bound on the steps; None for the method's default.
-        as_searched: Whether damped least squares step exactly as in the kernels, which never take a step back and
-            measure rotations by 2 sin(θ/2).
     """
 
     method: StepMethod
@@ -87,7 +84,6 @@ class Rule:
     damping: float | None = None
     switch_error: float = 1e-2
     max_iterations: int | None = None
-    as_searched: bool = False
 
 
 def descend(
@@ -118,10 +114,10 @@ def descend(
     q = np.clip(seed, *bounds)
     trace: list[Iterate] = []
     most = DEFAULT_ITERATIONS[rule.method] if rule.max_iterations is None else rule.max_iterations
-    linear = sum(direction in {"x", "y", "z"} for direction in task.directions)
+    linear = task.positions
 
     def at(q: Array) -> tuple[Array, Array]:
-        es, Js = linearise(chain, target, q[None], task, chords=rule.as_searched)
+        es, Js = linearise(chain, target, q[None], task)
         return es[0], Js[0]
 
     for count in range(most + 1):
@@ -129,7 +125,7 @@ def descend(
         error = float(np.linalg.norm(e))
         sigmas: Array = np.linalg.svd(J, compute_uv=False).astype(np.float64)
         method = _method(rule, error)
-        reason = _stop_reason(e, J, sigmas, q, bounds, method, linear, tolerances)
+        reason = stop_reason(e, J, sigmas, q, bounds, method, linear, tolerances)
         if reason is None and count == most:
             reason = "iterations"
         smallest = float(sigmas[-1]) if len(sigmas) else 0.0
@@ -151,7 +147,7 @@ def _method(rule: Rule, error: float) -> StepMethod:
     return rule.method
 
 
-def _stop_reason(
+def stop_reason(
     e: Array,
     J: Array,
     sigmas: Array,
@@ -161,6 +157,7 @@ def _stop_reason(
     linear: int,
     tolerances: tuple[float, float],
 ) -> StopReason | None:
+    """Why a method goes no further from here, if it does not; the first `linear` rows of e are the position's."""
     if np.linalg.norm(e[:linear]) <= tolerances[0] and np.linalg.norm(e[linear:]) <= tolerances[1]:
         return "converged"
     slope = J.T @ e
@@ -191,20 +188,24 @@ def _step(
     free = np.where(blocked(J.T @ e, q, bounds), 0.0, 1.0)
     if rule.damping is not None:
         return damped_step(J * free, e, rule.damping)
-    return _adaptive_step(J * free, e, q, bounds, None if rule.as_searched else error_at)
+    return _adaptive_step(J * free, e, q, bounds, error_at)
 
 
-def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array] | None) -> Array:
-    """A damped step, damped ten times more until it makes the error smaller [Marquardt1963], where that is asked."""
+def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array]) -> Array:
+    """A damped step, damped ten times more until it makes the error smaller [Marquardt1963]."""
     damping = error_damping(e)
     step = np.zeros_like(q)
     for _ in range(20):
-        step = damped_step(J, e, damping)
-        step *= min(1.0, _LONGEST_STEP / max(float(np.abs(step).max(initial=0.0)), _LONGEST_STEP))
-        if error_at is None or np.linalg.norm(error_at(np.clip(q + step, *bounds))) < np.linalg.norm(e):
+        step = shortened(damped_step(J, e, damping), LONGEST_STEP)
+        if np.linalg.norm(error_at(np.clip(q + step, *bounds))) < np.linalg.norm(e):
             break
         damping *= 10.0
     return step
+
+
+def shortened(step: Array, most: float) -> Array:
+    """A step of which no joint goes further than allowed, in the same direction; shape (n,)."""
+    return step * (most / max(float(np.abs(step).max(initial=0.0)), most))
 
 
 def _line_search(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array]) -> float:

@@ -44,17 +44,17 @@ FULL, AXIS, SOME = 0, 1, 2
 
 _STAGNATION = 6
 """Iterations without halving the squared error after which a start is given up."""
-_LONGEST = 40
+LONGEST = 40
 """Iterations after which it is given up in any case."""
-_DAMPING, _FLOOR = 0.05, 1e-10
+_DAMPING, FLOOR = 0.05, 1e-10
 """λ as a share of the squared error, and what is added to it."""
-_APPROACHES = 200
-"""Iterations spent on the nearest configuration to an unsolved target."""
+APPROACHES = 200
+"""Iterations spent on the nearest configuration to an unsolved target, and on following a path closely."""
 _CLOSE = 1e-18
 """Squared error that is good enough; above it a start within the tolerances takes one step more."""
 _ROUNDING = 1e-10
 """How far beyond a limit counts as at it, [rad]."""
-_LONGEST_STEP, _CAREFUL_STEP = 1.0, 0.05
+LONGEST_STEP, CAREFUL_STEP = 1.0, 0.05
 """Largest step of a joint, and where a path is followed closely, [rad or m]."""
 _NEAR, _JUMP, _STRETCH = 0.3, 0.2, 4.0
 """A seed with no larger error is near its target: an answer that is further from it than a jump, and than so many
@@ -147,7 +147,7 @@ def _workspace(flat: FlatChain, n: int) -> _Work:
     )
 
 
-def search(flat: FlatChain, goal: Goal, targets: Array, seeds: Array) -> tuple[Array, Indices, Indices]:
+def search(flat: FlatChain, goal: Goal, targets: Array, seeds: Array) -> tuple[Array, Indices, Indices, Indices]:
     """Solve each target by the first of its starts that converges.
 
     Args:
@@ -158,12 +158,13 @@ def search(flat: FlatChain, goal: Goal, targets: Array, seeds: Array) -> tuple[A
 
     Returns:
         Configurations, of an unsolved target the nearest that was found, shape (N, n); the start that converged or
-        -1, shape (N,); its iterations, shape (N,).
+        -1, shape (N,); its iterations, shape (N,); and where the seed had to be followed closely, by how many powers
+        of ten the damping began below 1, else -1, shape (N,).
     """
     # To hand over a tuple costs a compiled function much more than its parts.
     arguments: tuple[Any, ...] = (*flat, *goal, targets, seeds)
     qs, outcomes = _search(*arguments)
-    return qs, outcomes[0], outcomes[1]
+    return qs, outcomes[0], outcomes[1], outcomes[2]
 
 
 def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
@@ -201,9 +202,9 @@ def _search(
     flat = FlatChain(placements, joints, drives)
     goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
-    qs, outcomes = np.empty((count, n)), np.empty((2, count), np.int64)
+    qs, outcomes = np.empty((count, n)), np.empty((3, count), np.int64)
     work = _workspace(flat, n)
-    _search_all(flat, goal, targets, seeds, work, qs, outcomes[0], outcomes[1])
+    _search_all(flat, goal, targets, seeds, work, qs, outcomes)
     return qs, outcomes
 
 
@@ -233,15 +234,16 @@ def _gather(
 
 @unmanaged
 def _search_all(
-    flat: FlatChain, goal: Goal, targets: Array, seeds: Array, work: _Work, qs: Array, winners: Indices, its: Indices
+    flat: FlatChain, goal: Goal, targets: Array, seeds: Array, work: _Work, qs: Array, outcomes: Indices
 ) -> None:
     """A sweep over many targets, then a race for each that it leaves."""
-    winners[:] = -1
+    outcomes[:] = -1
     if len(targets) >= 2 * LANES:
-        _sweep(flat, goal, targets, seeds, work, qs, winners, its)
+        _sweep(flat, goal, targets, seeds, work, qs, outcomes[0], outcomes[1])
     for i in range(len(targets)):
-        if winners[i] < 0:
-            winners[i], its[i] = _race(flat, goal, targets[i], seeds[i if len(seeds) > 1 else 0], work, qs[i])
+        if outcomes[0, i] < 0:
+            seed = seeds[i if len(seeds) > 1 else 0]
+            outcomes[0, i], outcomes[1, i], outcomes[2, i] = _race(flat, goal, targets[i], seed, work, qs[i])
 
 
 @unmanaged
@@ -314,8 +316,12 @@ def _sweep(
 
 
 @unmanaged
-def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, q: Array) -> tuple[int, int]:
-    """A start a lane: the one of the lowest number that converges, and its iterations; -1 and `q` the nearest."""
+def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, q: Array) -> tuple[int, int, int]:
+    """A start a lane: the one of the lowest number that converges; or -1, and `q` the nearest.
+
+    Returns:
+        That start, its iterations, and how the seed was followed, as `search` tells it.
+    """
     starts = work.starts
     for lane in range(LANES):
         starts[lane], work.errors[lane] = lane, np.inf
@@ -329,7 +335,7 @@ def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, 
             winner, iterations = starts[leader], int(work.state[_COUNT * LANES + leader])
             _read(work.q, leader, q)
             break
-        _descend(goal, work, e, damping, lanes(1.0), _LONGEST_STEP)
+        _descend(goal, work, e, damping, lanes(1.0), LONGEST_STEP)
         if ended == 0:
             continue
         for lane in range(LANES):
@@ -348,9 +354,12 @@ def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, 
         _approach(flat, goal, work, q)
         winner = -1
     _wind(goal, seed, q)
+    followed = -1
     if winner >= 0 and _has_jumped(work, 0, seed, q):
-        _follow(flat, goal, seed, work, q)
-    return winner, iterations
+        followed = _follow(flat, goal, seed, work, q)
+        if followed >= 0:
+            winner, iterations = 0, APPROACHES
+    return winner, iterations, followed
 
 
 @inlined
@@ -376,7 +385,7 @@ def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
         for j in range(len(q)):
             value = work.candidates[j * LANES + source]
             work.q[j * LANES + lane] = work.previous[j * LANES + lane] = value
-    _improve(flat, goal, work, lanes(1e-3), _LONGEST_STEP)
+    _improve(flat, goal, work, lanes(1e-3), LONGEST_STEP)
     best = 0
     for lane in range(LANES):
         if work.state[_BEST * LANES + lane] < work.state[_BEST * LANES + best]:
@@ -385,15 +394,19 @@ def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
 
 
 @unmanaged
-def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> None:
-    """Go from the seed by small steps, each lane with a damping of its own; `q` becomes what is nearer to the seed."""
+def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> int:
+    """Go from the seed by small steps, each lane with a damping of its own; `q` becomes what is nearer to the seed.
+
+    Returns:
+        The lane that came nearest, which is the power of ten below 1 at which its damping began; -1 if none did.
+    """
     for lane in range(LANES):
         _set_start(goal, work, lane, seed, 0)
         work.state[_SINCE * LANES + lane] = 10.0 ** (-lane)
         for j in range(len(q)):
             work.previous[j * LANES + lane] = work.q[j * LANES + lane]
-    _improve(flat, goal, work, load(work.state, _SINCE), _CAREFUL_STEP)
-    nearest = _largest_difference(q, seed)
+    _improve(flat, goal, work, load(work.state, _SINCE), CAREFUL_STEP)
+    nearest, found = _largest_difference(q, seed), -1
     own = work.candidates[: len(q)]
     for lane in range(LANES):
         position, orientation = work.state[_SINCE * LANES + lane], work.state[_COUNT * LANES + lane]
@@ -401,9 +414,10 @@ def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> 
             _read(work.previous, lane, own)
             _wind(goal, seed, own)
             if _largest_difference(own, seed) < nearest:
-                nearest = _largest_difference(own, seed)
+                nearest, found = _largest_difference(own, seed), lane
                 for j in range(len(q)):
                     q[j] = own[j]
+    return found
 
 
 @unmanaged
@@ -415,7 +429,7 @@ def _improve(flat: FlatChain, goal: Goal, work: _Work, damping: Lanes, most: flo
     in `_SINCE`, orientation in `_COUNT`.
     """
     least = lanes(np.inf)
-    for _ in range(_APPROACHES):
+    for _ in range(APPROACHES):
         e = _linearise(flat, goal, work)
         position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
         orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
@@ -424,7 +438,7 @@ def _improve(flat: FlatChain, goal: Goal, work: _Work, damping: Lanes, most: flo
         least = where(better, error, least)
         store(work.state, _SINCE, where(better, position, load(work.state, _SINCE)))
         store(work.state, _COUNT, where(better, orientation, load(work.state, _COUNT)))
-        damping = where(better, max_lanes(0.25 * damping, _FLOOR), min_lanes(10.0 * damping, 1e6))
+        damping = where(better, max_lanes(0.25 * damping, FLOOR), min_lanes(10.0 * damping, 1e6))
         _descend(goal, work, e, damping, where(better, 1.0, 0.0), most)
     store(work.state, _BEST, least)
 
@@ -525,7 +539,7 @@ def _iterate(flat: FlatChain, goal: Goal, work: _Work) -> int:
         `previous` is its configuration.
     """
     ended, e, damping = _judge(flat, goal, work)
-    _descend(goal, work, e, damping, lanes(1.0), _LONGEST_STEP)
+    _descend(goal, work, e, damping, lanes(1.0), LONGEST_STEP)
     return ended
 
 
@@ -542,10 +556,15 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
         b = _shortening(orientation, goal.slack * goal.orientation_tolerance)
         e = (a * e[0], a * e[1], a * e[2], b * e[3], b * e[4], b * e[5])
         error = a * a * position + b * b * orientation
+        # What is good enough must not hold the joints back either.
+        for row in range(0, len(work.J) // LANES, 6):
+            for k in range(3):
+                store(work.J, row + k, a * load(work.J, row + k))
+                store(work.J, row + 3 + k, b * load(work.J, row + 3 + k))
     halved = error < 0.5 * load(state, _BEST)
     since = where(halved, 0.0, load(state, _SINCE) + 1.0)
     count = load(state, _COUNT) + 1.0
-    given_up = (since >= float(_STAGNATION)) | (count >= float(_LONGEST))
+    given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One step more than needed takes the error from the tolerance to rounding.
     converged = within & ((load(state, _REACHED) > 0.5) | given_up | (error <= _CLOSE))
     store(state, _ERROR, error)
@@ -554,7 +573,7 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     store(state, _SINCE, since)
     store(state, _COUNT, count)
     store(state, _REACHED, where(within, 1.0, 0.0))
-    return bits(converged | given_up) | (bits(converged) << LANES), e, _DAMPING * error + _FLOOR
+    return bits(converged | given_up) | (bits(converged) << LANES), e, _DAMPING * error + FLOOR
 
 
 @inlined

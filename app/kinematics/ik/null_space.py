@@ -18,6 +18,10 @@ ObjectiveName: TypeAlias = Literal["posture", "mid_range", "limits", "manipulabi
 _ROUNDS = 80
 _LONGEST_STEP = 0.2
 """Largest joint step of a round, [rad or m]."""
+_PASSES = 8
+"""How often joints at their limits are looked for."""
+_AT_LIMIT = 1e-6
+"""How near to a limit counts as at it, [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,12 +73,24 @@ def settle(
         steps /= np.maximum(1.0, longest / _LONGEST_STEP)[:, None]
         if longest.max(initial=0.0) < 1e-9:
             break
-        trial, errors = _corrected(chain, targets, np.clip(best + steps, *bounds), task, bounds)
+        trial, errors = _corrected(chain, targets, _up_to_limits(best, steps, bounds), task, bounds)
         after = _value(chain, targets, trial, objective, task)
         better = (after < values) & (errors < 1e-10)
         best[better], values[better] = trial[better], after[better]
         sizes = np.where(better, 1.5 * sizes, 0.3 * sizes)
     return best
+
+
+def _up_to_limits(qs: Array, steps: Array, bounds: Array) -> Array:
+    """Each configuration gone along its step as far as the first limit that it meets; shape (N, n).
+
+    To clip it joint by joint would bend the step, and off the self-motion.
+    """
+    room = np.where(steps > 0.0, bounds[1] - qs, qs - bounds[0])
+    shares = np.where(np.abs(steps) > 0.0, room / np.maximum(np.abs(steps), 1e-300), np.inf)
+    shares = np.minimum(1.0, np.maximum(shares, 0.0).min(axis=1, initial=1.0))
+    inside: Array = np.clip(qs + shares[:, None] * steps, *bounds)
+    return inside
 
 
 def _corrected(chain: Chain, targets: Poses, qs: Array, task: Task, bounds: Array) -> tuple[Array, Array]:
@@ -103,16 +119,24 @@ def _unblocked(Js: Array, es: Array, qs: Array, bounds: Array) -> Array:
 def _projected_gradient(
     chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task, bounds: Array
 ) -> Array:
-    """The gradient's part in the kernel of J; joints at a limit that it would push further stand still."""
+    """The gradient's part in the kernel of J; joints at a limit that its descent would push further stand still.
+
+    Which of them do shows only when the others are known: a joint that the gradient itself pushes outwards may have to
+    give way to the rest.
+    """
     gradients = _gradient(chain, targets, qs, objective, task)
     Js = linearise(chain, targets, qs, task)[1]
-    for _ in range(2):
-        # A joint held still changes the projection of the others, which may push a second joint.
-        held = ((qs <= bounds[0]) & (gradients > 0.0)) | ((qs >= bounds[1]) & (gradients < 0.0))
-        gradients = np.where(held, 0.0, gradients)
-        Js = np.where(held[:, None, :], 0.0, Js)
-        gradients -= _damped(Js, np.einsum("bmi,bi->bm", Js, gradients))
-    return np.where(held, 0.0, gradients)
+    free = np.ones(qs.shape, dtype=bool)
+    projected = gradients
+    for _ in range(_PASSES):
+        allowed, columns = np.where(free, gradients, 0.0), np.where(free[:, None, :], Js, 0.0)
+        projected = np.where(free, allowed - _damped(columns, np.einsum("bmi,bi->bm", columns, allowed)), 0.0)
+        outwards = (qs <= bounds[0] + _AT_LIMIT) & (projected > 0.0)
+        outwards |= (qs >= bounds[1] - _AT_LIMIT) & (projected < 0.0)
+        if not outwards.any():
+            break
+        free &= ~outwards
+    return np.where(free, projected, 0.0)
 
 
 def _spans(chain: Chain) -> tuple[Array, Array, Array]:

@@ -26,7 +26,7 @@ ITERATIONS_PER_START = 20
 """What a start costs on average, so that a budget in iterations becomes a number of starts."""
 
 _TURN = 2.0 * np.pi
-_CHUNK = 256
+_CHUNK = 128
 """Targets that one thread takes at once: the others share a larger batch, and the clock is looked at in between."""
 
 
@@ -40,6 +40,8 @@ class Found:
         solved: Whether the errors are within the tolerances; shape (N,).
         restarts: How many starts failed before; shape (N,).
         iterations: Of the start that converged; shape (N,).
+        followed: Where the seed had to be followed closely: by how many powers of ten the damping began below 1, else
+            -1; shape (N,).
         in_time: Whether the target was tried before time ran out; shape (N,).
     """
 
@@ -47,6 +49,7 @@ class Found:
     solved: Flags
     restarts: Indices
     iterations: Indices
+    followed: Indices
     in_time: Flags
 
 
@@ -86,9 +89,11 @@ def search(
     )
     rows = target_rows(targets)
     if len(rows) <= _CHUNK:
-        qs, winners, iterations = kernels.search(chain.flat, goal, rows, seeds)
-        return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, np.ones(len(rows), dtype=bool))
-    return _in_parts(chain, goal, rows, seeds, deadline, threads or os.cpu_count() or 1)
+        qs, winners, iterations, followed = kernels.search(chain.flat, goal, rows, seeds)
+        return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, np.ones(len(rows), dtype=bool))
+    limits = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
+    untried = np.clip(seeds, *limits)
+    return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or os.cpu_count() or 1)
 
 
 @lru_cache(maxsize=1024)
@@ -109,12 +114,21 @@ def make_goal(
         task.kind,
         task.axis,
         position_tolerance,
-        # The kernels measure 2 sin(θ/2), of some components no less than 2/π of the angle.
-        orientation_tolerance * (2.0 / np.pi if task.kind == SOME else 1.0),
+        # The kernels measure 2 sin(θ/2); of some components that may be as little as 2/π of the angle.
+        orientation_tolerance * 2.0 / np.pi
+        if task.kind == SOME
+        else 2.0 * np.sin(0.5 * min(orientation_tolerance, np.pi)),
         slack,
         max(1, max_iterations // ITERATIONS_PER_START),
         random_seed,
     )
+
+
+def _chord(tolerance: float, task: Task) -> float:
+    """A tolerance as the kernels measure it: 2 sin(θ/2), of which some components may be as little as 2/π of θ."""
+    if task.kind == SOME:
+        return tolerance * 2.0 / np.pi
+    return float(2.0 * np.sin(0.5 * min(tolerance, np.pi)))
 
 
 def target_rows(targets: Poses) -> Array:
@@ -195,21 +209,24 @@ def _spreads(chain: Chain) -> Array:
     return spreads
 
 
-def _in_parts(chain: Chain, goal: Goal, rows: Array, seeds: Array, deadline: float | None, threads: int) -> Found:
-    """A large batch, shared by threads and in pieces where time is limited."""
+def _in_parts(
+    chain: Chain, goal: Goal, rows: Array, seeds: Array, untried: Array, deadline: float | None, threads: int
+) -> Found:
+    """A large batch, shared by threads and in pieces where time is limited; targets never tried keep `untried`."""
     count, n = len(rows), len(chain)
-    qs, winners, iterations = np.zeros((count, n)), np.full(count, -1), np.zeros(count, dtype=np.int64)
+    qs, winners, iterations, followed = np.empty((count, n)), *np.full((3, count), -1)
     in_time = np.zeros(count, dtype=bool)
+    qs[:] = untried
 
     def solve(part: slice) -> None:
         if deadline is not None and time.monotonic() > deadline:
             return
         own = seeds[part] if len(seeds) > 1 else seeds
-        qs[part], winners[part], iterations[part] = kernels.search(chain.flat, goal, rows[part], own)
+        qs[part], winners[part], iterations[part], followed[part] = kernels.search(chain.flat, goal, rows[part], own)
         in_time[part] = True
 
     _each(solve, _slices(count, threads, deadline is not None), threads)
-    return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, in_time)
+    return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, in_time)
 
 
 def _slices(count: int, threads: int, small: bool) -> Iterator[slice]:

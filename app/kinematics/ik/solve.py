@@ -12,6 +12,7 @@ from app.kinematics.ik.branches import all_branches
 from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
 from app.kinematics.ik.null_space import Objective, settle
 from app.kinematics.ik.result import Failure, InverseKinematics, Path, Status
+from app.kinematics.ik.retrace import retrace
 from app.kinematics.ik.search import (
     ITERATIONS_PER_START,
     MAX_ITERATIONS,
@@ -117,7 +118,7 @@ def solve_quickly(question: Question, starts: int, random_seed: int) -> InverseK
         starts * ITERATIONS_PER_START,
         random_seed,
     )
-    qs, winners, iterations = kernels.search(chain.flat, goal, target_rows(question.targets), question.seeds)
+    qs, winners, iterations, _ = kernels.search(chain.flat, goal, target_rows(question.targets), question.seeds)
     # Lists, because of a few numbers they tell quicker than arrays.
     if -1 in winners.tolist():
         return None
@@ -208,13 +209,8 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
     too_far = question.too_far()
     if too_far.any():
         count = len(question)
-        found = Found(
-            np.empty((count, len(question.chain))),
-            np.zeros(count, dtype=bool),
-            np.zeros(count, dtype=np.int64),
-            np.zeros(count, dtype=np.int64),
-            np.ones(count, dtype=bool),
-        )
+        flags, integers = np.zeros((2, count), dtype=bool), np.zeros((3, count), dtype=np.int64)
+        found = Found(np.empty((count, len(question.chain))), flags[0], integers[0], integers[1], integers[2], flags[1])
         _replace(found, ~too_far, run(*question.part(~too_far), budget))
         _replace(found, too_far, run(*question.part(too_far), min(budget, _FAR_ITERATIONS)))
     else:
@@ -227,7 +223,7 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
 
 def _replace(found: Found, rows: Flags, other: Found) -> None:
     """Put what another search found of some targets in the place of what was found before."""
-    for name in ("qs", "solved", "restarts", "iterations", "in_time"):
+    for name in ("qs", "solved", "restarts", "iterations", "followed", "in_time"):
         getattr(found, name)[rows] = getattr(other, name)
 
 
@@ -365,10 +361,10 @@ def _followed(question: Question, options: Options, method: StepMethod, deadline
     solved, position_errors, orientation_errors = judged(question, wound, claimed)
     statuses: list[Status] = ["solved"] * len(question)
     failures: dict[int, Failure] = {}
+    too_far = question.too_far()
     for i in np.flatnonzero(~solved).tolist():
-        statuses[i], failures[i] = verdict_on_path(
-            question, i, wound[i], (float(position_errors[i]), float(orientation_errors[i])), descents[i]
-        )
+        errors = float(position_errors[i]), float(orientation_errors[i])
+        statuses[i], failures[i] = verdict_on_path(question, i, wound[i], errors, descents[i], too_far=bool(too_far[i]))
     counts = np.array([0 if d is None else len(d.trace) - 1 for d in descents], dtype=np.int64)
     paths = [
         Path("iterations", None) if d is None else Path(d.stop_reason, d.trace if options.trace else None)
@@ -405,5 +401,13 @@ def _replayed(question: Question, options: Options, found: Found, i: int) -> Pat
     start = start_of(
         question.chain, question.seed(i), options.respect_limits, options.random_seed, int(found.restarts[i])
     )
-    descent = _descent(question, i, start, Rule("damped_least_squares", as_searched=True))
+    descent = retrace(
+        question.chain,
+        question.target(i),
+        start,
+        int(found.followed[i]),
+        task=question.task,
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+    )
     return Path(descent.stop_reason, descent.trace)

@@ -46,6 +46,11 @@ class Task:
         return next(i for i in range(3) if DIRECTIONS[3 + i] not in self.directions)
 
     @cached_property
+    def positions(self) -> int:
+        """How many directions of the position count."""
+        return len(self.directions) - self._rotations
+
+    @cached_property
     def _rotations(self) -> int:
         return sum(direction in self.directions for direction in DIRECTIONS[3:])
 

@@ -153,7 +153,7 @@ def explain(
 
 
 def verdict_on_path(
-    question: Question, i: int, end: Array, errors: tuple[float, float], descent: Descent | None
+    question: Question, i: int, end: Array, errors: tuple[float, float], descent: Descent | None, *, too_far: bool
 ) -> tuple[Status, Failure]:
     """The verdict on a target that one method from one start has not solved.
 
@@ -163,12 +163,13 @@ def verdict_on_path(
         end: Where the method stopped, within a full turn of the limits; shape (n,).
         errors: Its distance [m] and angle [rad].
         descent: The way there; None if there was no time for it.
+        too_far: Whether the target is beyond reach by distance alone.
     """
     directions = unserved_directions(question, i, end)
     if descent is None:
         return "not_converged", Failure("the time limit ended the call before this target's turn", end, *errors)
     away = _far(question.task, errors)
-    if question.too_far()[i] and question.reach is not None:
+    if too_far and question.reach is not None:
         reason = f"{question.reach.describe(question.target(i))}; the method stopped {away} away"
         return "unreachable", Failure(reason, end, *errors, unserved_directions=directions)
     match descent.stop_reason:

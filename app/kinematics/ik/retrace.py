@@ -1,0 +1,88 @@
+"""What the search did, told step by step: its kernels again, in NumPy and one configuration at a time."""
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+import numpy as np
+
+from app.kinematics.ik.descent import Descent, Iterate, blocked, shortened, stop_reason
+from app.kinematics.ik.kernels import APPROACHES, CAREFUL_STEP, FLOOR, LONGEST, LONGEST_STEP
+from app.kinematics.ik.linearise import linearise
+from app.kinematics.ik.search import search_bounds
+from app.kinematics.ik.steps import damped_step, error_damping
+from app.kinematics.ik.task import Task
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.poses import Poses
+
+_Linearised: TypeAlias = Callable[[Array], tuple[Array, Array]]
+_Steps: TypeAlias = Iterator[tuple[Array, Array, Array, Array]]
+"""Configuration, error, Jacobian, and the step that is taken from there."""
+
+
+def retrace(
+    chain: Chain,
+    target: Poses,
+    start: Array,
+    followed: int,
+    *,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+) -> Descent:
+    """The way of a start through the search, to where it is within the tolerances or was given up.
+
+    Args:
+        chain: Base and tip.
+        target: The pose wanted; one.
+        start: Where it set out; shape (n,), [rad or m].
+        followed: See `Found.followed`.
+        task: Which directions count.
+        tolerances: Of position [m] and orientation [rad].
+        respect_limits: Whether joint limits held.
+    """
+    bounds = search_bounds(chain, respect_limits)[:2]
+
+    def at(q: Array) -> tuple[Array, Array]:
+        es, Js = linearise(chain, target, q[None], task, chords=True)
+        return es[0], Js[0]
+
+    steps = _searched(at, start, bounds) if followed < 0 else _followed(at, start, bounds, 0.1**followed)
+    trace: list[Iterate] = []
+    for q, e, J, step in steps:
+        sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
+        reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", task.positions, tolerances)
+        error, smallest = float(np.linalg.norm(e)), float(sigmas[-1]) if len(sigmas) else 0.0
+        if reason is not None:
+            trace.append(Iterate(q, error, smallest, None, None))
+            return Descent(q, reason, trace)
+        trace.append(Iterate(q, error, smallest, float(np.linalg.norm(step)), "damped_least_squares"))
+    return Descent(trace[-1].joint_positions, "iterations", trace)
+
+
+def _searched(at: _Linearised, q: Array, bounds: Array) -> _Steps:
+    """Damping in proportion to the squared error, and no step is taken back."""
+    for _ in range(LONGEST):
+        e, J = at(q)
+        step = shortened(damped_step(_unblocked(J, e, q, bounds), e, error_damping(e)), LONGEST_STEP)
+        yield q, e, J, step
+        q = np.clip(q + step, *bounds)
+
+
+def _followed(at: _Linearised, q: Array, bounds: Array, damping: float) -> _Steps:
+    """Small steps with a damping that follows success; a step to the worse is taken back and not told."""
+    least, before = np.inf, q
+    for _ in range(APPROACHES):
+        e, J = at(q)
+        error = float(e @ e)
+        if error <= least:
+            least, before, damping = error, q, max(0.25 * damping, FLOOR)
+            step = shortened(damped_step(_unblocked(J, e, q, bounds), e, damping), CAREFUL_STEP)
+            yield q, e, J, step
+            q = np.clip(q + step, *bounds)
+        else:
+            q, damping = before, min(10.0 * damping, 1e6)
+
+
+def _unblocked(J: Array, e: Array, q: Array, bounds: Array) -> Array:
+    return np.where(blocked(J.T @ e, q, bounds), 0.0, J)
