@@ -1,1 +1,10 @@
-"""Inverse kinematics."""
+"""Inverse kinematics: from a pose of the tip to configurations, or to the reason why there is none.
+
+- `task`: which directions of a pose count, and errors in them.
+- `kernels`: many starts of damped least squares, eight at a time. No Pinocchio.
+- `search`: those kernels on a batch, in threads, within limits; `retrace` tells what they did, step by step.
+- `steps`, `linearise`, `descent`: the course's methods from one start, with a trace.
+- `branches`: every distinct solution; `null_space`: what to do with a redundant arm's freedom.
+- `reach`, `verdict`: why a target is not solved. `result`: what the answer holds.
+- `solve`: all of it for a robot, each solution recomputed through Pinocchio.
+"""
