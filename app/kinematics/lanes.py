@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from llvmlite import ir
 from numba.core import types
-from numba.core.imputils import lower_builtin, lower_cast
+from numba.core.imputils import lower_builtin
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import intrinsic, models, register_model
 
@@ -56,7 +56,7 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def _compiled_call(emitter: Callable[..., Any]) -> Any:
-    """A function of compiled code, given by what types it takes and the instructions it stands for."""
+    """A function of compiled code, by what types it takes and the instructions it stands for; Any to a type checker."""
     return intrinsic(emitter)
 
 
@@ -67,8 +67,6 @@ def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
     return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)
 
 
-@lower_cast(types.Float, LanesType)
-@lower_cast(types.Integer, LanesType)
 def _cast_scalar(context: Any, builder: ir.IRBuilder, given: Any, _: Any, value: ir.Value) -> ir.Value:
     return _splat(builder, context.cast(builder, value, given, types.float64))
 

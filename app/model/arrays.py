@@ -19,8 +19,9 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 def _core_digest() -> str:
     """What tells one state of the core's sources from another."""
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parents[1].glob("[mk]*/**/*.py")):
-        digest.update(source.name.encode() + source.read_bytes())
+    package = Path(__file__).parents[1]
+    for source in sorted(package.glob("[mk]*/**/*.py")):
+        digest.update(str(source.relative_to(package)).encode() + source.read_bytes())
     return digest.hexdigest()[:16]
 
 

@@ -5,5 +5,6 @@
 - `dh`: Denavit-Hartenberg tables.
 - `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.
 - `kinematics`: requests and answers of forward kinematics and the Jacobian.
+- `ik`: requests and answers of inverse kinematics.
 - `problem`: an error.
 """

@@ -4,6 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from app.kinematics.ik.descent import StopReason
+from app.kinematics.ik.null_space import ObjectiveName
+from app.kinematics.ik.result import Status
 from app.kinematics.ik.task import Direction
 from app.schemas.common import Answer, ChainOptions
 from app.schemas.kinematics import Configuration, Configurations
@@ -57,18 +60,19 @@ class InverseOptions(ChainOptions):
         None,
         ge=1,
         le=1_000_000,
-        description="Budget for each target: 20000 in all starts of `auto`, which costs a start 20 to 40 of them; of "
-        "one start 100 (`newton`), 500 (`damped_least_squares`) or 5000 (`gradient`) if left out.",
+        description="Budget for each target: with `auto` a start for every 20 (20000 if left out), not used with "
+        "`solutions: all`; else the steps of the one start (if left out 100 with `newton`, 500 with "
+        "`damped_least_squares`, 5000 with the two others).",
     )
     time_limit: float = Field(
         10.0, gt=0, le=60, description="For the whole call, [s]; targets that are not tried in time say so."
     )
-    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the starts: the same seed gives the same answer.")
+    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the starts.")
     max_solutions: int = Field(100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`.")
     windings: bool = Field(
         False, description="With `all`: whether solutions that differ by full turns count, where limits allow them."
     )
-    objective: Literal["posture", "mid_range", "limits", "manipulability"] | None = Field(
+    objective: ObjectiveName | None = Field(
         None,
         description="What a redundant arm's freedom is for: to be near to `posture` (the seed if left out) or to the "
         "middle of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ).",
@@ -108,7 +112,7 @@ class SolutionInfo(Answer):
     position_error: float = Field(description="Distance to the target in the directions that count, [m].")
     orientation_error: float = Field(description="Angle to the target likewise, [rad].")
     method: str = Field(description="What found it.")
-    iterations: int = Field(description="Of the start that led there; 0 with `all`.")
+    iterations: int = Field(description="Of the start that led there; 0 where many starts did, as with `all`.")
     restarts: int = Field(description="How many starts failed before.")
     branch: str | None = Field(description="Its branch where a closed form found it, else null.")
 
@@ -142,16 +146,13 @@ class IterationInfo(Answer):
     joint_positions: list[float] = Field(description="[rad or m].")
 
 
-StopReason = Literal["converged", "stagnated", "near_singular", "at_limits", "diverged", "iterations"]
-
-
 class InverseResult(Answer):
     """What became of one target."""
 
-    status: Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"] = Field(
-        description="`unreachable`: no configuration comes nearer than `nearest`. `outside_limits`: it would be solved "
-        "without limits. `singular`: the method came to a halt where the Jacobian loses rank. `not_converged`: the "
-        "budget ran out."
+    status: Status = Field(
+        description="`unreachable`: by distance alone, or none of the starts came nearer than `nearest` and nothing "
+        "leads on from there. `outside_limits`: it would be solved without limits. `singular`: the method came to a "
+        "halt where the Jacobian loses rank. `not_converged`: the budget or the time ran out."
     )
     solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
     reason: str | None = Field(description="Why it is not solved.")

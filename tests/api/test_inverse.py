@@ -343,12 +343,14 @@ def test_a_matrix_that_is_nearly_a_rotation_is_projected(client: TestClient) -> 
 
 
 def test_callers_never_wait_for_a_compilation(client: TestClient) -> None:
-    ik(client, targets=[planar(0.5, 0), planar(5, 0)])
-    ik(client, targets=[planar(0.5, 0)], solutions="all")
-    client.post(
-        "/v1/robots/panda/ik", content=npy(np.tile([0.4, 0, 0.4, *IDENTITY], (300, 1))), headers={"content-type": NPY}
-    )
+    """Another signature would be one; other tests of the same process may have caused some before."""
     compiled: list[Any] = [
         kernels._search, kernels._gather, task.task_errors, solve.accepted, branches.thin_out, configuration._within,
     ]  # fmt: skip
-    assert [len(kernel.signatures) for kernel in compiled] == [1] * len(compiled)
+    before = [len(kernel.signatures) for kernel in compiled]
+    assert min(before) >= 1
+    ik(client, targets=[planar(0.5, 0), planar(5, 0)])
+    ik(client, targets=[planar(0.5, 0)], solutions="all", seeds=[[0.1] * 7])
+    array = npy(np.tile([0.4, 0, 0.4, *IDENTITY], (300, 1)))
+    client.post("/v1/robots/panda/ik", content=array, headers={"content-type": NPY})
+    assert [len(kernel.signatures) for kernel in compiled] == before

@@ -11,13 +11,14 @@ ROOT = Path(__file__).parents[2]
 
 WITHOUT_PINOCCHIO = [
     *(f"app.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
-    "app.kinematics.kernels",
-    "app.kinematics.configuration",
+    *(f"app.kinematics.{name}" for name in ("lanes", "kernels", "configuration")),
+    *(f"app.kinematics.ik.{name}" for name in ("kernels", "task", "steps", "linearise", "reach", "search")),
+    *(f"app.kinematics.ik.{name}" for name in ("descent", "retrace", "null_space", "branches")),
 ]
 CORE = [
-    f"app.{package}.{path.stem}"
+    ".".join(path.relative_to(ROOT).with_suffix("").parts)
     for package in ("model", "kinematics")
-    for path in sorted((ROOT / "app" / package).glob("*.py"))
+    for path in sorted((ROOT / "app" / package).rglob("*.py"))
     if path.stem != "__init__"
 ]
 OF_THE_SERVER = (

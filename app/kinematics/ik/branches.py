@@ -1,5 +1,6 @@
 """Every distinct solution of a target: starts spread over the joints, what they converge to sorted out."""
 
+import math
 from dataclasses import dataclass
 from itertools import product
 
@@ -17,6 +18,8 @@ from app.model.poses import Poses
 STARTS = 2048
 """Starts of one target, half of them without regard to the limits: what they find may still be within."""
 
+_TIGHT = 1e-10
+"""Tolerances to which solutions are found, [m] and [rad]."""
 _SAME = 1e-4
 """Distance in every joint up to which two solutions are one, [rad or m]."""
 _SPACING = 0.2
@@ -27,6 +30,8 @@ _MOST_DISTINCT = 256
 """Solutions that are looked at to tell whether they form a continuum."""
 _MOST_ISOLATED = 32
 """More solutions than this form a continuum: a 6R arm has at most 16 that stand alone [Raghavan1993]."""
+_MOST_WINDINGS = 100_000
+"""Solutions with all their full turns that are looked at."""
 _ROUNDING = 1e-9
 """How far beyond a limit counts as at it, [rad or m]."""
 _TURN = 2.0 * np.pi
@@ -122,16 +127,17 @@ def _converged(
 ) -> Array:
     """Where starts converge, within the limits and as near to the seed as full turns allow; shape (k, n)."""
     found = []
-    for limited in {respect_limits, False}:
+    ways = (True, False) if respect_limits else (False,)
+    for limited in ways:
         # Rounding apart, so that a double solution does not come as two; if it is beyond that, as near as asked for.
-        for tolerance in ((1e-10, 1e-10), tolerances):
+        for tolerance in ((_TIGHT, _TIGHT), tolerances):
             goal = make_goal(
                 chain,
                 task,
                 min(tolerance[0], tolerances[0]),
                 min(tolerance[1], tolerances[1]),
                 limited,
-                STARTS // 2 * ITERATIONS_PER_START,
+                STARTS // len(ways) * ITERATIONS_PER_START,
                 random_seed + limited,
             )
             qs = kernels.gather(chain.flat, goal, row, seed)
@@ -145,7 +151,7 @@ def _converged(
         return wound_near(chain, qs, seed, *no_limits(chain))
     qs = wound_near(chain, qs, seed, chain.lower, chain.upper)
     # A solution at a limit may miss it by rounding.
-    within = ((qs >= chain.lower - 1e-9) & (qs <= chain.upper + 1e-9)).all(axis=1)
+    within = ((qs >= chain.lower - _ROUNDING) & (qs <= chain.upper + _ROUNDING)).all(axis=1)
     return np.clip(qs[within], chain.lower, chain.upper)
 
 
@@ -217,21 +223,22 @@ def _wound(chain: Chain, qs: Array, seed: Array, most: int, complete: bool, resp
     A joint without limits keeps the turn nearest to the seed.
     """
     free = free_variables(chain)
-    results: list[Array] = []
+    results: list[tuple[float, ...]] = []
     for q in qs:
-        choices = []
+        ranges = []
         for j, value in enumerate(q):
             bounded = respect_limits and free[j] and np.isfinite(chain.lower[j]) and np.isfinite(chain.upper[j])
-            if not bounded:
-                choices.append([value])
-                continue
-            first = int(np.ceil((chain.lower[j] - value) / _TURN - 1e-10))
-            last = int(np.floor((chain.upper[j] - value) / _TURN + 1e-10))
-            choices.append([value + _TURN * k for k in range(first, last + 1)])
-        total = int(np.prod([len(values) for values in choices]))
-        if total > 100_000:
-            choices, complete = [[value] for value in q], False
-        results.extend(np.array(list(product(*choices))))
+            first, last = 0, 0
+            if bounded:
+                first = math.ceil((chain.lower[j] - value) / _TURN - 1e-10)
+                last = math.floor((chain.upper[j] - value) / _TURN + 1e-10)
+            ranges.append(range(first, last + 1))
+        if len(results) + math.prod(len(turns) for turns in ranges) > _MOST_WINDINGS:
+            results.append(tuple(q))
+            complete = False
+            continue
+        turned = product(*([value + _TURN * k for k in turns] for value, turns in zip(q, ranges, strict=True)))
+        results.extend(turned)
     table = np.array(results)
     if respect_limits:
         table = np.clip(table, chain.lower, chain.upper)

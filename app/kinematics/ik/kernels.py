@@ -46,7 +46,7 @@ _STAGNATION = 6
 """Iterations without halving the squared error after which a start is given up."""
 LONGEST = 40
 """Iterations after which it is given up in any case."""
-_DAMPING, FLOOR = 0.05, 1e-10
+DAMPING, FLOOR = 0.05, 1e-10
 """λ as a share of the squared error, and what is added to it."""
 APPROACHES = 200
 """Iterations spent on the nearest configuration to an unsolved target, and on following a path closely."""
@@ -62,6 +62,8 @@ times that error, has left its branch."""
 
 _ERROR, _BEST, _SINCE, _COUNT, _REACHED, _FIRST, _STATE_ROWS = 12, 13, 14, 15, 16, 17, 18
 """Rows of a state: the target takes the first twelve."""
+_POSITION, _ORIENTATION, _START_DAMPING = _SINCE, _COUNT, _SINCE
+"""What three of them hold while candidates are improved: squared errors, and before that the damping to begin with."""
 
 
 class Goal(NamedTuple):
@@ -75,7 +77,7 @@ class Goal(NamedTuple):
         kind: `FULL`, `AXIS` or `SOME`.
         axis: With `AXIS`, which axis of the tip is to point as the target's does.
         position_tolerance: [m].
-        orientation_tolerance: [rad].
+        chord_tolerance: Of 2 sin(θ/2), θ the angle of the orientation's error, or of its components that count.
         slack: Share of the tolerances that errors are made smaller by: 0 drives them to zero, which is best, and 0.9
             uses what loose tolerances allow.
         starts: How many starts a target gets.
@@ -87,7 +89,7 @@ class Goal(NamedTuple):
     kind: int
     axis: int
     position_tolerance: float
-    orientation_tolerance: float
+    chord_tolerance: float
     slack: float
     starts: int
     random_seed: int
@@ -191,7 +193,7 @@ def _search(
     kind: int,
     axis: int,
     position_tolerance: float,
-    orientation_tolerance: float,
+    chord_tolerance: float,
     slack: float,
     starts: int,
     random_seed: int,
@@ -200,7 +202,7 @@ def _search(
 ) -> tuple[Array, Indices]:
     """See `search`."""
     flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, slack, starts, random_seed)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     count, n = len(targets), seeds.shape[1]
     qs, outcomes = np.empty((count, n)), np.empty((3, count), np.int64)
     work = _workspace(flat, n)
@@ -218,7 +220,7 @@ def _gather(
     kind: int,
     axis: int,
     position_tolerance: float,
-    orientation_tolerance: float,
+    chord_tolerance: float,
     slack: float,
     starts: int,
     random_seed: int,
@@ -227,7 +229,7 @@ def _gather(
 ) -> Array:
     """See `gather`."""
     flat = FlatChain(placements, joints, drives)
-    goal = Goal(bounds, weights, kind, axis, position_tolerance, orientation_tolerance, slack, starts, random_seed)
+    goal = Goal(bounds, weights, kind, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
     found = np.empty((starts, len(seed)))
     return found[: _gather_all(flat, goal, target, seed, _workspace(flat, len(seed)), found)]
 
@@ -356,9 +358,9 @@ def _race(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: _Work, 
     _wind(goal, seed, q)
     followed = -1
     if winner >= 0 and _has_jumped(work, 0, seed, q):
-        followed = _follow(flat, goal, seed, work, q)
+        followed, steps = _follow(flat, goal, seed, work, q)
         if followed >= 0:
-            winner, iterations = 0, APPROACHES
+            winner, iterations = 0, steps
     return winner, iterations, followed
 
 
@@ -394,30 +396,32 @@ def _approach(flat: FlatChain, goal: Goal, work: _Work, q: Array) -> None:
 
 
 @unmanaged
-def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> int:
+def _follow(flat: FlatChain, goal: Goal, seed: Array, work: _Work, q: Array) -> tuple[int, int]:
     """Go from the seed by small steps, each lane with a damping of its own; `q` becomes what is nearer to the seed.
 
     Returns:
-        The lane that came nearest, which is the power of ten below 1 at which its damping began; -1 if none did.
+        The lane that came nearest, which is the power of ten below 1 at which its damping began, and how many
+        iterations took it within the tolerances; -1 and 0 if none came nearer.
     """
     for lane in range(LANES):
         _set_start(goal, work, lane, seed, 0)
-        work.state[_SINCE * LANES + lane] = 10.0 ** (-lane)
+        work.state[_START_DAMPING * LANES + lane] = 10.0 ** (-lane)
         for j in range(len(q)):
             work.previous[j * LANES + lane] = work.q[j * LANES + lane]
-    _improve(flat, goal, work, load(work.state, _SINCE), CAREFUL_STEP)
-    nearest, found = _largest_difference(q, seed), -1
+    _improve(flat, goal, work, load(work.state, _START_DAMPING), CAREFUL_STEP)
+    nearest, found, iterations = _largest_difference(q, seed), -1, 0
     own = work.candidates[: len(q)]
     for lane in range(LANES):
-        position, orientation = work.state[_SINCE * LANES + lane], work.state[_COUNT * LANES + lane]
-        if position <= goal.position_tolerance**2 and orientation <= goal.orientation_tolerance**2:
+        position, orientation = work.state[_POSITION * LANES + lane], work.state[_ORIENTATION * LANES + lane]
+        if position <= goal.position_tolerance**2 and orientation <= goal.chord_tolerance**2:
             _read(work.previous, lane, own)
             _wind(goal, seed, own)
             if _largest_difference(own, seed) < nearest:
                 nearest, found = _largest_difference(own, seed), lane
+                iterations = int(work.state[_REACHED * LANES + lane])
                 for j in range(len(q)):
                     q[j] = own[j]
-    return found
+    return found, iterations
 
 
 @unmanaged
@@ -425,19 +429,22 @@ def _improve(flat: FlatChain, goal: Goal, work: _Work, damping: Lanes, most: flo
     """Levenberg-Marquardt with a damping of its own for each lane, never to the worse [Marquardt1963].
 
     A step that makes it worse is taken back and damped ten times more, any other halves the damping twice. In the end
-    `previous` is where each lane stands, with its squared errors in three rows of the state: both in `_BEST`, position
-    in `_SINCE`, orientation in `_COUNT`.
+    `previous` is where each lane stands; `_BEST`, `_POSITION` and `_ORIENTATION` hold its squared errors, `_REACHED`
+    the iteration that came within the tolerances, or 0.
     """
     least = lanes(np.inf)
-    for _ in range(APPROACHES):
+    for round_ in range(APPROACHES):
         e = _linearise(flat, goal, work)
         position = e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
         orientation = e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
         error = position + orientation
         better = error <= least
         least = where(better, error, least)
-        store(work.state, _SINCE, where(better, position, load(work.state, _SINCE)))
-        store(work.state, _COUNT, where(better, orientation, load(work.state, _COUNT)))
+        within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
+        reached = load(work.state, _REACHED)
+        store(work.state, _REACHED, where(within & (reached < 0.5), float(round_ + 1), reached))
+        store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
+        store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
         damping = where(better, max_lanes(0.25 * damping, FLOOR), min_lanes(10.0 * damping, 1e6))
         _descend(goal, work, e, damping, where(better, 1.0, 0.0), most)
     store(work.state, _BEST, least)
@@ -550,10 +557,10 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     e = _linearise(flat, goal, work)
     position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
     error = position + orientation
-    within = (position <= goal.position_tolerance**2) & (orientation <= goal.orientation_tolerance**2)
+    within = (position <= goal.position_tolerance**2) & (orientation <= goal.chord_tolerance**2)
     if goal.slack > 0.0:
         a = _shortening(position, goal.slack * goal.position_tolerance)
-        b = _shortening(orientation, goal.slack * goal.orientation_tolerance)
+        b = _shortening(orientation, goal.slack * goal.chord_tolerance)
         e = (a * e[0], a * e[1], a * e[2], b * e[3], b * e[4], b * e[5])
         error = a * a * position + b * b * orientation
         # What is good enough must not hold the joints back either.
@@ -573,7 +580,7 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     store(state, _SINCE, since)
     store(state, _COUNT, count)
     store(state, _REACHED, where(within, 1.0, 0.0))
-    return bits(converged | given_up) | (bits(converged) << LANES), e, _DAMPING * error + FLOOR
+    return bits(converged | given_up) | (bits(converged) << LANES), e, DAMPING * error + FLOOR
 
 
 @inlined

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.search import mid_range, no_limits
+from app.kinematics.ik.search import is_over, mid_range, no_limits
 from app.kinematics.ik.task import DIRECTIONS, Task
 from app.kinematics.kernels import chain_hessians
 from app.model.arrays import Array
@@ -47,6 +47,7 @@ def settle(
     *,
     task: Task,
     respect_limits: bool = True,
+    deadline: float | None = None,
 ) -> Array:
     """Solutions moved along the self-motion to the nearest minimum of an objective; shape (N, n).
 
@@ -61,12 +62,15 @@ def settle(
         objective: What is to become small.
         task: Which directions count.
         respect_limits: Whether joint limits hold.
+        deadline: When to stop improving, on the clock of `time.monotonic`, [s].
     """
     bounds = np.array((chain.lower, chain.upper) if respect_limits else no_limits(chain))
     best = qs.copy()
     values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)
     for _ in range(_ROUNDS):
+        if is_over(deadline):
+            break
         steps = _projected_gradient(chain, targets, best, objective, task, bounds)
         steps *= -sizes[:, None]
         longest = np.abs(steps).max(axis=1, initial=0.0)
@@ -103,7 +107,10 @@ def _corrected(chain: Chain, targets: Poses, qs: Array, task: Task, bounds: Arra
 
 def _damped(Js: Array, es: Array) -> Array:
     """Jᵀ(JJᵀ + λI)⁻¹e of each; shape (N, n)."""
-    grams = Js @ Js.transpose(0, 2, 1) + 1e-12 * np.eye(Js.shape[1])
+    grams = Js @ Js.transpose(0, 2, 1)
+    # In proportion to JJᵀ, so that it keeps the matrix regular however long the arm is.
+    floor = 1e-12 * np.trace(grams, axis1=1, axis2=2) + 1e-300
+    grams += floor[:, None, None] * np.eye(Js.shape[1])
     steps: Array = (Js.transpose(0, 2, 1) @ np.linalg.solve(grams, es[:, :, None]))[:, :, 0]
     return steps
 

@@ -16,6 +16,7 @@ from app.model.chain import Chain
 from app.model.poses import Poses
 
 _Linearised: TypeAlias = Callable[[Array], tuple[Array, Array]]
+_Seen: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
 _Steps: TypeAlias = Iterator[tuple[Array, Array, Array, Array]]
 """Configuration, error, Jacobian, and the step that is taken from there."""
 
@@ -29,6 +30,7 @@ def retrace(
     task: Task,
     tolerances: tuple[float, float],
     respect_limits: bool,
+    slack: float = 0.0,
 ) -> Descent:
     """The way of a start through the search, to where it is within the tolerances or was given up.
 
@@ -40,6 +42,7 @@ def retrace(
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
         respect_limits: Whether joint limits held.
+        slack: Share of the tolerances that the errors were made smaller by.
     """
     bounds = search_bounds(chain, respect_limits)[:2]
 
@@ -47,7 +50,19 @@ def retrace(
         es, Js = linearise(chain, target, q[None], task, chords=True)
         return es[0], Js[0]
 
-    steps = _searched(at, start, bounds) if followed < 0 else _followed(at, start, bounds, 0.1**followed)
+    def shortened_error(e: Array, J: Array) -> tuple[Array, Array]:
+        """What the step sees of an error where loose tolerances are made use of."""
+        parts = zip((e[: task.positions], e[task.positions :]), tolerances, strict=True)
+        factors = [
+            max(0.0, 1.0 - slack * allowed / max(float(np.linalg.norm(part)), 1e-150)) for part, allowed in parts
+        ]
+        scale = np.repeat(factors, (task.positions, len(task) - task.positions))
+        return scale * e, scale[:, None] * J
+
+    if followed < 0:
+        steps = _searched(at, start, bounds, shortened_error)
+    else:
+        steps = _followed(at, start, bounds, 0.1**followed)
     trace: list[Iterate] = []
     for q, e, J, step in steps:
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
@@ -60,11 +75,12 @@ def retrace(
     return Descent(trace[-1].joint_positions, "iterations", trace)
 
 
-def _searched(at: _Linearised, q: Array, bounds: Array) -> _Steps:
+def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:
     """Damping in proportion to the squared error, and no step is taken back."""
     for _ in range(LONGEST):
         e, J = at(q)
-        step = shortened(damped_step(_unblocked(J, e, q, bounds), e, error_damping(e)), LONGEST_STEP)
+        f, K = seen(e, J)
+        step = shortened(damped_step(_unblocked(K, f, q, bounds), f, error_damping(f)), LONGEST_STEP)
         yield q, e, J, step
         q = np.clip(q + step, *bounds)
 

@@ -27,7 +27,7 @@ ITERATIONS_PER_START = 20
 
 _TURN = 2.0 * np.pi
 _CHUNK = 128
-"""Targets that one thread takes at once: the others share a larger batch, and the clock is looked at in between."""
+"""Targets of seven joints that one thread takes at once; the clock is looked at before the next."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,7 @@ class Found:
         followed: Where the seed had to be followed closely: by how many powers of ten the damping began below 1, else
             -1; shape (N,).
         in_time: Whether the target was tried before time ran out; shape (N,).
+        slack: See `Goal.slack`; shape (N,).
     """
 
     qs: Array
@@ -51,6 +52,19 @@ class Found:
     iterations: Indices
     followed: Indices
     in_time: Flags
+    slack: Array
+
+    def put(self, rows: Flags, other: "Found") -> None:
+        """Put what another search found of some targets in the place of what was found before."""
+        self.qs[rows], self.solved[rows], self.in_time[rows] = other.qs, other.solved, other.in_time
+        self.restarts[rows], self.iterations[rows] = other.restarts, other.iterations
+        self.followed[rows], self.slack[rows] = other.followed, other.slack
+
+
+def nothing_found(count: int, n: int) -> Found:
+    """No answer yet to so many targets of a chain with n variables."""
+    flags, integers = np.zeros((2, count), dtype=bool), np.zeros((3, count), dtype=np.int64)
+    return Found(np.empty((count, n)), flags[0], integers[0], integers[1], integers[2], flags[1], np.zeros(count))
 
 
 def search(
@@ -88,12 +102,13 @@ def search(
         chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed, slack
     )
     rows = target_rows(targets)
-    if len(rows) <= _CHUNK:
+    if len(rows) <= _chunk(chain) and not is_over(deadline):
         qs, winners, iterations, followed = kernels.search(chain.flat, goal, rows, seeds)
-        return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, np.ones(len(rows), dtype=bool))
+        tried, slacks = np.ones(len(rows), dtype=bool), np.full(len(rows), slack)
+        return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, tried, slacks)
     limits = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
     untried = np.clip(seeds, *limits)
-    return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or os.cpu_count() or 1)
+    return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or len(os.sched_getaffinity(0)))
 
 
 @lru_cache(maxsize=1024)
@@ -219,19 +234,29 @@ def _in_parts(
     qs[:] = untried
 
     def solve(part: slice) -> None:
-        if deadline is not None and time.monotonic() > deadline:
+        if is_over(deadline):
             return
         own = seeds[part] if len(seeds) > 1 else seeds
         qs[part], winners[part], iterations[part], followed[part] = kernels.search(chain.flat, goal, rows[part], own)
         in_time[part] = True
 
-    _each(solve, _slices(count, threads, deadline is not None), threads)
-    return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, in_time)
+    _each(solve, _slices(count, threads, _chunk(chain), deadline is not None), threads)
+    return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, in_time, np.full(count, goal.slack))
 
 
-def _slices(count: int, threads: int, small: bool) -> Iterator[slice]:
+def is_over(deadline: float | None) -> bool:
+    """Whether time has run out."""
+    return deadline is not None and time.monotonic() > deadline
+
+
+def _chunk(chain: Chain) -> int:
+    """Targets that one thread takes at once; a tenth of a second even if none of them can be solved."""
+    return max(1, _CHUNK * 7 // max(7, len(chain)))
+
+
+def _slices(count: int, threads: int, chunk: int, small: bool) -> Iterator[slice]:
     """A batch in pieces: a few for each thread, or many small ones to look at the clock between them."""
-    size = _CHUNK if small else max(_CHUNK, -(-count // (4 * threads)))
+    size = chunk if small else max(chunk, -(-count // (4 * threads)))
     return (slice(first, min(first + size, count)) for first in range(0, count, size))
 
 

@@ -1,6 +1,7 @@
 """Inverse kinematics: solutions, each recomputed through Pinocchio, or a verdict why there is none."""
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -17,15 +18,25 @@ from app.kinematics.ik.search import (
     ITERATIONS_PER_START,
     MAX_ITERATIONS,
     Found,
+    is_over,
     make_goal,
     no_limits,
+    nothing_found,
     search,
     start_of,
     target_rows,
 )
 from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.ik.verdict import Question, explain, verdict_on_path
-from app.model.arrays import Array, Flags, compiled
+from app.kinematics.ik.verdict import (
+    ENOUGH_STARTS,
+    Question,
+    beyond_limits,
+    explain,
+    refused,
+    solved_without_limits,
+    verdict_on_path,
+)
+from app.model.arrays import Array, Flags, Indices, compiled
 from app.model.chain import Chain
 from app.model.poses import Poses
 from app.model.robot import Robot
@@ -36,6 +47,8 @@ _FAR_ITERATIONS = 320
 """Budget for a target that is out of reach by distance: only the nearest configuration is wanted."""
 _LOOSE, _SLACK = 1e-4, 0.9
 """Tolerances from which on a target that is not met exactly is tried again, and what share of them is used then."""
+_SETTLED_TOGETHER = 4096
+"""Solutions that are moved along their self-motion at once: each needs a Hessian of its own."""
 _WITHIN = 1e-9
 """How far beyond a limit rounding may put a joint, [rad or m]."""
 
@@ -98,7 +111,7 @@ def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array,
         return _every(question, options, deadline)
     if options.method == "auto":
         return _one(question, options, deadline)
-    return _followed(question, options, options.method, deadline)
+    return _by_method(question, options, options.method, deadline)
 
 
 def solve_quickly(question: Question, starts: int, random_seed: int) -> InverseKinematics | None:
@@ -140,46 +153,51 @@ def solve_quickly(question: Question, starts: int, random_seed: int) -> InverseK
 
 def _one(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
     """One solution a target, by many starts."""
-    found, too_far = _searched(question, options, deadline)
+    found, too_far, relaxed = _searched(question, options, deadline)
     if options.objective is not None and found.solved.any():
-        found = _settled(question, options.objective, found)
-    solved, position_errors, orientation_errors = judged(question, found.qs, found.solved)
+        found = _settled(question, options.objective, found, deadline)
+    solved, *errors = judged(question, found.qs, found.solved)
     paths = None
     if options.trace:
-        paths = [_replayed(question, options, found, i) for i in range(len(solved))]
-    if solved.all():
-        return InverseKinematics(
-            found.qs,
-            position_errors,
-            orientation_errors,
-            found.iterations,
-            found.restarts,
-            "damped_least_squares",
-            np.arange(len(solved) + 1),
-            ["solved"] * len(solved),
-            paths=paths,
-        )
+        paths = [_retraced(question, options, found, i) for i in range(len(solved))]
     statuses: list[Status] = ["solved"] * len(solved)
     failures: dict[int, Failure] = {}
     for i in np.flatnonzero(~solved).tolist():
-        timed_out = not found.in_time[i] or (deadline is not None and time.monotonic() > deadline)
         statuses[i], failures[i] = explain(
             question,
             i,
             found.qs[i],
-            (float(position_errors[i]), float(orientation_errors[i])),
+            (float(errors[0][i]), float(errors[1][i])),
             too_far=bool(too_far[i]),
+            beyond_limits=relaxed.get(i),
             budget=options.max_iterations or MAX_ITERATIONS,
-            timed_out=timed_out,
-            random_seed=options.random_seed,
+            tried=bool(found.in_time[i]),
+            late=is_over(deadline),
         )
+    return _assembled(
+        "damped_least_squares", found.qs, solved, errors, found.iterations, found.restarts, statuses, failures, paths
+    )
+
+
+def _assembled(
+    method: str,
+    qs: Array,
+    solved: Flags,
+    errors: Sequence[Array],
+    iterations: Indices,
+    restarts: Indices,
+    statuses: list[Status],
+    failures: dict[int, Failure],
+    paths: list[Path] | None,
+) -> InverseKinematics:
+    """The answer where each target has one configuration or none."""
     return InverseKinematics(
-        found.qs[solved],
-        position_errors[solved],
-        orientation_errors[solved],
-        found.iterations[solved],
-        found.restarts[solved],
-        "damped_least_squares",
+        qs[solved],
+        errors[0][solved],
+        errors[1][solved],
+        iterations[solved],
+        restarts[solved],
+        method,
         np.concatenate(([0], np.cumsum(solved))),
         statuses,
         failures,
@@ -187,8 +205,13 @@ def _one(question: Question, options: Options, deadline: float | None) -> Invers
     )
 
 
-def _searched(question: Question, options: Options, deadline: float | None) -> tuple[Found, Flags]:
-    """What a search finds, and which targets are beyond reach by distance alone."""
+def _searched(question: Question, options: Options, deadline: float | None) -> tuple[Found, Flags, dict[int, Array]]:
+    """What a search finds, which targets are beyond reach by distance alone, and what would solve others.
+
+    Returns:
+        The findings; flags, shape (N,); and of some unsolved targets the configuration that solves them beyond the
+        joint limits, as near to these as one is found, by their numbers.
+    """
     budget = options.max_iterations or MAX_ITERATIONS
 
     def run(targets: Poses, seeds: Array, most: int, slack: float = 0.0) -> Found:
@@ -208,23 +231,27 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
 
     too_far = question.too_far()
     if too_far.any():
-        count = len(question)
-        flags, integers = np.zeros((2, count), dtype=bool), np.zeros((3, count), dtype=np.int64)
-        found = Found(np.empty((count, len(question.chain))), flags[0], integers[0], integers[1], integers[2], flags[1])
-        _replace(found, ~too_far, run(*question.part(~too_far), budget))
-        _replace(found, too_far, run(*question.part(too_far), min(budget, _FAR_ITERATIONS)))
+        found = nothing_found(len(question), len(question.chain))
+        found.put(~too_far, run(*question.part(~too_far), budget))
+        found.put(too_far, run(*question.part(too_far), min(budget, _FAR_ITERATIONS)))
     else:
         found = run(question.targets, question.seeds, budget)
     left = ~found.solved & ~too_far
     if max(options.tolerances) > _LOOSE and left.any():
-        _replace(found, left, run(*question.part(left), budget, _SLACK))
-    return found, too_far
-
-
-def _replace(found: Found, rows: Flags, other: Found) -> None:
-    """Put what another search found of some targets in the place of what was found before."""
-    for name in ("qs", "solved", "restarts", "iterations", "followed", "in_time"):
-        getattr(found, name)[rows] = getattr(other, name)
+        found.put(left, run(*question.part(left), budget, _SLACK))
+    relaxed: dict[int, Array] = {}
+    # What a few starts have not solved may well be solved within the limits.
+    with_limits = question.respect_limits and budget >= ENOUGH_STARTS * ITERATIONS_PER_START
+    for i in np.flatnonzero(~found.solved & ~too_far & found.in_time & with_limits).tolist():
+        if is_over(deadline):
+            break
+        q = solved_without_limits(question, i, options.random_seed)
+        if q is not None and beyond_limits(question.chain, q):
+            relaxed[i] = q
+        elif q is not None:
+            # Starts that do not heed the limits have come to a solution within them.
+            found.qs[i], found.solved[i], found.iterations[i] = q, True, 0
+    return found, too_far, relaxed
 
 
 def judged(question: Question, qs: Array, claimed: Flags) -> tuple[Flags, Array, Array]:
@@ -264,31 +291,36 @@ def accepted(
     return good
 
 
-def _settled(question: Question, objective: Objective, found: Found) -> Found:
+def _settled(question: Question, objective: Objective, found: Found, deadline: float | None) -> Found:
     """The solutions moved along their self-motion; what an objective is no use for stays."""
-    rows = found.solved
     if objective.name == "posture" and objective.posture is None:
         objective = Objective("posture", question.seeds)
-    if objective.posture is not None and objective.posture.ndim == 2 and len(objective.posture) > 1:
-        objective = replace(objective, posture=objective.posture[rows])
     qs = found.qs.copy()
-    targets, _ = question.part(rows)
-    qs[rows] = settle(
-        question.chain, targets, qs[rows], objective, task=question.task, respect_limits=question.respect_limits
-    )
+    for first in range(0, len(qs), _SETTLED_TOGETHER):
+        rows = np.arange(first, min(first + _SETTLED_TOGETHER, len(qs)))
+        rows = rows[found.solved[rows]]
+        own = objective
+        if objective.posture is not None and objective.posture.ndim == 2 and len(objective.posture) > 1:
+            own = replace(objective, posture=objective.posture[rows])
+        qs[rows] = settle(
+            question.chain,
+            question.part(rows)[0],
+            qs[rows],
+            own,
+            task=question.task,
+            respect_limits=question.respect_limits,
+            deadline=deadline,
+        )
     return replace(found, qs=qs)
 
 
 def _every(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
     """All solutions of each target; what has none is explained as for one."""
-    rows = target_rows(question.targets)
-    tables, complete, without = [], [], []
-    for i in range(len(question)):
-        if deadline is not None and time.monotonic() > deadline:
-            tables.append(np.empty((0, len(question.chain))))
-            complete.append(False)
-            without.append(i)
-            continue
+    rows, count = target_rows(question.targets), len(question)
+    tables, complete = [np.empty((0, len(question.chain)))] * count, [False] * count
+    for i in range(count):
+        if is_over(deadline):
+            break
         branches = all_branches(
             question.chain,
             rows[i],
@@ -300,41 +332,30 @@ def _every(question: Question, options: Options, deadline: float | None) -> Inve
             most=options.most,
             windings=options.windings,
         )
-        tables.append(branches.qs)
-        complete.append(branches.complete)
-        if len(branches.qs) == 0:
-            without.append(i)
-    counts = np.array([len(table) for table in tables], dtype=np.int64)
-    owners = np.repeat(np.arange(len(question)), counts)
-    qs = np.concatenate([*tables, np.empty((0, len(question.chain)))])
-    solved, position_errors, orientation_errors = judged(question.taken(owners), qs, np.ones(len(qs), dtype=bool))
-    kept = np.bincount(owners[solved], minlength=len(question))
-    statuses: list[Status] = ["solved"] * len(question)
+        tables[i], complete[i] = branches.qs, branches.complete
+    statuses: list[Status] = ["solved"] * count
     failures: dict[int, Failure] = {}
-    missing = np.flatnonzero(kept == 0)
-    if len(missing):
-        single = _one(question.taken(missing), replace(options, every=False, trace=False), deadline)
-        for k, i in enumerate(missing.tolist()):
-            statuses[i] = single.statuses[k]
-            if k in single.failures:
-                failures[i] = single.failures[k]
-            else:
-                # The many starts of one found what those of all did not.
-                row = single.firsts[k]
-                qs = np.concatenate((qs, single.qs[row : row + 1]))
-                owners, solved = np.append(owners, i), np.append(solved, True)
-                position_errors = np.append(position_errors, single.position_errors[row])
-                orientation_errors = np.append(orientation_errors, single.orientation_errors[row])
-                complete[i] = False
-        order = np.argsort(owners, kind="stable")
-        qs, owners, solved = qs[order], owners[order], solved[order]
-        position_errors, orientation_errors = position_errors[order], orientation_errors[order]
-        kept = np.bincount(owners[solved], minlength=len(question))
+    missing = np.array([i for i in range(count) if len(tables[i]) == 0], dtype=np.int64)
+    # The search for one tries harder, and knows the reason if there is none.
+    single = _one(question.taken(missing), replace(options, every=False), deadline)
+    for k, i in enumerate(missing.tolist()):
+        statuses[i], complete[i] = single.statuses[k], False
+        tables[i] = single.qs[single.firsts[k] : single.firsts[k + 1]]
+        if k in single.failures:
+            failures[i] = single.failures[k]
+    owners = np.repeat(np.arange(count), [len(table) for table in tables])
+    qs = np.concatenate([*tables, np.empty((0, len(question.chain)))])
+    solved, *errors = judged(question.taken(owners), qs, np.ones(len(qs), dtype=bool))
+    kept = np.bincount(owners[solved], minlength=count)
+    for i in np.flatnonzero(kept == 0).tolist():
+        if i not in failures:
+            first = int(np.flatnonzero(owners == i)[0])
+            statuses[i], failures[i] = "not_converged", refused(qs[first], errors[0][first], errors[1][first])
     zeros = np.zeros(int(kept.sum()), dtype=np.int64)
     return InverseKinematics(
         qs[solved],
-        position_errors[solved],
-        orientation_errors[solved],
+        errors[0][solved],
+        errors[1][solved],
         zeros,
         zeros,
         "damped_least_squares",
@@ -345,43 +366,32 @@ def _every(question: Question, options: Options, deadline: float | None) -> Inve
     )
 
 
-def _followed(question: Question, options: Options, method: StepMethod, deadline: float | None) -> InverseKinematics:
+def _by_method(question: Question, options: Options, method: StepMethod, deadline: float | None) -> InverseKinematics:
     """One of the course's methods from each seed, and from no other start."""
     rule = options.rule or Rule(method)
     if options.max_iterations is not None:
         rule = replace(rule, max_iterations=options.max_iterations)
-    descents: list[Descent | None] = []
-    for i in range(len(question)):
-        late = deadline is not None and time.monotonic() > deadline
-        descents.append(None if late else _descent(question, i, question.seed(i), rule))
+    descents = [
+        None if is_over(deadline) else _descent(question, i, question.seed(i), rule) for i in range(len(question))
+    ]
     ends = [question.seed(i) if d is None else d.joint_positions for i, d in enumerate(descents)]
     qs = np.array(ends).reshape(len(question), len(question.chain))
     wound = question.wound(qs)
     claimed = np.array([d is not None and d.stop_reason == "converged" for d in descents], dtype=bool)
-    solved, position_errors, orientation_errors = judged(question, wound, claimed)
+    solved, *all_errors = judged(question, wound, claimed)
     statuses: list[Status] = ["solved"] * len(question)
     failures: dict[int, Failure] = {}
     too_far = question.too_far()
     for i in np.flatnonzero(~solved).tolist():
-        errors = float(position_errors[i]), float(orientation_errors[i])
+        errors = float(all_errors[0][i]), float(all_errors[1][i])
         statuses[i], failures[i] = verdict_on_path(question, i, wound[i], errors, descents[i], too_far=bool(too_far[i]))
     counts = np.array([0 if d is None else len(d.trace) - 1 for d in descents], dtype=np.int64)
     paths = [
         Path("iterations", None) if d is None else Path(d.stop_reason, d.trace if options.trace else None)
         for d in descents
     ]
-    return InverseKinematics(
-        wound[solved],
-        position_errors[solved],
-        orientation_errors[solved],
-        counts[solved],
-        np.zeros(int(solved.sum()), dtype=np.int64),
-        method,
-        np.concatenate(([0], np.cumsum(solved))),
-        statuses,
-        failures,
-        paths=paths,
-    )
+    restarts = np.zeros(len(question), dtype=np.int64)
+    return _assembled(method, wound, solved, all_errors, counts, restarts, statuses, failures, paths)
 
 
 def _descent(question: Question, i: int, start: Array, rule: Rule) -> Descent:
@@ -396,8 +406,10 @@ def _descent(question: Question, i: int, start: Array, rule: Rule) -> Descent:
     )
 
 
-def _replayed(question: Question, options: Options, found: Found, i: int) -> Path:
-    """The way of the start that converged, or of the seed, as damped least squares go it step by step."""
+def _retraced(question: Question, options: Options, found: Found, i: int) -> Path:
+    """The way of the start that converged, or of the seed; none of a solution that no single start led to."""
+    if found.solved[i] and found.iterations[i] == 0:
+        return Path("converged", None)
     start = start_of(
         question.chain, question.seed(i), options.respect_limits, options.random_seed, int(found.restarts[i])
     )
@@ -409,5 +421,6 @@ def _replayed(question: Question, options: Options, found: Found, i: int) -> Pat
         task=question.task,
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
+        slack=float(found.slack[i]),
     )
     return Path(descent.stop_reason, descent.trace)

@@ -5,7 +5,11 @@ Each takes the m rows that count, of J (m, n) and of e (m,), in [m] and [rad], a
 
 import numpy as np
 
+from app.kinematics.ik.kernels import DAMPING, FLOOR
 from app.model.arrays import Array
+
+_LOST = 1e-14
+"""Share of the trace of JJᵀ below which a damping is lost in rounding."""
 
 
 def newton_step(J: Array, e: Array) -> Array:
@@ -32,12 +36,15 @@ def damped_step(J: Array, e: Array, damping: float) -> Array:
     Args:
         J: The rows that count; shape (m, n).
         e: The error; shape (m,).
-        damping: λ ≥ 0 itself, not its root; zero gives the pseudo-inverse where J has full rank.
+        damping: λ ≥ 0 itself, not its root; zero, or what rounding makes of it, gives the pseudo-inverse.
     """
-    step: Array = J.T @ np.linalg.solve(J @ J.T + damping * np.eye(len(J)), e)
+    gram = J @ J.T
+    if damping <= _LOST * float(np.trace(gram)):
+        return newton_step(J, e)
+    step: Array = J.T @ np.linalg.solve(gram + damping * np.eye(len(J)), e)
     return step
 
 
 def error_damping(e: Array) -> float:
     """λ in proportion to the squared error, so that damping fades as the target comes near [Sugihara2011]."""
-    return 0.05 * float(e @ e) + 1e-10
+    return DAMPING * float(e @ e) + FLOOR

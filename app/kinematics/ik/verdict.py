@@ -19,7 +19,7 @@ from app.model.errors import quoted
 from app.model.poses import Poses
 from app.model.robot import Robot
 
-_ENOUGH_STARTS = 100
+ENOUGH_STARTS = 100
 """Starts after which a target that none of them reached counts as unreachable rather than unlucky."""
 _RELAXED_STARTS = 128
 """Starts without limits that look for what would be solved without them."""
@@ -100,9 +100,10 @@ def explain(
     errors: tuple[float, float],
     *,
     too_far: bool,
+    beyond_limits: Array | None,
     budget: int,
-    timed_out: bool,
-    random_seed: int,
+    tried: bool,
+    late: bool,
 ) -> tuple[Status, Failure]:
     """The verdict on a target that a search of many starts has not solved.
 
@@ -112,26 +113,27 @@ def explain(
         nearest: The nearest configuration that was found; shape (n,).
         errors: Its distance [m] and angle [rad].
         too_far: Whether the target is beyond reach by distance alone.
+        beyond_limits: What would solve it without limits; shape (n,).
         budget: Iterations that the search was given.
-        timed_out: Whether time ran out.
-        random_seed: Of further starts.
+        tried: Whether there was time for a search.
+        late: Whether time has run out by now, and is not to be spent on further reasons.
     """
-    directions = unserved_directions(question, i, nearest)
+    if not tried:
+        return "not_converged", Failure("the time limit ended the call before this target's turn", nearest, *errors)
+    directions = None if late else unserved_directions(question, i, nearest)
     reach = question.reach
     if too_far and reach is not None:
         reason = f"{reach.describe(question.target(i))}; the nearest pose found is {_far(question.task, errors)} away"
         return "unreachable", Failure(reason, nearest, *errors, unserved_directions=directions)
-    if timed_out:
-        reason = "the time limit ended the search before the target was solved"
-        return "not_converged", Failure(reason, nearest, *errors)
-    if question.respect_limits:
-        outside = _outside_limits(question, i, random_seed)
-        if outside:
-            joints = "; ".join(_excess_text(joint) for joint in outside)
-            reason = f"only without joint limits: {joints}"
-            return "outside_limits", Failure(reason, nearest, *errors, outside, directions)
+    if beyond_limits is not None:
+        outside = blocking_joints(question.chain, beyond_limits)
+        reason = "only without joint limits: " + "; ".join(_excess_text(joint) for joint in outside)
+        return "outside_limits", Failure(reason, nearest, *errors, outside, directions)
     starts = max(1, budget // ITERATIONS_PER_START)
-    if starts < _ENOUGH_STARTS:
+    if directions is None:
+        reason = f"none of {starts} starts reached it, and the time limit ended the call before it was known why"
+        return "not_converged", Failure(reason, nearest, *errors)
+    if starts < ENOUGH_STARTS:
         reason = f"none of {starts} starts came nearer than {_far(question.task, errors)}: allow more iterations"
         return "not_converged", Failure(reason, nearest, *errors, unserved_directions=directions)
     if _is_stationary(question, i, nearest):
@@ -165,16 +167,18 @@ def verdict_on_path(
         descent: The way there; None if there was no time for it.
         too_far: Whether the target is beyond reach by distance alone.
     """
-    directions = unserved_directions(question, i, end)
     if descent is None:
         return "not_converged", Failure("the time limit ended the call before this target's turn", end, *errors)
+    directions = unserved_directions(question, i, end)
     away = _far(question.task, errors)
     if too_far and question.reach is not None:
         reason = f"{question.reach.describe(question.target(i))}; the method stopped {away} away"
         return "unreachable", Failure(reason, end, *errors, unserved_directions=directions)
     match descent.stop_reason:
         case "converged":
-            joints = tuple(_beyond_limits(question.chain, end))
+            joints = blocking_joints(question.chain, end) if question.respect_limits else ()
+            if not joints:
+                return "not_converged", refused(end, *errors)
             reason = "converged, but beyond the joint limits: " + "; ".join(_excess_text(joint) for joint in joints)
             return "outside_limits", Failure(reason, end, *errors, joints)
         case "stagnated":
@@ -232,27 +236,40 @@ def _is_stationary(question: Question, i: int, q: Array) -> bool:
     return float(np.linalg.norm(slope[~held])) <= _STATIONARY * scale
 
 
-def _outside_limits(question: Question, i: int, random_seed: int) -> tuple[BlockingJoint, ...]:
-    """The joints that keep a target from being solved, and by how much, in the solution that violates least."""
+def solved_without_limits(question: Question, i: int, random_seed: int) -> Array | None:
+    """The configuration that solves a target and exceeds the limits least, if one is found; shape (n,)."""
     chain = question.chain
     goal = make_goal(
         chain, question.task, *question.tolerances, False, _RELAXED_STARTS * ITERATIONS_PER_START, random_seed
     )
     qs = kernels.gather(chain.flat, goal, target_rows(question.target(i))[0], question.seed(i))
     if len(qs) == 0:
-        return ()
+        return None
     qs = wound_near(chain, qs, question.seed(i), chain.lower, chain.upper)
     excesses = np.maximum(np.maximum(chain.lower - qs, qs - chain.upper), 0.0)
-    return tuple(_beyond_limits(chain, qs[int(np.argmin(excesses.max(axis=1)))]))
+    best: Array = qs[int(np.argmin(excesses.max(axis=1, initial=0.0)))]
+    return best
 
 
-def _beyond_limits(chain: Chain, q: Array) -> list[BlockingJoint]:
+def beyond_limits(chain: Chain, q: Array) -> bool:
+    """Whether a joint is beyond its limits."""
+    return bool(((q < chain.lower) | (q > chain.upper)).any())
+
+
+def blocking_joints(chain: Chain, q: Array) -> tuple[BlockingJoint, ...]:
+    """The joints that are beyond their limits, and by how much."""
     bounds = zip(chain.joint_names, q.tolist(), chain.lower.tolist(), chain.upper.tolist(), strict=True)
-    return [
+    return tuple(
         BlockingJoint(name, value, lower, upper, max(lower - value, value - upper))
         for name, value, lower, upper in bounds
         if not lower <= value <= upper
-    ]
+    )
+
+
+def refused(q: Array, position_error: float, orientation_error: float) -> Failure:
+    """Why a configuration that was found is not sent as a solution."""
+    reason = "what was found misses the tolerances when it is recomputed: they are near rounding, allow more"
+    return Failure(reason, q, float(position_error), float(orientation_error))
 
 
 def _excess_text(joint: BlockingJoint) -> str:
