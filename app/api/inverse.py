@@ -97,6 +97,14 @@ def _check_options(call: InverseRequest) -> None:
         raise InvalidField("solutions", "`all` goes with the method `auto` only")
     if call.solutions == "all" and (call.trace or call.objective is not None):
         raise InvalidField("solutions", "`all` goes without `trace` and `objective`")
+    if call.windings and (call.solutions != "all" or not call.respect_limits):
+        raise InvalidField("windings", "they go with `solutions: all` within the limits, without which there is no end")
+    if call.posture is not None and call.objective != "posture":
+        raise InvalidField("posture", "it goes with the objective `posture` only")
+    if call.step_size is not None and call.method not in {"gradient", "gradient_then_newton"}:
+        raise InvalidField("step_size", "it goes with the methods `gradient` and `gradient_then_newton` only")
+    if call.damping is not None and call.method != "damped_least_squares":
+        raise InvalidField("damping", "it goes with the method `damped_least_squares` only")
     if call.objective is not None and call.method != "auto":
         raise InvalidField("objective", "it goes with the method `auto` only")
 
@@ -116,6 +124,9 @@ def _asked(loaded: LoadedRobot, call: InverseRequest) -> tuple[Chain, Poses, Arr
 
 
 def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
+    if call.seeds is None and call.posture is not None:
+        # Whoever wants to be near a posture starts there.
+        return one_configuration(chain, call.posture, "posture")
     if call.seeds is None:
         return mid_range(chain)[None]
     seeds = configurations(chain, call.seeds, "seeds")

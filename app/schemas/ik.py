@@ -65,7 +65,7 @@ class InverseOptions(ChainOptions):
         "`damped_least_squares`, 5000 with the two others).",
     )
     time_limit: float = Field(
-        10.0, gt=0, le=60, description="For the whole call, [s]; targets that are not tried in time say so."
+        10.0, gt=0, le=60, description="For the whole call, [s]; what is not solved in time says so."
     )
     random_seed: int = Field(0, ge=0, lt=2**53, description="Of the starts.")
     max_solutions: int = Field(100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`.")
@@ -75,7 +75,8 @@ class InverseOptions(ChainOptions):
     objective: ObjectiveName | None = Field(
         None,
         description="What a redundant arm's freedom is for: to be near to `posture` (the seed if left out) or to the "
-        "middle of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ).",
+        "middle of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The "
+        "nearest minimum along the self-motion from the solution that was found; without freedom it stays as it is.",
     )
     step_size: float | None = Field(
         None, gt=0, le=1e6, description="α of the gradient; if left out it is found by a line search."
@@ -99,8 +100,9 @@ class InverseRequest(InverseOptions):
     targets: Targets
     seeds: Configurations | None = Field(
         default=None,
-        description="Where to start, and what solutions are to be near to: one configuration for all targets or one "
-        "each, not necessarily within the limits; the middle of the ranges if left out.",
+        description="Where to start, and what solutions are to be near to: a list of one configuration for all "
+        "targets, or of one each, not necessarily within the limits; if left out `posture`, or the middle of the "
+        "ranges.",
     )
     posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
 
@@ -118,7 +120,10 @@ class SolutionInfo(Answer):
 
 
 class NearestInfo(Answer):
-    """What comes nearest to a target that is not reached."""
+    """What comes nearest to a target that is not reached.
+
+    The best that was come by, where a metre counts as much as a radian; of `auto` from its nearest starts downhill.
+    """
 
     joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
     pose: Pose = Field(description="T_base_tip there.")
@@ -139,7 +144,7 @@ class BlockingJointInfo(Answer):
 class IterationInfo(Answer):
     """One configuration on the way of a method."""
 
-    error: float = Field(description="‖e‖ of the directions that count, metres and radians mixed.")
+    error: float = Field(description="‖e‖ of the directions that count: distance [m] and rotation vector [rad] mixed.")
     min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")
     step_length: float | None = Field(description="‖Δq‖ of the step from here, [rad or m]; null at the last.")
     method: str | None = Field(description="Which step that was; null at the last.")
@@ -167,7 +172,12 @@ class InverseResult(Answer):
     stop_reason: StopReason | None = Field(
         None, description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ)."
     )
-    trace: list[IterationInfo] | None = Field(None, description="Where asked for: every configuration on the way.")
+    trace: list[IterationInfo] | None = Field(
+        None,
+        description="Where asked for: every configuration on the way; of `auto` from the start that counts, or "
+        "from the seed if none does. Joints that turn freely may leave their limits on the way; in the solution they "
+        "are turned back.",
+    )
 
 
 class InverseAnswer(Answer):

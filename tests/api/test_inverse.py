@@ -1,5 +1,6 @@
 """Inverse kinematics over HTTP: what a caller asks and gets, formats, batches, verdicts, refusals."""
 
+import time
 from io import BytesIO
 from typing import Any
 
@@ -186,7 +187,7 @@ def test_out_of_reach_is_told_at_once_with_the_nearest_pose(client: TestClient) 
     assert nearest["joint_positions"] == pytest.approx([0.463647609001, 0.0], abs=1e-6)
     assert nearest["position_error"] == pytest.approx(np.sqrt(5) - 1.7, abs=1e-12)
     assert nearest["pose"]["position"][:2] == pytest.approx(1.7 * np.array([2.0, 1.0]) / np.sqrt(5), abs=1e-6)
-    assert "beyond reach by 0.536 m" in answer["reason"]
+    assert "the tip would be 2.23607 m from the first joint, 0.536 m more than the links allow" in answer["reason"]
     (direction,) = answer["unserved_directions"]
     assert np.abs(direction) == pytest.approx([2 / np.sqrt(5), 1 / np.sqrt(5), 0, 0, 0, 0], abs=1e-6)
 
@@ -233,6 +234,22 @@ def test_a_budget_that_is_too_small_says_so(client: TestClient) -> None:
     timed = ik(client, "ur3_gripper", targets=targets * 40, time_limit=1e-6)["results"]
     assert {"not_converged"} < {entry["status"] for entry in timed} | {"solved"}
     assert any("time limit" in (entry["reason"] or "") for entry in timed)
+
+
+def test_time_is_kept_within_a_single_descent(client: TestClient) -> None:
+    call: dict[str, Any] = {"method": "gradient", "step_size": 1e-300, "max_iterations": 1_000_000, "time_limit": 0.2}
+    started = time.monotonic()
+    answer = result(client, "ur5", {"position": [0.3, 0.2, 0.3], "rpy": [0, 0, 0]}, **call)
+    assert time.monotonic() - started < 2.0
+    assert (answer["status"], answer["stop_reason"]) == ("not_converged", "time_limit")
+    assert "time limit" in answer["reason"]
+
+
+def test_no_damping_at_all_is_the_pseudo_inverse(client: TestClient) -> None:
+    target = {"position": [0.3, 0.2, 0], "rpy": [0, 0, 0]}
+    answer = result(client, "planar_2r", target, method="damped_least_squares", damping=0.0)
+    assert answer["status"] != "solved"
+    assert result(client, "planar_2r", planar(1.2, 0.3), method="damped_least_squares", damping=0.0, task=["x", "y"])
 
 
 def test_all_solutions_of_a_decoupled_arm(client: TestClient) -> None:
@@ -286,6 +303,15 @@ def test_a_redundant_arm_gives_a_sample_and_follows_an_objective(client: TestCli
         ({"targets": [planar(0.5, 0)], "solutions": "all", "trace": True}, "#/solutions", "trace"),
         ({"targets": [planar(0.5, 0)], "solutions": "all", "method": "newton"}, "#/solutions", "auto"),
         ({"targets": [planar(0.5, 0)], "method": "newton", "objective": "limits"}, "#/objective", "auto"),
+        ({"targets": [planar(0.5, 0)], "windings": True}, "#/windings", "all"),
+        (
+            {"targets": [planar(0.5, 0)], "windings": True, "solutions": "all", "respect_limits": False},
+            "#/windings",
+            "limits",
+        ),
+        ({"targets": [planar(0.5, 0)], "posture": [0.0] * 7}, "#/posture", "objective"),
+        ({"targets": [planar(0.5, 0)], "step_size": 0.1}, "#/step_size", "gradient"),
+        ({"targets": [planar(0.5, 0)], "damping": 0.1, "method": "newton"}, "#/damping", "damped"),
         ({"targets": [planar(0.5, 0)], "position_tolerance": 0.0}, "#/position_tolerance", "0.000000000001"),
         ({"targets": [planar(0.5, 0)], "max_iterations": 0}, "#/max_iterations", "1"),
         ({"targets": [planar(0.5, 0)], "time_limit": 1e9}, "#/time_limit", "60"),

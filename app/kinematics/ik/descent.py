@@ -9,7 +9,7 @@ import numpy as np
 from app.kinematics.configuration import MAX_MAGNITUDE
 from app.kinematics.ik.kernels import LONGEST_STEP
 from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.search import search_bounds
+from app.kinematics.ik.search import is_over, search_bounds
 from app.kinematics.ik.steps import damped_step, error_damping, gradient_step, newton_step
 from app.kinematics.ik.task import Task
 from app.model.arrays import Array, Flags
@@ -17,7 +17,9 @@ from app.model.chain import Chain
 from app.model.poses import Poses
 
 StepMethod: TypeAlias = Literal["newton", "gradient", "gradient_then_newton", "damped_least_squares"]
-StopReason: TypeAlias = Literal["converged", "stagnated", "near_singular", "at_limits", "diverged", "iterations"]
+StopReason: TypeAlias = Literal[
+    "converged", "stagnated", "near_singular", "at_limits", "diverged", "time_limit", "iterations"
+]
 
 DEFAULT_ITERATIONS: dict[StepMethod, int] = {
     "newton": 100,
@@ -95,6 +97,7 @@ def descend(
     task: Task,
     tolerances: tuple[float, float],
     respect_limits: bool = True,
+    deadline: float | None = None,
 ) -> Descent:
     """Follow one method from one start.
 
@@ -109,6 +112,7 @@ def descend(
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
         respect_limits: Whether joint limits hold.
+        deadline: When to stop, on the clock of `time.monotonic`, [s].
     """
     bounds = search_bounds(chain, respect_limits)[:2]
     q = np.clip(seed, *bounds)
@@ -128,15 +132,18 @@ def descend(
         reason = stop_reason(e, J, sigmas, q, bounds, method, linear, tolerances)
         if reason is None and count == most:
             reason = "iterations"
+        if reason is None and is_over(deadline):
+            reason = "time_limit"
         smallest = float(sigmas[-1]) if len(sigmas) else 0.0
         if reason is not None:
             trace.append(Iterate(q, error, smallest, None, None))
             return Descent(q, reason, trace)
         step = _step(rule, method, J, e, q, bounds, lambda q: at(q)[0])
-        trace.append(Iterate(q, error, smallest, float(np.linalg.norm(step)), method))
         following = np.clip(q + step, *bounds)
         if not np.abs(following).max(initial=0.0) <= MAX_MAGNITUDE:
+            trace.append(Iterate(q, error, smallest, None, None))
             return Descent(q, "diverged", trace)
+        trace.append(Iterate(q, error, smallest, float(np.linalg.norm(following - q)), method))
         q = following
     raise AssertionError("the last iteration always gives a reason")
 

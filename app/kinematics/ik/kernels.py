@@ -50,7 +50,7 @@ DAMPING, FLOOR = 0.05, 1e-10
 """λ as a share of the squared error, and what is added to it."""
 APPROACHES = 200
 """Iterations spent on the nearest configuration to an unsolved target, and on following a path closely."""
-_CLOSE = 1e-18
+CLOSE = 1e-18
 """Squared error that is good enough; above it a start within the tolerances takes one step more."""
 _ROUNDING = 1e-10
 """How far beyond a limit counts as at it, [rad]."""
@@ -573,7 +573,7 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     count = load(state, _COUNT) + 1.0
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One step more than needed takes the error from the tolerance to rounding.
-    converged = within & ((load(state, _REACHED) > 0.5) | given_up | (error <= _CLOSE))
+    converged = within & ((load(state, _REACHED) > 0.5) | given_up | (error <= CLOSE))
     store(state, _ERROR, error)
     store(state, _FIRST, where(load(state, _FIRST) < 0.0, error, load(state, _FIRST)))
     store(state, _BEST, where(halved, error, load(state, _BEST)))

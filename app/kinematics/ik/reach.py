@@ -46,12 +46,13 @@ class Reach:
 
     def describe(self, target: Poses) -> str:
         """Why distance alone rules a single target out."""
-        distance, excess = float(self.distances(target)[0]), float(self.excess(target)[0])
+        distance = float(self.distances(target)[0])
         what = "the last joint" if self.offset.any() else "the tip"
-        bound = f"at most {self.farthest:.6g} m" if distance > self.farthest else f"at least {self.nearest:.6g} m"
+        far = distance > self.farthest
+        bound = f"at most {self.farthest:.6g} m" if far else f"at least {self.nearest:.6g} m"
         return (
-            f"beyond reach by {excess:.3g} m: {what} would be {distance:.6g} m from the first joint, "
-            f"the links allow {bound}"
+            f"beyond reach: {what} would be {distance:.6g} m from the first joint, "
+            f"{float(self.excess(target)[0]):.3g} m {'more' if far else 'less'} than the links allow ({bound})"
         )
 
 

@@ -1,12 +1,13 @@
 """What the search did, told step by step: its kernels again, in NumPy and one configuration at a time."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
 
 from app.kinematics.ik.descent import Descent, Iterate, blocked, shortened, stop_reason
-from app.kinematics.ik.kernels import APPROACHES, CAREFUL_STEP, FLOOR, LONGEST, LONGEST_STEP
+from app.kinematics.ik.kernels import APPROACHES, CAREFUL_STEP, CLOSE, FLOOR, LONGEST, LONGEST_STEP
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import search_bounds
 from app.kinematics.ik.steps import damped_step, error_damping
@@ -64,15 +65,26 @@ def retrace(
     else:
         steps = _followed(at, start, bounds, 0.1**followed)
     trace: list[Iterate] = []
+    reached = False
     for q, e, J, step in steps:
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
         reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", task.positions, tolerances)
-        error, smallest = float(np.linalg.norm(e)), float(sigmas[-1]) if len(sigmas) else 0.0
-        if reason is not None:
+        # The search takes one step more than it needs, unless the first was close enough.
+        on = reason == "converged" and not reached and float(e @ e) > CLOSE
+        reached = reason == "converged"
+        error, smallest = _error(chain, target, q, task), float(sigmas[-1]) if len(sigmas) else 0.0
+        if reason is not None and not on:
             trace.append(Iterate(q, error, smallest, None, None))
             return Descent(q, reason, trace)
-        trace.append(Iterate(q, error, smallest, float(np.linalg.norm(step)), "damped_least_squares"))
-    return Descent(trace[-1].joint_positions, "iterations", trace)
+        length = float(np.linalg.norm(np.clip(q + step, *bounds) - q))
+        trace.append(Iterate(q, error, smallest, length, "damped_least_squares"))
+    trace[-1] = replace(trace[-1], step_length=None, method=None)
+    return Descent(trace[-1].joint_positions, "converged" if reached else "iterations", trace)
+
+
+def _error(chain: Chain, target: Poses, q: Array, task: Task) -> float:
+    """‖e‖ as the course's methods measure it, with angles."""
+    return float(np.linalg.norm(linearise(chain, target, q[None], task)[0]))
 
 
 def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:

@@ -36,6 +36,7 @@ from app.kinematics.ik.verdict import (
     solved_without_limits,
     verdict_on_path,
 )
+from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array, Flags, Indices, compiled
 from app.model.chain import Chain
 from app.model.poses import Poses
@@ -156,7 +157,7 @@ def _one(question: Question, options: Options, deadline: float | None) -> Invers
     found, too_far, relaxed = _searched(question, options, deadline)
     if options.objective is not None and found.solved.any():
         found = _settled(question, options.objective, found, deadline)
-    solved, *errors = judged(question, found.qs, found.solved)
+    solved, *errors = judged(question, found.qs, found.solved, found.in_time)
     paths = None
     if options.trace:
         paths = [_retraced(question, options, found, i) for i in range(len(solved))]
@@ -254,20 +255,27 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
     return found, too_far, relaxed
 
 
-def judged(question: Question, qs: Array, claimed: Flags) -> tuple[Flags, Array, Array]:
+def judged(question: Question, qs: Array, claimed: Flags, worth: Flags | None = None) -> tuple[Flags, Array, Array]:
     """Which configurations solve their targets, recomputed through Pinocchio and within the limits; and the errors.
 
     Args:
         question: The targets, one a configuration.
         qs: Shape (N, n).
         claimed: Which of them are said to; shape (N,).
+        worth: Which of them are worth recomputing; all if left out. Of the others the kernels tell the errors.
 
     Returns:
         Flags, shape (N,); distances [m] and angles [rad], shape (N,).
     """
-    chain, task = question.chain, question.task
-    poses = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, range(len(qs)))
-    errors = task.errors(question.targets, poses)
+    chain = question.chain
+    if worth is None or worth.all():
+        poses = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, range(len(qs)))
+    else:
+        poses = Poses(*chain_poses(chain.flat, qs))
+        rows = np.flatnonzero(worth)
+        recomputed = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, rows.tolist())
+        poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
+    errors = question.task.errors(question.targets, poses)
     limits = (chain.lower, chain.upper) if question.respect_limits else no_limits(chain)
     return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
 
@@ -372,9 +380,10 @@ def _by_method(question: Question, options: Options, method: StepMethod, deadlin
     if options.max_iterations is not None:
         rule = replace(rule, max_iterations=options.max_iterations)
     descents = [
-        None if is_over(deadline) else _descent(question, i, question.seed(i), rule) for i in range(len(question))
+        None if is_over(deadline) else _descent(question, i, question.seed(i), rule, deadline)
+        for i in range(len(question))
     ]
-    ends = [question.seed(i) if d is None else d.joint_positions for i, d in enumerate(descents)]
+    ends = [question.seed(i) if d is None else _end(d) for i, d in enumerate(descents)]
     qs = np.array(ends).reshape(len(question), len(question.chain))
     wound = question.wound(qs)
     claimed = np.array([d is not None and d.stop_reason == "converged" for d in descents], dtype=bool)
@@ -387,14 +396,14 @@ def _by_method(question: Question, options: Options, method: StepMethod, deadlin
         statuses[i], failures[i] = verdict_on_path(question, i, wound[i], errors, descents[i], too_far=bool(too_far[i]))
     counts = np.array([0 if d is None else len(d.trace) - 1 for d in descents], dtype=np.int64)
     paths = [
-        Path("iterations", None) if d is None else Path(d.stop_reason, d.trace if options.trace else None)
+        Path("time_limit" if d is None else d.stop_reason, (d.trace if d else []) if options.trace else None)
         for d in descents
     ]
     restarts = np.zeros(len(question), dtype=np.int64)
     return _assembled(method, wound, solved, all_errors, counts, restarts, statuses, failures, paths)
 
 
-def _descent(question: Question, i: int, start: Array, rule: Rule) -> Descent:
+def _descent(question: Question, i: int, start: Array, rule: Rule, deadline: float | None) -> Descent:
     return descend(
         question.chain,
         question.target(i),
@@ -403,13 +412,23 @@ def _descent(question: Question, i: int, start: Array, rule: Rule) -> Descent:
         task=question.task,
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
+        deadline=deadline,
     )
+
+
+def _end(descent: Descent) -> Array:
+    """Where a method stopped, or if it was cut off the best that it came by."""
+    if descent.stop_reason in {"diverged", "time_limit", "iterations"}:
+        return min(descent.trace, key=lambda iterate: iterate.error).joint_positions
+    return descent.joint_positions
 
 
 def _retraced(question: Question, options: Options, found: Found, i: int) -> Path:
     """The way of the start that converged, or of the seed; none of a solution that no single start led to."""
     if found.solved[i] and found.iterations[i] == 0:
-        return Path("converged", None)
+        return Path("converged", [])
+    if not found.in_time[i]:
+        return Path("time_limit", [])
     start = start_of(
         question.chain, question.seed(i), options.respect_limits, options.random_seed, int(found.restarts[i])
     )

@@ -120,10 +120,14 @@ def explain(
     """
     if not tried:
         return "not_converged", Failure("the time limit ended the call before this target's turn", nearest, *errors)
+    if len(question.chain) == 0:
+        reason = f"the chain has no joints: its tip stays {_far(question.task, errors)} away"
+        return "unreachable", Failure(reason, nearest, *errors)
     directions = None if late else unserved_directions(question, i, nearest)
     reach = question.reach
     if too_far and reach is not None:
-        reason = f"{reach.describe(question.target(i))}; the nearest pose found is {_far(question.task, errors)} away"
+        away = _far(question.task, errors)
+        reason = f"{reach.describe(question.target(i))}; the tip of the nearest pose found is {away} away"
         return "unreachable", Failure(reason, nearest, *errors, unserved_directions=directions)
     if beyond_limits is not None:
         outside = blocking_joints(question.chain, beyond_limits)
@@ -193,6 +197,9 @@ def verdict_on_path(
             return "not_converged", Failure(reason, end, *errors)
         case "diverged":
             reason = "the steps grew without bound: take a smaller step size, or leave it out for a line search"
+            return "not_converged", Failure(reason, end, *errors)
+        case "time_limit":
+            reason = f"{away} away after {len(descent.trace) - 1} iterations, when the time limit ended the call"
             return "not_converged", Failure(reason, end, *errors)
         case "iterations":
             reason = f"{away} away after {len(descent.trace) - 1} iterations; try another start, method or step size"

@@ -146,7 +146,7 @@ def test_free_directions_of_the_position_do_not_count() -> None:
 def test_a_reason_says_by_how_much() -> None:
     _, chain = planar_arm(1.0, 0.7)
     reach = shell(chain, POSITION)
-    assert "beyond reach by 0.3 m" in reach.describe(at(2.0, 0.0))
+    assert "0.3 m more than the links allow" in reach.describe(at(2.0, 0.0))
     assert "at most 1.7 m" in reach.describe(at(2.0, 0.0))
     assert "at least 0.3 m" in reach.describe(at(0.1, 0.0))
     assert "the tip" in reach.describe(at(2.0, 0.0))

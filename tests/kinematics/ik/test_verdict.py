@@ -123,7 +123,7 @@ def test_between_hole_and_boundary_of_three_links(radius: float) -> None:
 def test_a_single_method_knows_about_reach_too(method: StepMethod) -> None:
     answer = ask(at(3.0, 0.0), method=method)
     assert answer.statuses == ["unreachable"]
-    assert "beyond reach by 1.3 m" in answer.failures[0].reason
+    assert "1.3 m more than the links allow" in answer.failures[0].reason
 
 
 def test_far_targets_in_a_batch_leave_the_others_alone() -> None:
