@@ -50,8 +50,8 @@ DAMPING, FLOOR = 0.05, 1e-10
 """λ as a share of the squared error, and what is added to it."""
 APPROACHES = 200
 """Iterations spent on the nearest configuration to an unsolved target, and on following a path closely."""
-CLOSE = 1e-18
-"""Squared error that is good enough; above it a start within the tolerances takes one step more."""
+CLOSE = 0.01
+"""Share of the tolerances that is good enough; above it a start within them takes one step more."""
 _ROUNDING = 1e-10
 """How far beyond a limit counts as at it, [rad]."""
 LONGEST_STEP, CAREFUL_STEP = 1.0, 0.05
@@ -573,7 +573,8 @@ def _judge(flat: FlatChain, goal: Goal, work: _Work) -> tuple[int, _Error, Lanes
     count = load(state, _COUNT) + 1.0
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
     # One step more than needed takes the error from the tolerance to rounding.
-    converged = within & ((load(state, _REACHED) > 0.5) | given_up | (error <= CLOSE))
+    near = (position <= (CLOSE * goal.position_tolerance) ** 2) & (orientation <= (CLOSE * goal.chord_tolerance) ** 2)
+    converged = within & ((load(state, _REACHED) > 0.5) | given_up | near)
     store(state, _ERROR, error)
     store(state, _FIRST, where(load(state, _FIRST) < 0.0, error, load(state, _FIRST)))
     store(state, _BEST, where(halved, error, load(state, _BEST)))

@@ -70,7 +70,7 @@ def retrace(
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
         reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", task.positions, tolerances)
         # The search takes one step more than it needs, unless the first was close enough.
-        on = reason == "converged" and not reached and float(e @ e) > CLOSE
+        on = reason == "converged" and not reached and not _is_close(e, task.positions, tolerances)
         reached = reason == "converged"
         error, smallest = _error(chain, target, q, task), float(sigmas[-1]) if len(sigmas) else 0.0
         if reason is not None and not on:
@@ -80,6 +80,12 @@ def retrace(
         trace.append(Iterate(q, error, smallest, length, "damped_least_squares"))
     trace[-1] = replace(trace[-1], step_length=None, method=None)
     return Descent(trace[-1].joint_positions, "converged" if reached else "iterations", trace)
+
+
+def _is_close(e: Array, linear: int, tolerances: tuple[float, float]) -> bool:
+    """Whether an error is so far within the tolerances that no further step is taken."""
+    parts = np.linalg.norm(e[:linear]), np.linalg.norm(e[linear:])
+    return all(part <= CLOSE * tolerance for part, tolerance in zip(parts, tolerances, strict=True))
 
 
 def _error(chain: Chain, target: Poses, q: Array, task: Task) -> float:
