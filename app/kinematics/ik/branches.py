@@ -8,7 +8,7 @@ import numpy as np
 
 from app.kinematics.ik import kernels
 from app.kinematics.ik.null_space import Objective, settle
-from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, make_goal, no_limits
+from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, limits_of, make_goal
 from app.kinematics.ik.task import Task
 from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array, Flags, Indices, compiled
@@ -147,12 +147,11 @@ def _converged(
     if not found:
         return np.empty((0, len(chain)))
     qs = np.concatenate(found)
-    if not respect_limits:
-        return wound_near(chain, qs, seed, *no_limits(chain))
-    qs = wound_near(chain, qs, seed, chain.lower, chain.upper)
+    lower, upper = limits_of(chain, respect_limits)
+    qs = wound_near(chain, qs, seed, lower, upper)
     # A solution at a limit may miss it by rounding.
-    within = ((qs >= chain.lower - _ROUNDING) & (qs <= chain.upper + _ROUNDING)).all(axis=1)
-    return np.clip(qs[within], chain.lower, chain.upper)
+    within = ((qs >= lower - _ROUNDING) & (qs <= upper + _ROUNDING)).all(axis=1)
+    return np.clip(qs[within], lower, upper)
 
 
 def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:

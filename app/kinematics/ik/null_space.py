@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.search import is_over, mid_range, no_limits
+from app.kinematics.ik.search import is_over, limits_of, mid_range
 from app.kinematics.ik.task import DIRECTIONS, Task
 from app.kinematics.kernels import chain_hessians
 from app.model.arrays import Array
@@ -64,7 +64,7 @@ def settle(
         respect_limits: Whether joint limits hold.
         deadline: When to stop improving, on the clock of `time.monotonic`, [s].
     """
-    bounds = np.array((chain.lower, chain.upper) if respect_limits else no_limits(chain))
+    bounds = np.array(limits_of(chain, respect_limits))
     best = qs.copy()
     values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)

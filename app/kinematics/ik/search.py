@@ -106,8 +106,7 @@ def search(
         qs, winners, iterations, followed = kernels.search(chain.flat, goal, rows, seeds)
         tried, slacks = np.ones(len(rows), dtype=bool), np.full(len(rows), slack)
         return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, tried, slacks)
-    limits = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
-    untried = np.clip(seeds, *limits)
+    untried = np.clip(seeds, *limits_of(chain, respect_limits))
     return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or len(os.sched_getaffinity(0)))
 
 
@@ -129,10 +128,7 @@ def make_goal(
         task.kind,
         task.axis,
         position_tolerance,
-        # The kernels measure 2 sin(θ/2); of some components that may be as little as 2/π of the angle.
-        orientation_tolerance * 2.0 / np.pi
-        if task.kind == SOME
-        else 2.0 * np.sin(0.5 * min(orientation_tolerance, np.pi)),
+        _chord(orientation_tolerance, task),
         slack,
         max(1, max_iterations // ITERATIONS_PER_START),
         random_seed,
@@ -177,8 +173,10 @@ def mid_range(chain: Chain) -> Array:
 
 
 @lru_cache(maxsize=256)
-def no_limits(chain: Chain) -> tuple[Array, Array]:
-    """Infinite bounds for each variable, lower and upper; shape (n,) each."""
+def limits_of(chain: Chain, respect_limits: bool) -> tuple[Array, Array]:
+    """Lower and upper limit of each variable, infinite where none are to be respected; shape (n,) each."""
+    if respect_limits:
+        return chain.lower, chain.upper
     return np.full(len(chain), -np.inf), np.full(len(chain), np.inf)
 
 
@@ -199,7 +197,7 @@ def search_bounds(chain: Chain, respect_limits: bool) -> Array:
     A joint with a full turn or more between its limits turns freely, and is wound back at the end.
     """
     n = len(chain)
-    lower, upper = (chain.lower, chain.upper) if respect_limits else no_limits(chain)
+    lower, upper = limits_of(chain, respect_limits)
     free = free_variables(chain) & (upper - lower >= _TURN)
     spread = _spreads(chain)
     middle = mid_range(chain)

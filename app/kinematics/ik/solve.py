@@ -19,8 +19,8 @@ from app.kinematics.ik.search import (
     MAX_ITERATIONS,
     Found,
     is_over,
+    limits_of,
     make_goal,
-    no_limits,
     nothing_found,
     search,
     start_of,
@@ -276,7 +276,7 @@ def judged(question: Question, qs: Array, claimed: Flags, worth: Flags | None = 
         recomputed = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, rows.tolist())
         poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
     errors = question.task.errors(question.targets, poses)
-    limits = (chain.lower, chain.upper) if question.respect_limits else no_limits(chain)
+    limits = limits_of(chain, question.respect_limits)
     return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
 
 

@@ -11,7 +11,7 @@ from app.kinematics.ik.descent import Descent, blocked
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.reach import Reach, reach_of
 from app.kinematics.ik.result import BlockingJoint, Failure, Status
-from app.kinematics.ik.search import ITERATIONS_PER_START, make_goal, no_limits, search_bounds, target_rows
+from app.kinematics.ik.search import ITERATIONS_PER_START, limits_of, make_goal, search_bounds, target_rows
 from app.kinematics.ik.task import DIRECTIONS, Task
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
@@ -88,7 +88,7 @@ class Question:
 
     def wound(self, qs: Array) -> Array:
         """Configurations, one a target, turned by full turns into the limits and near to the seeds."""
-        lower, upper = (self.chain.lower, self.chain.upper) if self.respect_limits else no_limits(self.chain)
+        lower, upper = limits_of(self.chain, self.respect_limits)
         rows = [wound_near(self.chain, q[None], self.seed(i), lower, upper)[0] for i, q in enumerate(qs)]
         return np.array(rows).reshape(qs.shape)
 
