@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
+from app.api.dh import dh_routes
 from app.api.inverse import inverse_operation
 from app.api.kinematics import kinematics_operations
 from app.api.robots import robots_router, upload_routes
@@ -58,6 +59,7 @@ def create_app(settings: Settings) -> FastAPI:
         lifespan=lifespan,
         openapi_tags=[
             {"name": "Robots", "description": "The catalogue, and robots of your own."},
+            {"name": "DH tables", "description": "Denavit-Hartenberg tables: to and from URDF, compared, derived."},
             {"name": "Kinematics", "description": "Questions to a robot."},
             {"name": "Service", "description": "About the service itself."},
         ],
@@ -65,6 +67,7 @@ def create_app(settings: Settings) -> FastAPI:
     problems.install(app)
     app.include_router(robots_router(library))
     app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
+    app.router.routes.extend(dh_routes(library, executor, settings.max_body_bytes))
     most = settings.max_answer_numbers
     for operation in (*kinematics_operations(most), inverse_operation(most)):
         handler = operation.computation.handler(library, executor)

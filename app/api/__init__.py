@@ -3,5 +3,5 @@
 - `problems`: every error as RFC 9457; the one table from error class to status.
 - `payloads`: bodies in: JSON and NumPy's npy, strictly.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
-- `robots`, `kinematics`, `inverse`, `service`, `documentation`: the resources.
+- `robots`, `dh`, `kinematics`, `inverse`, `service`, `documentation`: the resources.
 """

@@ -12,6 +12,8 @@ import pinocchio as pin
 
 from app.model.arrays import Array
 from app.model.chain import Chain
+from app.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
+from app.model.dh import DhTable
 from app.model.errors import CertificationFailed
 from app.model.poses import Poses, pose_errors
 from app.model.robot import Robot
@@ -21,8 +23,13 @@ View: TypeAlias = Literal["local_world_aligned", "local", "world", "zyz", "rpy"]
 
 MAX_SAMPLES = 16
 """Configurations of a batch that are recomputed; all of a smaller one."""
+TABLE_SAMPLES = 100
+"""Configurations at which a table is compared with a robot."""
 TOLERANCE = 1e-9
 """Allowed difference, absolute and relative to the largest number compared."""
+
+_REACH = 10.0
+"""How far from its position next to zero a joint is sampled, [rad or m]: a limit of 1e6 m says that there is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +129,71 @@ def certify_jacobians(
             error = _largest(J_dot - hessians[row] @ speeds)
             worst_rate = max(worst_rate, _demand("the Jacobian's derivative", error, _largest(J_dot)))
     return JacobianCertificate(len(rows), worst, worst_rate if hessians is not None else None, seed)
+
+
+def certify_table(robot: Robot, chain: Chain, table: DhTable, *, exact: bool = True, seed: int = 0) -> Certificate:
+    """Compare the product of a table's own transforms with Pinocchio's poses of a robot's chain.
+
+    Args:
+        robot: The robot.
+        chain: Of this robot; its variables are the table's, in the same order.
+        table: Said to describe the chain.
+        exact: Whether more than rounding, at the scale of the table's longest length, is an error; a table that was
+            simplified on purpose may differ by more.
+        seed: Of the configurations, `table_configurations`.
+
+    Raises:
+        CertificationFailed: The two differ though the table is said to be exact, or one is no number.
+    """
+    qs = table_configurations(chain, TABLE_SAMPLES, seed)
+    Ts = np.array([table.pose(q) for q in qs.tolist()])
+    ours = Poses(np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3]))
+    judge = pinocchio_poses(robot, chain, chain.tip_frame, qs, range(len(qs)))
+    return _table_certificate(ours, judge, table, exact, seed)
+
+
+def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> Certificate:
+    """Compare two tables of the same variables, the URDF of each through Pinocchio.
+
+    Raises:
+        CertificationFailed: The two differ by more than rounding.
+    """
+    robots = [Robot(describe_dh("table", described)) for described in (table, other)]
+    chains = [robot.chain(BASE_FRAME, TOOL_FRAME) for robot in robots]
+    qs = table_configurations(chains[0], TABLE_SAMPLES, seed)
+    ours, judge = (
+        pinocchio_poses(robot, chain, TOOL_FRAME, qs, range(len(qs)))
+        for robot, chain in zip(robots, chains, strict=True)
+    )
+    return _table_certificate(ours, judge, table, True, seed)
+
+
+def table_configurations(chain: Chain, count: int, seed: int = 0) -> Array:
+    """Random configurations of a chain: the first half within the limits, in the others joints turn all the way round.
+
+    Both are uniform, from `numpy.random.default_rng(seed)`: first one number in [0, 1) for each, row by row, and
+    these between the bounds. A limit further than 10 rad or m from the position next to zero counts as that far.
+
+    Returns:
+        Shape (count, n), [rad or m].
+    """
+    next_to_zero = np.clip(0.0, chain.lower, chain.upper)
+    lower = np.tile(np.maximum(chain.lower, next_to_zero - _REACH), (count, 1))
+    upper = np.tile(np.minimum(chain.upper, next_to_zero + _REACH), (count, 1))
+    slides = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
+    turns = [j for j in range(len(chain)) if j not in slides]
+    lower[count // 2 :, turns], upper[count // 2 :, turns] = -np.pi, np.pi
+    qs: Array = lower + np.random.default_rng(seed).random((count, len(chain))) * (upper - lower)
+    return qs
+
+
+def _table_certificate(ours: Poses, judge: Poses, table: DhTable, exact: bool, seed: int) -> Certificate:
+    distance, angle, extent = pose_errors(ours.positions, ours.rotations, judge.positions, judge.rotations)
+    longest = max(abs(length) for row in table.joints for length in (row.a, row.d))
+    scale = max(extent, longest, float(np.abs([table.base[:3, 3], table.tool[:3, 3]]).max()))
+    _demand("a position", distance, scale if exact else np.inf)
+    _demand("an orientation", angle, len(table.joints) if exact else np.inf)
+    return Certificate(len(judge), distance, angle, seed)
 
 
 def _samples(count: int, seed: int) -> Sequence[int]:

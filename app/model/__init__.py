@@ -5,7 +5,10 @@
 - `poses`: SO(3) and SE(3) in every notation.
 - `dh`: Denavit-Hartenberg tables and their product of transforms.
 - `urdf`: untrusted XML → checked description → XML of our own.
-- `convert`: DH table → URDF.
 - `chain`: base → tip as flat arrays for the kernels.
+- `convert`: DH table → URDF; standard ↔ modified.
+- `dh_from_chain`: chain → DH table, by the geometry of its axes.
+- `appearance`: bodies of a table's links, to be looked at and weighed.
+- `origins`: transforms as URDF writes them.
 - `robot`: description, chains and the Pinocchio model together.
 """

@@ -117,6 +117,12 @@ def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[
     return part, np.array([chain.joint_names.index(name) for name in part.joint_names], dtype=np.int64)
 
 
+def joints_on_the_way(description: Description, chain: Chain) -> tuple[Joint, ...]:
+    """The joints that a chain leads across, mimic ones included, base to tip: one for each motion of `flat`."""
+    upwards, downwards = _way(description, chain.base_frame, chain.tip_frame)
+    return tuple(joint for joint in (*upwards, *downwards) if joint.type in MOVABLE)
+
+
 def default_ends(description: Description) -> tuple[str, str]:
     """Root link → the leaf with the longest movable chain; of equals the first in the document."""
     best, most = description.root, -1

@@ -22,6 +22,8 @@ from app.model.errors import InvalidPose
 ROTATION_TOLERANCE = 1e-6
 """How far an orientation from outside may be from SO(3); within that it is projected."""
 
+_ROTATION_ROUNDING = 5e-15
+"""How far from SO(3) a product of a few rotations may be; such a matrix is taken as it is."""
 _DEGENERATE = 1e-14
 """Sine or cosine below which an Euler triple counts as degenerate: all that is lost thereby; rounding leaves 1e-16."""
 
@@ -198,6 +200,8 @@ def vectors_from_rotations(Rs: Array) -> Array:
 def nearest_rotation(matrix: Array) -> Array:
     """The rotation nearest to a matrix that is one but for rounding; shape (3, 3) → (3, 3).
 
+    What a double cannot tell from a rotation comes back as it is, so that a rotation that was sent returns unchanged.
+
     Raises:
         InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
     """
@@ -213,7 +217,7 @@ def nearest_rotation(matrix: Array) -> Array:
         raise InvalidPose(
             f"the matrix is {kind}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)", _finite(distance)
         )
-    return np.ascontiguousarray(R)
+    return np.ascontiguousarray(R if distance > _ROTATION_ROUNDING else matrix)
 
 
 def unit_quaternion(quaternion: Array) -> Array:

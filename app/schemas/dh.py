@@ -1,21 +1,34 @@
 """Denavit-Hartenberg tables on the wire."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
 from app.model.arrays import Array
+from app.model.description import Mimic
 from app.model.dh import MAX_JOINTS, DhJoint, DhTable
+from app.model.dh_from_chain import MAX_SNAP_TOLERANCE
 from app.model.errors import InvalidPose
-from app.schemas.common import Payload
+from app.schemas.common import Answer, ChainOptions, Payload, RobotName
 from app.schemas.pose import Pose
 
 JointName = Annotated[str, Field(min_length=1, max_length=128, pattern=r"^[^\x00-\x1f\x7f-\x9f]+$")]
 
 
+class MimicPayload(Payload):
+    """The row's position is `multiplier` · position of `joint` + `offset`."""
+
+    joint: JointName = Field(
+        description="A row with a position of its own, or a joint outside the table: that is a variable then, in its "
+        "place where the first row needs it."
+    )
+    multiplier: float = Field(1.0, description="[rad or m] per [rad or m].")
+    offset: float = Field(0.0, description="[rad or m]")
+
+
 class DhJointRow(Payload):
-    """A row of the table; the joint's variable adds to `theta` (revolute) or to `d` (prismatic)."""
+    """A row of the table; the joint's position adds to `theta` (revolute) or to `d` (prismatic)."""
 
     name: JointName | None = Field(None, description="Unique in the table; `joint_1`, `joint_2`, … if left out.")
     type: Literal["revolute", "prismatic"] = Field(
@@ -25,10 +38,18 @@ class DhJointRow(Payload):
     alpha: float = Field(description="Twist about the common normal, [rad].")
     d: float = Field(description="Offset along the joint axis, [m].")
     theta: float = Field(description="Angle about the joint axis, [rad].")
-    lower: float | None = Field(None, description="Lower limit of the variable, [rad or m]; -π or -1 m if left out.")
-    upper: float | None = Field(None, description="Upper limit of the variable, [rad or m]; π or 1 m if left out.")
+    lower: float | None = Field(None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out.")
+    upper: float | None = Field(None, description="Upper limit of the position, [rad or m]; π or 1 m if left out.")
     velocity: float | None = Field(None, ge=0, description="Velocity limit, [rad/s or m/s].")
     effort: float | None = Field(None, ge=0, description="Effort limit, [Nm or N].")
+    mimic: MimicPayload | None = Field(
+        None, description="The joint that this one follows; left out, its position is a variable of the table."
+    )
+
+    def row(self, number: int) -> DhJoint:
+        """The core's row, the `number`-th from 1."""
+        fields = {**dict(self), "name": self.name or f"joint_{number}"}
+        return DhJoint(**{**fields, "mimic": None if self.mimic is None else Mimic(**dict(self.mimic))})
 
 
 class DhTablePayload(Payload):
@@ -50,10 +71,7 @@ class DhTablePayload(Payload):
             InvalidPose: Base or tool is no rotation.
             InvalidDhTable: The table is not a robot.
         """
-        joints = tuple(
-            DhJoint(**{**row.model_dump(), "name": row.name or f"joint_{i}"})
-            for i, row in enumerate(self.joints, start=1)
-        )
+        joints = tuple(row.row(number) for number, row in enumerate(self.joints, start=1))
         return DhTable(self.convention, joints, _placed("base", self.base), _placed("tool", self.tool))
 
 
@@ -64,3 +82,134 @@ def _placed(place: str, pose: Pose | None) -> Array:
         return pose.transform()
     except InvalidPose as error:
         raise InvalidPose(error.reason, error.distance, place) from error
+
+
+def table_content(table: DhTable) -> dict[str, Any]:
+    """A table as it travels: a valid `DhTablePayload` that gives the same numbers again.
+
+    Base and tool are matrices, which keep quarter turns exact, and are left out where they are the identity.
+    """
+    joints = []
+    for row in table.joints:
+        optional = {key: getattr(row, key) for key in ("lower", "upper", "velocity", "effort")}
+        content: dict[str, Any] = {key: getattr(row, key) for key in ("name", "type", "a", "alpha", "d", "theta")}
+        content |= {key: value for key, value in optional.items() if value is not None}
+        if row.mimic is not None:
+            content["mimic"] = {key: getattr(row.mimic, key) for key in ("joint", "multiplier", "offset")}
+        joints.append(content)
+    places = {place: T for place, T in (("base", table.base), ("tool", table.tool)) if not np.array_equal(T, np.eye(4))}
+    matrices = {place: {"matrix": T.tolist()} for place, T in places.items()}
+    return {"convention": table.convention, "joints": joints, **matrices}
+
+
+# Conversions
+
+Convention = Annotated[
+    Literal["standard", "modified"],
+    Field(description="Convention of the table: standard (distal) or modified (Craig)."),
+]
+SnapTolerance = Annotated[
+    float,
+    Field(
+        ge=0.0,
+        le=MAX_SNAP_TOLERANCE,
+        description="Angles within so much [rad] of a multiple of π/2, and lengths within so much [m] of zero, become "
+        "exactly that: the table that a person would write of a description with truncated numbers. The certificate "
+        "says what it costs. At 0 the table is exact.",
+    ),
+]
+
+
+class ToUrdfRequest(Payload):
+    """A table to be written as URDF."""
+
+    name: RobotName
+    dh: DhTablePayload
+
+
+class FromUrdfOptions(ChainOptions):
+    """Which chain of a robot, and what its table should be like."""
+
+    convention: Convention = "standard"
+    snap_tolerance: SnapTolerance = 0.0
+
+
+class FromUrdfRequest(FromUrdfOptions):
+    """A description with the chain to be written as a table."""
+
+    urdf: str = Field(description="The URDF as text, xacro expanded.")
+
+
+class ConvertRequest(Payload):
+    """A table to be written in a convention."""
+
+    dh: DhTablePayload
+    convention: Convention
+
+
+class TableCertificate(Answer):
+    """How far the two sides of a conversion are apart, measured through Pinocchio at random configurations.
+
+    These are `lower + r (upper - lower)` with `r = numpy.random.default_rng(seed).random((samples, n))`. In the first
+    half of the rows the bounds are the joints' limits (one further than 10 rad or m from the position next to zero
+    counts as that far), in the second half revolute joints turn within ±π.
+    """
+
+    samples: int = Field(description="Number of configurations.")
+    max_position_error: float = Field(description="Largest distance of the two poses, [m].")
+    max_orientation_error: float = Field(description="Largest angle between the two poses, [rad].")
+    seed: int = Field(description="Of the configurations.")
+
+
+class ToUrdfAnswer(Answer):
+    """The robot that a table describes."""
+
+    urdf: str = Field(description="Links `base`, `frame_0`, `link_1`, …, `tool`; each DH frame is a link `frame_i`.")
+    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
+    certificate: TableCertificate = Field(description="The table's own product against the URDF through Pinocchio.")
+    warnings: list[str] = Field(description="What the table leaves open, and how it was taken.")
+
+
+class FromUrdfAnswer(Answer):
+    """The table of a chain."""
+
+    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
+    joint_names: list[str] = Field(description="The variables, those of the chain, base to tip.")
+    base_frame: str = Field(description="Where the chain begins: the base of the table.")
+    tip_frame: str = Field(description="Where it ends: the tool of the table.")
+    certificate: TableCertificate = Field(description="The table's own product against the robot through Pinocchio.")
+    notes: list[str] = Field(description="What was chosen where the convention leaves a choice.")
+    warnings: list[str] = Field(description="What is odd about the description, though accepted.")
+
+
+class ConvertAnswer(Answer):
+    """The same chain by a table of the convention."""
+
+    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
+    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
+    certificate: TableCertificate = Field(description="Both tables, as URDF, through Pinocchio.")
+
+
+EXAMPLE_TABLE: dict[str, Any] = {
+    "convention": "modified",
+    "joints": [
+        {"name": "shoulder", "type": "revolute", "a": 0.0, "alpha": 0.0, "d": 0.333, "theta": 0.0}
+        | {"lower": -2.8, "upper": 2.8, "velocity": 2.1, "effort": 87.0},
+        {"name": "elbow", "type": "revolute", "a": 0.0, "alpha": -1.5707963267948966, "d": 0.0, "theta": 0.0}
+        | {"lower": -1.7, "upper": 1.7},
+        {"name": "slide", "type": "prismatic", "a": 0.1, "alpha": 1.5707963267948966, "d": 0.3, "theta": 0.0}
+        | {"lower": 0.0, "upper": 0.25},
+    ],
+    "tool": {"position": [0.0, 0.0, 0.1], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]},
+}
+EXAMPLE_URDF = """<robot name="two_links">
+  <link name="foot"/><link name="upper"/><link name="fore"/><link name="hand"/>
+  <joint name="shoulder" type="revolute"><parent link="foot"/><child link="upper"/>
+    <origin xyz="0 0 0.4" rpy="1.5708 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1.5" effort="40"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/>
+    <origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-2.5" upper="2.5" velocity="2" effort="20"/></joint>
+  <joint name="wrist" type="fixed"><parent link="fore"/><child link="hand"/><origin xyz="0.35 0 0"/></joint>
+</robot>
+"""

@@ -113,6 +113,37 @@ JOINTS = (
 )
 """A joint is complete, of one of two types, named once, and has somewhere to be."""
 
+FOLLOWERS = (
+    *(
+        RefusedDh(f"mimic {why}", elbow(mimic=mimic), ("mimic",))
+        for why, mimic in (
+            ("a text", "shoulder"),
+            ("a list", ["shoulder"]),
+            ("without a joint", {"multiplier": 2.0}),
+            ("of itself", {"joint": "elbow"}),
+            ("of no name", {"joint": ""}),
+            ("of a name with a newline", {"joint": "shoul\nder"}),
+            ("with a text for a multiplier", {"joint": "shoulder", "multiplier": "2"}),
+            ("with null for an offset", {"joint": "shoulder", "offset": None}),
+            ("with a multiplier of 1e300", {"joint": "shoulder", "multiplier": 1e300}),
+            ("with an offset of 1e300", {"joint": "shoulder", "offset": -1e300}),
+            ("with an unknown field", {"joint": "shoulder", "gear": 2.0}),
+        )
+    ),
+    RefusedDh(
+        "mimic of a mimic",
+        table(
+            joints=[
+                SHOULDER,
+                {**ELBOW, "mimic": {"joint": "wrist"}},
+                {**SHOULDER, "name": "wrist", "mimic": {"joint": "shoulder"}},
+            ]
+        ),
+        ("mimic", "wrist"),
+    ),
+)
+"""A joint that follows another names one with a position of its own."""
+
 NUMBERS = (
     *(
         RefusedDh(f"{field} {why}", elbow(**{field: value}), (field,))
@@ -196,7 +227,7 @@ POSES = (
 )
 """Base and tool are poses: one position, one orientation, and that a rotation to 1e-6."""
 
-REFUSED_DH: tuple[RefusedDh, ...] = (*TABLES, *JOINTS, *NUMBERS, *POSES)
+REFUSED_DH: tuple[RefusedDh, ...] = (*TABLES, *JOINTS, *FOLLOWERS, *NUMBERS, *POSES)
 
 
 # --- Whole bodies of POST /v1/robots ---

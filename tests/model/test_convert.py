@@ -1,5 +1,9 @@
-"""The URDF that a table becomes, after a journey through XML, against the table's own product of transforms."""
+"""The URDF that a table becomes, after a journey through XML, against the table's own product of transforms.
 
+And the same chain by a table of the other convention, which is the same by the textbook.
+"""
+
+from dataclasses import replace
 from io import BytesIO
 from math import pi
 
@@ -7,14 +11,19 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from app.kinematics.certify import certify_conversion, certify_table, pinocchio_poses, table_configurations
 from app.kinematics.forward import forward_kinematics
 from app.model.arrays import Array
-from app.model.convert import describe_dh, origin_of
+from app.model.convert import converted, describe_dh
+from app.model.description import Mimic
 from app.model.dh import Convention, DhJoint, DhTable
+from app.model.errors import CertificationFailed
+from app.model.origins import origin_of
 from app.model.poses import placement
 from app.model.robot import Robot
 from app.model.urdf import write_urdf
 from tests.oracles import catalogue, dh_columns
+from tests.oracles.urdf_product import UrdfProduct
 from tests.robots import by_name, of_table, reread, robot, rows, samples, table, without_warnings
 
 SPECIAL = (0.0, pi / 2, -pi / 2, pi, -pi, 1e-9, pi / 2 + 1e-12, pi / 2 - 5e-13, 2 * pi)
@@ -47,7 +56,7 @@ def random_table(convention: Convention, seed: int) -> DhTable:
 @pytest.mark.parametrize("convention", ["standard", "modified"])
 @pytest.mark.parametrize("seed", range(10))
 def test_every_frame_of_a_table(convention: Convention, seed: int) -> None:
-    """Fifty tables each; poses by the kernels, which are certified by Pinocchio, against the table's."""
+    """Fifty tables each; poses by the kernels, and by Pinocchio itself, against the table's."""
     for number in range(50):
         dh = random_table(convention, 50 * seed + number)
         machine = of_table(dh)
@@ -61,6 +70,33 @@ def test_every_frame_of_a_table(convention: Convention, seed: int) -> None:
         assert np.abs(answer.poses.matrices() - [dh.pose(q) for q in qs]).max() < 1e-12, number
         certificate = answer.certificate
         assert max(certificate.max_position_error, certificate.max_orientation_error) < 1e-12, number
+        judge = pinocchio_poses(machine, chain, "tool", qs, range(len(qs))).matrices()
+        assert np.abs(judge - [dh.pose(q) for q in qs]).max() < 1e-12, number
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_the_certificate_of_a_table_is_what_is_measured(convention: Convention) -> None:
+    for seed in range(1000, 1020):
+        dh = random_table(convention, seed)
+        machine = of_table(dh)
+        chain = machine.chain("base", "tool")
+        certificate = certify_table(machine, chain, dh, seed=seed)
+        assert (certificate.samples, certificate.seed) == (100, seed)
+        qs = table_configurations(chain, 100, seed)
+        assert np.array_equal(qs, as_documented(dh, seed))
+        judge = UrdfProduct(write_urdf(machine.description)).poses("base", "tool", by_name(chain, qs))
+        ours = np.array([dh.pose(q) for q in qs])
+        stated = certificate.max_position_error, certificate.max_orientation_error
+        measured = np.linalg.norm((ours - judge)[:, :3, 3], axis=1).max()
+        assert max(stated) < 1e-12
+        assert stated[0] == pytest.approx(measured, abs=1e-14)
+
+
+def as_documented(dh: DhTable, seed: int) -> Array:
+    """The configurations of a certificate, by the words of its schema."""
+    r = np.random.default_rng(seed).random((100, len(dh.joints)))
+    bounds = np.array([(-pi, pi) if row.type == "revolute" else (-1.0, 1.0) for row in dh.joints])
+    return np.asarray(bounds[:, 0] + r * (bounds[:, 1] - bounds[:, 0]))
 
 
 @pytest.mark.parametrize("name", catalogue.TABLES)
@@ -130,3 +166,135 @@ def test_a_table_of_the_largest_lengths() -> None:
 
 def test_default_chain_of_a_table() -> None:
     assert Robot(describe_dh("arm", rows("modified", [(1, 0, 0, 0)] * 3, "RRR"))).default_chain == ("base", "tool")
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_another_reader_sees_random_tables_the_same(convention: Convention) -> None:
+    """It takes a placement within 1e-8 of the identity for the identity, so a few tables differ by that much."""
+    import yourdfpy
+
+    errors = []
+    for seed in range(2000, 2030):
+        dh = random_table(convention, seed)
+        other = yourdfpy.URDF.load(BytesIO(write_urdf(describe_dh("arm", dh)).encode()))
+        for q in samples(of_table(dh).chain("base", "tool"), 3, seed):
+            other.update_cfg(dict(zip(dh.variables, q, strict=True)))
+            errors.append(np.abs(other.get_transform("tool", "base") - dh.pose(q)).max())
+    assert max(errors) < 2e-8
+    assert np.mean(np.array(errors) < 1e-12) > 0.8
+
+
+# Rows that follow
+
+
+def geared(convention: Convention) -> DhTable:
+    """Four rows of which two follow: one a row, one a joint outside."""
+    row = DhJoint("row", "revolute", 0.3, 0.4, 0.1, 0.2, -1.0, 2.0)
+    return DhTable(
+        convention,
+        (
+            row,
+            replace(row, name="second", type="prismatic", lower=-0.1, upper=0.5, mimic=Mimic("motor", -0.5, 0.1)),
+            replace(row, name="third", lower=-3.0, upper=3.0, mimic=Mimic("row", -2.0, 0.3)),
+            replace(row, name="fourth", type="prismatic", velocity=3.0, mimic=Mimic("motor", 2.0, -0.2)),
+        ),
+    )
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_a_joint_outside_the_table_leads_from_a_link_of_its_own(convention: Convention) -> None:
+    import yourdfpy
+
+    dh = geared(convention)
+    machine = of_table(dh)
+    assert machine.default_chain == ("base", "tool")
+    chain = machine.chain(None, None)
+    assert chain.joint_names == dh.variables == ("row", "motor")
+    certificate = certify_table(machine, chain, dh)
+    assert max(certificate.max_position_error, certificate.max_orientation_error) < 1e-14
+    # Within [-0.1, 0.5] at -0.5 q + 0.1, and within [-1, 2] at 2 q - 0.2: the tighter of both at each end.
+    assert (chain.lower[1], chain.upper[1]) == pytest.approx((-0.4, 0.4))
+    motor = machine.description.joint["motor"]
+    assert (motor.type, motor.limits.velocity) == ("prismatic", 1.5)
+    assert any("'motor'" in warning for warning in describe_dh("arm", dh).warnings)
+    other = yourdfpy.URDF.load(BytesIO(write_urdf(machine.description).encode()))
+    for q in samples(chain, 5):
+        other.update_cfg(dict(zip(dh.variables, q, strict=True)))
+        assert np.abs(other.get_transform("tool", "base") - dh.pose(q)).max() < 1e-14
+
+
+def test_a_last_row_that_follows_keeps_the_default_chain() -> None:
+    row = DhJoint("row", "revolute", 0.3, 0.4, 0.1, 0.2)
+    dh = DhTable("standard", (row, replace(row, name="last", mimic=Mimic("row"))))
+    assert of_table(dh).default_chain == ("base", "tool")
+
+
+def test_a_leader_of_the_name_of_a_fixed_joint() -> None:
+    dh = DhTable("standard", (DhJoint("row", "revolute", 1, 0, 0, 0, mimic=Mimic("base_to_frame_0")),))
+    assert of_table(dh).chain("base", "tool").joint_names == ("base_to_frame_0",)
+
+
+@pytest.mark.parametrize("multiplier", [0.0, 1e-300, 1e6])
+def test_a_leader_of_any_multiplier_has_limits(multiplier: float) -> None:
+    row = DhJoint("row", "revolute", 0.3, 0.4, 0.1, 0.2, -1.0, 1.0, 1e18, mimic=Mimic("motor", multiplier))
+    chain = of_table(DhTable("standard", (row,))).chain("base", "tool")
+    assert -1e6 <= chain.lower[0] <= chain.upper[0] <= 1e6
+
+
+# The other convention
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_the_other_convention_is_the_same_chain(convention: Convention) -> None:
+    other: Convention = "modified" if convention == "standard" else "standard"
+    for seed in range(200):
+        dh = random_table(convention, seed)
+        answer = converted(dh, other)
+        assert answer.convention == other
+        assert answer.variables == dh.variables
+        for q in np.random.default_rng(seed).uniform(-pi, pi, (3, len(dh.joints))):
+            assert np.abs(answer.pose(q) - dh.pose(q)).max() < 5e-14
+        assert converted(dh, convention) is dh
+        again = converted(answer, convention)
+        for q in np.random.default_rng(seed).uniform(-pi, pi, (3, len(dh.joints))):
+            assert np.abs(again.pose(q) - dh.pose(q)).max() < 5e-14
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_there_and_back_again_is_the_same_table(convention: Convention) -> None:
+    """Where base (modified) or tool (standard) holds nothing that a row could not say."""
+    other: Convention = "modified" if convention == "standard" else "standard"
+    for seed in range(50):
+        dh = replace(random_table(convention, seed), base=np.eye(4), tool=np.eye(4))
+        again = converted(converted(dh, other), convention)
+        for row, row_again in zip(dh.joints, again.joints, strict=True):
+            turns = (row_again.alpha - row.alpha) / (2 * pi)
+            assert abs(turns - round(turns)) < 1e-15
+            assert replace(row_again, alpha=row.alpha) == row
+        assert np.array_equal(again.base, np.eye(4))
+        assert np.array_equal(again.tool, np.eye(4))
+
+
+def test_numbers_move_by_one_row() -> None:
+    craig = table(catalogue.dh_table("panda_dh"))
+    standard = converted(craig, "standard")
+    assert [row.a for row in standard.joints] == [0.0, 0.0, 0.0825, -0.0825, 0.0, 0.088, 0.0]
+    assert [row.alpha for row in standard.joints[:-1]] == [row.alpha for row in craig.joints[1:]]
+    assert [(row.d, row.theta, row.name, row.limits) for row in standard.joints] == [
+        (row.d, row.theta, row.name, row.limits) for row in craig.joints
+    ]
+    assert np.array_equal(standard.base, np.eye(4))
+    certificate = certify_conversion(craig, standard)
+    assert max(certificate.max_position_error, certificate.max_orientation_error) < 1e-15
+
+
+def test_a_wrong_conversion_is_withheld() -> None:
+    craig = table(catalogue.dh_table("panda_dh"))
+    wrong = replace(converted(craig, "standard"), tool=np.eye(4))
+    with pytest.raises(CertificationFailed):
+        certify_conversion(craig, wrong)
+    machine = of_table(craig)
+    chain = machine.chain("base", "tool")
+    with pytest.raises(CertificationFailed):
+        certify_table(machine, chain, wrong)
+    assert certify_table(machine, chain, wrong, exact=False).max_position_error > 0.1

@@ -6,6 +6,7 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
+from app.model.description import Mimic
 from app.model.dh import MAX_JOINTS, Convention, DhJoint, DhTable
 from app.model.errors import InvalidDhTable, WrongJointCount
 from tests.oracles import catalogue, dh_columns
@@ -169,3 +170,60 @@ def test_refused_place(place: str, x: float) -> None:
 )
 def test_limits_left_out(changes: dict[str, object], limits: tuple[float, float]) -> None:
     assert joint(**changes).limits == limits
+
+
+def following(*leaders: str | None) -> DhTable:
+    """A table of joints j0, j1, …, each its own or following one; multiplier 2, offset 0.5."""
+    return DhTable(
+        "modified",
+        tuple(
+            joint(name=f"j{i}", mimic=None if leader is None else Mimic(leader, 2.0, 0.5))
+            for i, leader in enumerate(leaders)
+        ),
+    )
+
+
+@pytest.mark.parametrize(
+    ("leaders", "variables"),
+    [
+        ((None, None), ("j0", "j1")),
+        ((None, "j0", None), ("j0", "j2")),
+        (("j1", None), ("j1",)),
+        (("hand", None, "hand"), ("hand", "j1")),
+        ((None, "hand", "arm", "hand", "j0"), ("j0", "hand", "arm")),
+    ],
+)
+def test_variables_stand_where_they_are_first_needed(
+    leaders: tuple[str | None, ...], variables: tuple[str, ...]
+) -> None:
+    assert following(*leaders).variables == variables
+
+
+def test_a_row_that_follows_is_moved_by_its_leader() -> None:
+    dh = following("hand", None, "j1")
+    plain = following(None, None, None)
+    q = [0.3, -0.2]
+    moved = [2 * 0.3 + 0.5, -0.2, 2 * -0.2 + 0.5]
+    assert dh.positions(q) == pytest.approx(moved, abs=1e-16)
+    assert np.array_equal(dh.pose(q), plain.pose(moved))
+    with pytest.raises(WrongJointCount) as caught:
+        dh.pose(moved)
+    assert (caught.value.given, caught.value.expected) == (3, ("hand", "j1"))
+
+
+@pytest.mark.parametrize(
+    ("mimic", "word"),
+    [
+        (Mimic("elbow"), "follows another joint itself"),
+        (Mimic("follower"), "follows another joint itself"),
+        (Mimic(""), "printable"),
+        (Mimic("shoul\nder"), "printable"),
+        *((Mimic("shoulder", multiplier=value), "multiplier") for value in (nan, inf, 2e6)),
+        *((Mimic("shoulder", offset=value), "offset") for value in (nan, -inf, 2e6)),
+    ],
+)
+def test_refused_leader(mimic: Mimic, word: str) -> None:
+    others = joint(name="shoulder"), joint(name="follower", mimic=Mimic("shoulder"))
+    with pytest.raises(InvalidDhTable, match=word) as caught:
+        DhTable("standard", (*others, joint(mimic=mimic)))
+    assert (caught.value.joint, caught.value.parameter) == (2, "mimic")

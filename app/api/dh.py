@@ -1,0 +1,206 @@
+"""Conversions of Denavit-Hartenberg tables: to URDF, from URDF, from one convention to the other."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import asdict
+from typing import Annotated, Any, TypeVar
+
+from fastapi import Query
+from starlette.responses import Response
+
+from app.api.openapi import RobotPath, json_example, problem_responses
+from app.api.payloads import JSON, BoundedRequest, json_response, read_json, read_query
+from app.api.problems import UnsupportedMediaType
+from app.api.routes import DocumentedRoute, Handler, in_thread
+from app.kinematics.certify import certify_conversion, certify_table
+from app.model.convert import BASE_FRAME, TOOL_FRAME, converted, describe_dh
+from app.model.dh_from_chain import dh_from_chain
+from app.model.errors import InvalidField
+from app.model.robot import Robot
+from app.model.urdf import read_urdf, write_urdf
+from app.schemas.common import FrameName, Payload
+from app.schemas.dh import (
+    EXAMPLE_TABLE,
+    EXAMPLE_URDF,
+    Convention,
+    ConvertAnswer,
+    ConvertRequest,
+    FromUrdfAnswer,
+    FromUrdfOptions,
+    FromUrdfRequest,
+    SnapTolerance,
+    ToUrdfAnswer,
+    ToUrdfRequest,
+    table_content,
+)
+from app.store.library import Library
+
+TAG = "DH tables"
+
+_Request = TypeVar("_Request", bound=Payload)
+
+
+def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
+    """The conversions, each in a thread: building a robot takes milliseconds."""
+
+    def table_to_urdf(call: ToUrdfRequest) -> ToUrdfAnswer:
+        """Writes a table as URDF, to 17 significant digits, with simple bodies to look at and plausible inertias.
+
+        Both conventions, revolute and prismatic joints, base, tool, offsets and limits. What is sent has been read
+        again and recomputed through Pinocchio.
+        """
+        raise NotImplementedError
+
+    def table_from_urdf(call: FromUrdfRequest) -> FromUrdfAnswer:
+        """Finds the table of any serial chain of a robot, exact by default, by the geometry of its axes.
+
+        Axes of any direction, fixed joints between, continuous, prismatic and mimic joints, and chains that lead up
+        the tree are all fine: base and tool take up what the rows cannot say. A table is not unique; `notes` lists
+        what was chosen where the convention leaves a choice.
+        """
+        raise NotImplementedError
+
+    def convert_table(call: ConvertRequest) -> ConvertAnswer:
+        """Writes a table in the other convention, exactly: α and a move by one row, base and tool take up the rest."""
+        raise NotImplementedError
+
+    def robot_table(
+        robot: RobotPath,
+        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
+        base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
+        tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
+        snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
+    ) -> FromUrdfAnswer:
+        """The table of a chain of this robot, as `from-urdf` finds it; the default chain where no frame is named."""
+        raise NotImplementedError
+
+    async def get_table(request: BoundedRequest) -> Response:
+        options = read_query(FromUrdfOptions, request.query_params)
+        name: str = request.path_params["robot"]
+
+        def work() -> Response:
+            loaded = library.get(name)
+            return json_response(_table_answer(loaded.robot, options, loaded.warnings))
+
+        return await in_thread(executor, work)
+
+    def post(path: str, endpoint: Callable[..., Any], handler: Handler, **documentation: Any) -> DocumentedRoute:
+        return dh_route(f"/v1/dh/{path}", endpoint, handler, max_body_bytes, **documentation)
+
+    return [
+        post(
+            "to-urdf",
+            table_to_urdf,
+            json_handler(ToUrdfRequest, _to_urdf, executor),
+            operation_id="dh_to_urdf",
+            summary="Table → URDF",
+            example={"name": "my_arm", "dh": EXAMPLE_TABLE},
+        ),
+        post(
+            "from-urdf",
+            table_from_urdf,
+            json_handler(FromUrdfRequest, _from_urdf, executor),
+            operation_id="dh_from_urdf",
+            summary="URDF → table",
+            example={"urdf": EXAMPLE_URDF, "tip_frame": "hand", "snap_tolerance": 1e-5},
+        ),
+        post(
+            "convert",
+            convert_table,
+            json_handler(ConvertRequest, _convert, executor),
+            operation_id="convert_dh",
+            summary="Standard ↔ modified",
+            example={"dh": EXAMPLE_TABLE, "convention": "standard"},
+        ),
+        DocumentedRoute(
+            "/v1/robots/{robot}/dh",
+            robot_table,
+            get_table,
+            max_body_bytes,
+            methods=["GET"],
+            operation_id="get_robot_dh",
+            summary="A robot's chain as a table",
+            tags=[TAG],
+            responses=problem_responses(404, 422),
+        ),
+    ]
+
+
+def dh_route(
+    path: str,
+    endpoint: Callable[..., Any],
+    handler: Handler,
+    max_body_bytes: int,
+    example: dict[str, Any],
+    **documentation: Any,
+) -> DocumentedRoute:
+    """A POST on tables, documented by its endpoint and by an example that runs as it stands."""
+    return DocumentedRoute(
+        path,
+        endpoint,
+        handler,
+        max_body_bytes,
+        methods=["POST"],
+        tags=[TAG],
+        responses=problem_responses(400, 404, 413, 415, 422),
+        openapi_extra={"requestBody": {"content": json_example(example)}},
+        **documentation,
+    )
+
+
+def json_handler(model: type[_Request], work: Callable[[_Request], Any], executor: Executor) -> Handler:
+    """What reads a JSON request and does its work, both in a thread."""
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        body = await request.body()
+        return await in_thread(executor, lambda: json_response(work(read_json(model, body))))
+
+    return handle
+
+
+def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
+    table = call.dh.table()
+    described = describe_dh(call.name, table)
+    urdf = write_urdf(described)
+    robot = Robot(read_urdf(urdf), (BASE_FRAME, TOOL_FRAME))
+    certificate = certify_table(robot, robot.chain(None, None), table)
+    return {
+        "urdf": urdf,
+        "joint_names": table.variables,
+        "certificate": asdict(certificate),
+        "warnings": described.warnings,
+    }
+
+
+def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
+    description = read_urdf(call.urdf)
+    return _table_answer(Robot(description), call, description.warnings)
+
+
+def _table_answer(robot: Robot, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:
+    chain = robot.chain(options.base_frame, options.tip_frame)
+    found = dh_from_chain(robot.description, chain, options.convention, options.snap_tolerance)
+    exact = options.snap_tolerance == 0.0
+    return {
+        "dh": table_content(found.table),
+        "joint_names": found.table.variables,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "certificate": asdict(certify_table(robot, chain, found.table, exact=exact)),
+        "notes": found.notes,
+        "warnings": warnings,
+    }
+
+
+def _convert(call: ConvertRequest) -> dict[str, Any]:
+    table = call.dh.table()
+    other = converted(table, call.convention)
+    return {
+        "dh": table_content(other),
+        "joint_names": other.variables,
+        "certificate": asdict(certify_conversion(table, other)),
+    }

@@ -1,0 +1,134 @@
+"""What the links of a table look like and weigh: simple solids along its lengths, made of aluminium.
+
+A table says nothing about bodies. So that its robot can be looked at and moved by a simulator, each link gets thin
+cylinders along its d (the joint's axis) and its a (the common normal), a thicker short one where a joint turns and a
+box where one slides. Lengths that are zero leave nothing. The inertia is that of these solids, which is therefore one
+that a body can have: positive definite, and within the triangle inequality.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.model.arrays import Array
+from app.model.chain import rotation_to_axis
+from app.model.description import Inertial, Origin, Shape, Triple
+from app.model.dh import DhJoint, DhTable
+from app.model.origins import origin_of
+
+DENSITY = 2700.0
+"""Of aluminium, [kg/m³]."""
+
+_THICKNESS = 0.12
+"""Radius of a thin cylinder, in typical lengths of the table."""
+_SMALLEST_RADIUS = 1e-4
+"""Of a thin cylinder, [m]: nothing is without mass."""
+_SLENDEREST = 1e-3
+"""Smallest radius of a cylinder for its length: with less, the moment about its axis would drown in rounding."""
+_LONGEST_WAY = 100.0
+"""How far from zero a sliding joint's rod reaches, in radii of a thin cylinder."""
+_DEFAULT_LENGTH = 0.1
+"""The typical length of a table all of whose lengths are zero, [m]."""
+_SHORT = 1e-9
+"""A cylinder shorter than this part of its radius is left out."""
+_MOST_INERTIA = 1e12
+"""Largest moment of inertia [kg m²]: that of a link of 1000 km would be beyond what a description may say."""
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """A homogeneous cylinder (radius, length; along z) or box (x, y, z) somewhere in a link; sizes in [m].
+
+    Attributes:
+        kind: Which of the two.
+        size: Its numbers.
+        centre: Of mass, in the link; shape (3,), [m].
+        rotation: Its axes in the link, as columns; shape (3, 3).
+    """
+
+    kind: str
+    size: tuple[float, ...]
+    centre: Array
+    rotation: Array
+
+    @property
+    def mass(self) -> float:
+        """Of aluminium, [kg]."""
+        if self.kind == "box":
+            return DENSITY * math.prod(self.size)
+        radius, length = self.size
+        return DENSITY * math.pi * radius**2 * length
+
+    def inertia(self) -> Array:
+        """About its centre, in the link's axes; shape (3, 3), [kg m²]."""
+        if self.kind == "box":
+            x, y, z = (side**2 / 12 for side in self.size)
+            moments = np.array([y + z, x + z, x + y])
+        else:
+            radius, length = self.size
+            across = radius**2 / 4 + length**2 / 12
+            moments = np.array([across, across, radius**2 / 2])
+        inertia: Array = self.mass * (self.rotation * moments) @ self.rotation.T
+        return inertia
+
+    def shape(self) -> Shape:
+        """To be looked at."""
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = self.rotation, self.centre
+        return Shape("visual", origin_of(T), "box" if self.kind == "box" else "cylinder", self.size)
+
+
+class Stock:
+    """The solids that a table's links are made of, all of one thickness.
+
+    Args:
+        table: Its lengths set the thickness.
+    """
+
+    def __init__(self, table: DhTable) -> None:
+        lengths = [abs(length) for row in table.joints for length in (row.a, row.d) if length]
+        typical = float(np.median(lengths)) if lengths else _DEFAULT_LENGTH
+        self.radius = max(_THICKNESS * typical, _SMALLEST_RADIUS)
+
+    def rod(self, start: Sequence[float] | Array, end: Sequence[float] | Array) -> list[Solid]:
+        """A thin cylinder between two points of a link; none where they are one. A long one is no wire."""
+        way = np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
+        length = math.hypot(*way)
+        if length <= _SHORT * self.radius:
+            return []
+        x, y, z = (way / length).tolist()
+        radius = max(self.radius, _SLENDEREST * length)
+        return [Solid("cylinder", (radius, length), np.asarray(start) + way / 2, rotation_to_axis((x, y, z)))]
+
+    def hub(self, z: float) -> Solid:
+        """The body of a turning joint, about the link's z axis at a height."""
+        return Solid("cylinder", (2.2 * self.radius, 5.0 * self.radius), np.array([0.0, 0.0, z]), np.eye(3))
+
+    def travel(self, row: DhJoint) -> tuple[float, float]:
+        """Lower and upper end of what is shown of a sliding joint's way: not all of one that has no end."""
+        most = _LONGEST_WAY * self.radius
+        lower, upper = row.limits
+        return max(lower, -most), min(upper, most)
+
+    def carriage(self) -> Solid:
+        """The body of a sliding joint, at the link's origin."""
+        return Solid("box", (4.0 * self.radius,) * 2 + (5.0 * self.radius,), np.zeros(3), np.eye(3))
+
+
+def inertial_of(solids: Sequence[Solid]) -> Inertial:
+    """Mass, centre of mass and inertia of solids joined to one body; at least one."""
+    masses = np.array([solid.mass for solid in solids])
+    mass = float(masses.sum())
+    centre = masses @ np.array([solid.centre for solid in solids]) / mass
+    inertia = np.zeros((3, 3))
+    for solid in solids:
+        r = solid.centre - centre
+        inertia += solid.inertia() + solid.mass * (r @ r * np.eye(3) - np.outer(r, r))
+    # A link of many kilometres is made of something lighter.
+    lightness = min(1.0, _MOST_INERTIA / float(inertia.max()))
+    ixx, ixy, ixz, iyy, iyz, izz = (lightness * float(inertia[i, j]) + 0.0 for i in range(3) for j in range(i, 3))
+    x, y, z = (float(value) + 0.0 for value in centre)
+    place: Triple = (x, y, z)
+    return Inertial(Origin(place), lightness * mass, (ixx, ixy, ixz, iyy, iyz, izz))
