@@ -9,7 +9,7 @@ from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.configuration import configurations, one_configuration
 from app.kinematics.ik.descent import Rule
 from app.kinematics.ik.null_space import Objective
-from app.kinematics.ik.result import Failure, InverseKinematics, Path
+from app.kinematics.ik.result import Failure, InverseKinematics, Path, SolutionBranches
 from app.kinematics.ik.search import ITERATIONS_PER_START, MAX_ITERATIONS, mid_range
 from app.kinematics.ik.solve import Options, inverse_kinematics, solve_quickly
 from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Direction, Task
@@ -36,11 +36,18 @@ def inverse_operation(max_answer_numbers: int) -> Operation:
     def ik(loaded: LoadedRobot, call: InverseRequest) -> Outcome:
         """Configurations that bring the tip to each target, within the joint limits.
 
-        `auto` searches from the seed and from a thousand random configurations, and takes the first start that reaches
-        the target; from a seed that is near the target it stays on the seed's branch. Every solution is recomputed
-        through Pinocchio before it is sent, and its errors are those of that computation. A target that is not solved
-        is told why, with the nearest configuration that was found. The same call gives the same answer, unless time
-        runs out.
+        `auto` takes the closed form where the geometry of the chain has one (`analytic` takes nothing else): of all
+        branches within the limits the one that is nearest to the seed. Where there is none it searches from the seed
+        and from a thousand random configurations, and takes the first start that reaches the target; from a seed that
+        is near the target it stays on the seed's branch. Every solution is recomputed through Pinocchio before it is
+        sent, and its errors are those of that computation. A target that is not solved is told why, with the nearest
+        configuration that was found. The same call gives the same answer, unless time runs out.
+
+        Closed forms: arms whose last three axes meet in a point, or whose first three do (any three joints besides,
+        turning or sliding); six joints with three parallel axes; positioning arms of two and three joints, with or
+        without turns at their end (planar, SCARA, Cartesian, cylindrical, spherical, anthropomorphic); spherical
+        wrists; seven joints with a spherical shoulder and wrist, by the angle of the elbow. Of six turning joints of
+        any other geometry `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one.
         """
         chain, targets, seeds = _asked(loaded, call)
         _check_size(call, len(targets), len(chain), max_answer_numbers)
@@ -55,7 +62,7 @@ def inverse_operation(max_answer_numbers: int) -> Operation:
         _check_size(call, len(targets), len(chain), max_answer_numbers)
         budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
         starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
-        result = solve_quickly(question, starts, call.random_seed)
+        result = solve_quickly(question, starts, call.random_seed, by_form=call.method == "analytic")
         return None if result is None else _outcome(chain, call, result)
 
     return Operation(
@@ -89,12 +96,14 @@ def _check_options(call: InverseRequest) -> None:
     Raises:
         InvalidField: The field, and what it goes with.
     """
-    if call.method == "analytic":
-        raise InvalidField("method", "no closed form is known for this chain; `auto` solves it")
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction at most once")
-    if call.solutions == "all" and call.method != "auto":
-        raise InvalidField("solutions", "`all` goes with the method `auto` only")
+    if call.solutions == "all" and call.method not in {"auto", "analytic"}:
+        raise InvalidField("solutions", "`all` goes with the methods `auto` and `analytic` only")
+    if call.method == "analytic" and call.trace:
+        raise InvalidField("trace", "a closed form has no iterations to tell of")
+    if call.elbow_angle is not None and call.method != "analytic":
+        raise InvalidField("elbow_angle", "it goes with the method `analytic` only")
     if call.solutions == "all" and (call.trace or call.objective is not None):
         raise InvalidField("solutions", "`all` goes without `trace` and `objective`")
     if call.windings and (call.solutions != "all" or not call.respect_limits):
@@ -110,7 +119,13 @@ def _check_options(call: InverseRequest) -> None:
 
 
 def _is_heavy(call: InverseRequest) -> bool:
-    one_by_search = call.method == "auto" and call.solutions == "one" and not call.trace and call.objective is None
+    one_by_search = (
+        call.method in {"auto", "analytic"}
+        and call.elbow_angle is None
+        and call.solutions == "one"
+        and not call.trace
+        and call.objective is None
+    )
     return not one_by_search or len(call.targets) > _QUICK_TARGETS
 
 
@@ -139,8 +154,8 @@ def _options(call: InverseRequest, objective: Objective | None) -> Options:
     match call.method:
         case "auto" | "analytic":
             rule = None
-        case method:
-            rule = Rule(method, call.step_size, call.damping, call.switch_error)
+        case step_method:
+            rule = Rule(step_method, call.step_size, call.damping, call.switch_error)
     return Options(
         task=_task(call),
         position_tolerance=call.position_tolerance,
@@ -149,12 +164,13 @@ def _options(call: InverseRequest, objective: Objective | None) -> Options:
         every=call.solutions == "all",
         most=call.max_solutions,
         windings=call.windings,
-        method="auto" if rule is None else rule.method,
+        method=call.method,
         rule=rule,
         max_iterations=call.max_iterations,
         time_limit=call.time_limit,
         random_seed=call.random_seed,
         objective=objective,
+        elbow_angle=call.elbow_angle,
         trace=call.trace,
     )
 
@@ -177,7 +193,7 @@ def _objective(chain: Chain, call: InverseRequest) -> Objective | None:
 
 
 def _check_size(call: InverseRequest, targets: int, joints: int, allowed: int) -> None:
-    if (call.method != "auto" or call.trace) and targets > MAX_STEPWISE:
+    if (call.method not in {"auto", "analytic"} or call.trace) and targets > MAX_STEPWISE:
         raise TooLarge("targets of a method that is followed step by step", targets, MAX_STEPWISE)
     numbers = targets * (joints + 4) * (call.max_solutions if call.solutions == "all" else 1)
     if numbers > allowed:
@@ -206,6 +222,7 @@ def _content(chain: Chain, call: InverseRequest, result: InverseKinematics) -> d
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
         "task": _task(call).directions,
+        "closed_form": None if result.branches is None else result.branches.form.name,
         "results": _results(chain, call.pose_format, result),
     }
 
@@ -230,6 +247,8 @@ def _results(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -
             strict=True,
         )
     ]
+    if result.branches is not None:
+        _name_branches(solutions, result.branches, result.qs)
     firsts = result.firsts.tolist()
     entries: list[dict[str, Any]] = [
         {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": None}
@@ -244,6 +263,19 @@ def _results(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -
         for entry, path in zip(entries, result.paths, strict=True):
             entry.update(_path(path))
     return entries
+
+
+def _name_branches(solutions: list[dict[str, Any]], branches: SolutionBranches, qs: Array) -> None:
+    """Say of each solution of a closed form which branch it is, and what a singularity leaves free."""
+    form = branches.form
+    for solution, code, free in zip(solutions, branches.codes.tolist(), branches.free.tolist(), strict=True):
+        if code >= 0:
+            solution["method"], solution["branch"] = form.method, form.branch(code)
+            if free:
+                solution["free_joints"] = form.free_joints(free)
+    if form.has_free_elbow:
+        for solution, angle in zip(solutions, form.elbow_angles(qs).tolist(), strict=True):
+            solution["elbow_angle"] = angle
 
 
 def _failure(chain: Chain, pose_format: PoseFormat, failure: Failure) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """Compile every kernel, or read it from its cache, before the first caller waits for it."""
 
+import math
+
 import numpy as np
 
 from app.kinematics.configuration import configurations
@@ -33,7 +35,24 @@ def warm_up() -> None:
     for every in (False, True):
         inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(every=every))
     inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(trace=True, max_iterations=1))
+    _closed_forms()
     start_of(chain, mid_range(chain), True, 0, 1)
     rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
     rotations_from_vectors(vectors_from_rotations(Rs))
     rotations_from_zyz(np.zeros((1, 3)))
+
+
+def _closed_forms() -> None:
+    """An arm with a free elbow: its kernels are those of every closed form."""
+    alphas = (-0.5, 0.5, 0.5, -0.5, -0.5, 0.5, 0.0)
+    lengths = (0.3, 0.0, 0.3, 0.0, 0.3, 0.0, 0.3)
+    rows = [
+        DhJoint(f"joint_{i}", "revolute", 0.0, math.pi * alpha, d, 0.0)
+        for i, (alpha, d) in enumerate(zip(alphas, lengths, strict=True))
+    ]
+    robot = Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    chain = robot.chain(None, None)
+    qs = np.full((1, 7), 0.4)
+    poses = forward_kinematics(robot, chain, qs).poses
+    for every in (False, True):
+        inverse_kinematics(robot, chain, poses, qs, Options(every=every, method="analytic"))

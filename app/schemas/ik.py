@@ -35,7 +35,9 @@ class InverseOptions(ChainOptions):
 
     method: Method = Field(
         "auto",
-        description="`auto`: many starts of damped least squares, the first at the seed, the others random. The "
+        description="`auto`: the closed form where the chain has one, else many starts of damped least squares, the "
+        "first at the seed, the others random. `analytic`: the closed form, or for six turning joints without one an "
+        "elimination; 422 where neither is known. The "
         "course's methods start at the seed alone: `newton` (the pseudo-inverse where J is not square), `gradient`, "
         "`gradient_then_newton`, `damped_least_squares`.",
     )
@@ -90,7 +92,17 @@ class InverseOptions(ChainOptions):
     switch_error: float = Field(
         1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
     )
-    trace: bool = Field(False, description="Whether each iteration is told; of `auto` those of the start that counts.")
+    elbow_angle: float | None = Field(
+        None,
+        description="With `analytic`, of seven joints with a spherical shoulder and wrist: the angle of the elbow "
+        "about the line from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out "
+        "that of the seed, or another where it does not fit into the limits.",
+    )
+    trace: bool = Field(
+        False,
+        description="Whether each iteration is told; of `auto` those of the start that counts, and no closed form is "
+        "used then.",
+    )
     pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
 
 
@@ -113,10 +125,22 @@ class SolutionInfo(Answer):
     joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
     position_error: float = Field(description="Distance to the target in the directions that count, [m].")
     orientation_error: float = Field(description="Angle to the target likewise, [rad].")
-    method: str = Field(description="What found it.")
+    method: str = Field(
+        description="What found it: `analytic` (a closed form), `elimination`, or a method of iteration."
+    )
     iterations: int = Field(description="Of the start that led there; 0 where many starts did, as with `all`.")
     restarts: int = Field(description="How many starts failed before.")
-    branch: str | None = Field(description="Its branch where a closed form found it, else null.")
+    branch: dict[str, str | int] | None = Field(
+        description="Its branch where a closed form found it, else null: `shoulder` front or back, `elbow` up or down, "
+        "`wrist` no_flip or flip, as far as the arm has that choice; `arm` counts the roots where they are those of a "
+        "quartic."
+    )
+    free_joints: list[str] | None = Field(
+        None, description="Joints that a singularity leaves free; they have kept the seed's positions."
+    )
+    elbow_angle: float | None = Field(
+        None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
+    )
 
 
 class NearestInfo(Answer):
@@ -187,4 +211,5 @@ class InverseAnswer(Answer):
     base_frame: str = Field(description="Frame in which the targets are expressed.")
     tip_frame: str = Field(description="Frame that is to reach them.")
     task: list[Direction] = Field(description="The directions that count.")
+    closed_form: str | None = Field(description="What makes the closed form that was used; null where none was.")
     results: list[InverseResult]

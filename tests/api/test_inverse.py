@@ -9,7 +9,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from app.kinematics import configuration
-from app.kinematics.ik import branches, kernels, solve, task
+from app.kinematics.ik import branch_kernels, branches, judge, kernels, task
+from app.kinematics.ik.closed_form import closed_form
 from app.schemas.ik import InverseAnswer
 from app.schemas.pose import ORIENTATIONS
 from tests.api.test_kinematics import NPY, Array, fk, npy
@@ -73,7 +74,8 @@ def test_what_is_reached_is_what_was_asked_for(client: TestClient, name: str) ->
         (solution,) = entry["solutions"]
         assert solution["position_error"] <= 1e-6
         assert solution["orientation_error"] <= 1e-6
-        assert solution["method"] == "damped_least_squares"
+        assert solution["method"] == ("damped_least_squares" if closed_form(chain) is None else "analytic")
+        assert (solution["branch"] is None) == (closed_form(chain) is None)
 
 
 @pytest.mark.parametrize("pose_format", [*ORIENTATIONS, "matrix"])
@@ -226,12 +228,12 @@ def test_five_joints_say_which_directions_they_cannot_serve(client: TestClient) 
 
 
 def test_a_budget_that_is_too_small_says_so(client: TestClient) -> None:
-    targets = poses(client, "ur3_gripper", within("ur3_gripper", 60))
-    short = ik(client, "ur3_gripper", targets=targets, max_iterations=1)["results"]
+    targets = poses(client, "panda", within("panda", 60))
+    short = ik(client, "panda", targets=targets, max_iterations=1)["results"]
     unsolved = [entry for entry in short if entry["status"] != "solved"]
     assert unsolved
     assert {entry["status"] for entry in unsolved} <= {"not_converged", "outside_limits"}
-    timed = ik(client, "ur3_gripper", targets=targets * 40, time_limit=1e-6)["results"]
+    timed = ik(client, "panda", targets=targets * 40, time_limit=1e-6)["results"]
     assert {"not_converged"} < {entry["status"] for entry in timed} | {"solved"}
     assert any("time limit" in (entry["reason"] or "") for entry in timed)
 
@@ -371,7 +373,8 @@ def test_a_matrix_that_is_nearly_a_rotation_is_projected(client: TestClient) -> 
 def test_callers_never_wait_for_a_compilation(client: TestClient) -> None:
     """Another signature would be one; other tests of the same process may have caused some before."""
     compiled: list[Any] = [
-        kernels._search, kernels._gather, task.task_errors, solve.accepted, branches.thin_out, configuration._within,
+        kernels._search, kernels._gather, task.task_errors, judge.accepted, branches.thin_out, configuration._within,
+        branch_kernels._branches, branch_kernels._elbow_angles,
     ]  # fmt: skip
     before = [len(kernel.signatures) for kernel in compiled]
     assert min(before) >= 1
@@ -379,4 +382,7 @@ def test_callers_never_wait_for_a_compilation(client: TestClient) -> None:
     ik(client, targets=[planar(0.5, 0)], solutions="all", seeds=[[0.1] * 7])
     array = npy(np.tile([0.4, 0, 0.4, *IDENTITY], (300, 1)))
     client.post("/v1/robots/panda/ik", content=array, headers={"content-type": NPY})
+    for solutions in ("one", "all"):
+        ik(client, "ur5", targets=poses(client, "ur5", within("ur5", 3)), solutions=solutions, seeds=[[0.1] * 6] * 3)
+    client.post("/v1/robots/ur5/ik", content=array, headers={"content-type": NPY})
     assert [len(kernel.signatures) for kernel in compiled] == before

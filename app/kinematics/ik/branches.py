@@ -22,7 +22,7 @@ _TIGHT = 1e-10
 """Tolerances to which solutions are found, [m] and [rad]."""
 _SAME = 1e-4
 """Distance in every joint up to which two solutions are one, [rad or m]."""
-_SPACING = 0.2
+SPACING = 0.2
 """The same where solutions form a continuum, of which a sample is given."""
 _NEIGHBOURS = 0.02
 """Distance up to which two solutions are one if the middle between them is a solution too, [rad or m]."""
@@ -93,10 +93,10 @@ def all_branches(
         objective = Objective("posture", seed)
         nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
         candidates = np.concatenate((nearest, candidates))
-        isolated = candidates[thin_out(candidates, free, _SPACING, most)]
+        isolated = candidates[thin_out(candidates, free, SPACING, most)]
     qs, complete = isolated[:most], not continuum and len(isolated) <= most
     if windings and len(qs):
-        qs, complete = _wound(chain, qs, seed, most, complete, respect_limits)
+        qs, _, complete = wound(chain, qs, seed, most, complete, respect_limits)
     return Branches(qs, complete)
 
 
@@ -216,30 +216,45 @@ def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
     return chosen[:count]
 
 
-def _wound(chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool) -> tuple[Array, bool]:
+def wound(
+    chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool
+) -> tuple[Array, Indices, bool]:
     """Each solution in all the full turns that the limits allow, nearest to the seed first.
 
     A joint without limits keeps the turn nearest to the seed.
+
+    Args:
+        chain: The chain.
+        qs: The solutions; shape (k, n).
+        seed: What distances are measured from; shape (n,).
+        most: Largest number of them.
+        complete: Whether these are all.
+        respect_limits: Whether the limits count; without them nothing is turned.
+
+    Returns:
+        Configurations, shape (m, n); the solution that each is a turn of, shape (m,); and whether they are all.
     """
     free = free_variables(chain)
     results: list[tuple[float, ...]] = []
-    for q in qs:
-        ranges = []
-        for j, value in enumerate(q):
-            bounded = respect_limits and free[j] and np.isfinite(chain.lower[j]) and np.isfinite(chain.upper[j])
-            first, last = 0, 0
-            if bounded:
-                first = math.ceil((chain.lower[j] - value) / _TURN - 1e-10)
-                last = math.floor((chain.upper[j] - value) / _TURN + 1e-10)
-            ranges.append(range(first, last + 1))
-        if len(results) + math.prod(len(turns) for turns in ranges) > _MOST_WINDINGS:
-            results.append(tuple(q))
-            complete = False
-            continue
-        turned = product(*([value + _TURN * k for k in turns] for value, turns in zip(q, ranges, strict=True)))
-        results.extend(turned)
+    owners: list[int] = []
+    for k, q in enumerate(qs):
+        ranges = [_turns(chain, j, value, respect_limits and bool(free[j])) for j, value in enumerate(q)]
+        count = math.prod(len(turns) for turns in ranges)
+        if len(results) + count > _MOST_WINDINGS:
+            ranges = [range(1)] * len(q)
+            count, complete = 1, False
+        results.extend(product(*([value + _TURN * t for t in turns] for value, turns in zip(q, ranges, strict=True))))
+        owners.extend([k] * count)
     table = np.array(results)
     if respect_limits:
         table = np.clip(table, chain.lower, chain.upper)
-    table = sorted_by_distance(table, seed)
-    return table[:most], complete and len(table) <= most
+    order = np.argsort(np.square(table - seed).sum(axis=1), kind="stable")[:most]
+    return table[order], np.array(owners, dtype=np.int64)[order], complete and len(table) <= most
+
+
+def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
+    """By how many full turns a variable may be moved within its limits."""
+    lower, upper = chain.lower[j], chain.upper[j]
+    if not (turning and np.isfinite(lower) and np.isfinite(upper)):
+        return range(1)
+    return range(math.ceil((lower - value) / _TURN - 1e-10), math.floor((upper - value) / _TURN + 1e-10) + 1)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.kinematics.ik.kernels import AXIS, FULL
+from app.kinematics.ik.iteration import AXIS, FULL
 from app.kinematics.ik.task import DIRECTIONS, Task
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from app.kinematics.ik.closed_form import ClosedForm
 from app.kinematics.ik.descent import Iterate, StopReason
 from app.model.arrays import Array, Indices
 
@@ -64,6 +65,21 @@ class Path:
 
 
 @dataclass(frozen=True, slots=True)
+class SolutionBranches:
+    """The branches of M solutions of a closed form.
+
+    Attributes:
+        form: The closed form.
+        codes: Which roots it took, -1 where it was not used; shape (M,).
+        free: Bit j where variable j was free and has kept the seed's value; shape (M,).
+    """
+
+    form: ClosedForm
+    codes: Indices
+    free: Indices
+
+
+@dataclass(frozen=True, slots=True)
 class InverseKinematics:
     """Solutions of N targets, all of them in one table: those of target i are its rows firsts[i] to firsts[i + 1].
 
@@ -79,6 +95,7 @@ class InverseKinematics:
         failures: Of each unsolved target, by its number.
         complete: Whether these are all solutions, of each target; None where one was asked for.
         paths: Of each target, where a single method was followed or a trace was asked for.
+        branches: Of each solution, where a closed form was used.
     """
 
     qs: Array
@@ -92,6 +109,7 @@ class InverseKinematics:
     failures: dict[int, Failure] = field(default_factory=dict)
     complete: list[bool] | None = None
     paths: list[Path] | None = None
+    branches: SolutionBranches | None = None
 
     def __len__(self) -> int:
         return len(self.statuses)

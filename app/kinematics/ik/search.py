@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from app.kinematics.ik import kernels
-from app.kinematics.ik.kernels import SOME, Goal
+from app.kinematics.ik.iteration import SOME, Goal
 from app.kinematics.ik.task import FULL_POSE, Task
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
@@ -102,12 +102,12 @@ def search(
         chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed, slack
     )
     rows = target_rows(targets)
-    if len(rows) <= _chunk(chain) and not is_over(deadline):
+    if len(rows) <= chunk_of(chain) and not is_over(deadline):
         qs, winners, iterations, followed = kernels.search(chain.flat, goal, rows, seeds)
         tried, slacks = np.ones(len(rows), dtype=bool), np.full(len(rows), slack)
         return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, tried, slacks)
     untried = np.clip(seeds, *limits_of(chain, respect_limits))
-    return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or len(os.sched_getaffinity(0)))
+    return _in_parts(chain, goal, rows, seeds, untried, deadline, threads or processors())
 
 
 @lru_cache(maxsize=1024)
@@ -238,8 +238,13 @@ def _in_parts(
         qs[part], winners[part], iterations[part], followed[part] = kernels.search(chain.flat, goal, rows[part], own)
         in_time[part] = True
 
-    _each(solve, _slices(count, threads, _chunk(chain), deadline is not None), threads)
+    shared(solve, pieces(count, threads, chunk_of(chain), deadline is not None), threads)
     return Found(qs, winners >= 0, np.maximum(winners, 0), iterations, followed, in_time, np.full(count, goal.slack))
+
+
+def processors() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0))
 
 
 def is_over(deadline: float | None) -> bool:
@@ -247,18 +252,19 @@ def is_over(deadline: float | None) -> bool:
     return deadline is not None and time.monotonic() > deadline
 
 
-def _chunk(chain: Chain) -> int:
+def chunk_of(chain: Chain) -> int:
     """Targets that one thread takes at once; a tenth of a second even if none of them can be solved."""
     return max(1, _CHUNK * 7 // max(7, len(chain)))
 
 
-def _slices(count: int, threads: int, chunk: int, small: bool) -> Iterator[slice]:
+def pieces(count: int, threads: int, chunk: int, small: bool) -> Iterator[slice]:
     """A batch in pieces: a few for each thread, or many small ones to look at the clock between them."""
     size = chunk if small else max(chunk, -(-count // (4 * threads)))
     return (slice(first, min(first + size, count)) for first in range(0, count, size))
 
 
-def _each(work: Callable[[slice], None], parts: Iterator[slice], threads: int) -> None:
+def shared(work: Callable[[slice], None], parts: Iterator[slice], threads: int) -> None:
+    """Do the parts of a batch, in so many threads."""
     if threads == 1:
         for part in parts:
             work(part)

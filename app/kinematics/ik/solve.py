@@ -3,14 +3,15 @@
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
-from app.kinematics.certify import pinocchio_poses
-from app.kinematics.ik import kernels
+from app.kinematics.ik import analytic, kernels
 from app.kinematics.ik.branches import all_branches
+from app.kinematics.ik.closed_form import ClosedForm, closed_form, elimination
 from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
+from app.kinematics.ik.judge import judged
 from app.kinematics.ik.null_space import Objective, settle
 from app.kinematics.ik.result import Failure, InverseKinematics, Path, Status
 from app.kinematics.ik.retrace import retrace
@@ -19,7 +20,6 @@ from app.kinematics.ik.search import (
     MAX_ITERATIONS,
     Found,
     is_over,
-    limits_of,
     make_goal,
     nothing_found,
     search,
@@ -36,13 +36,13 @@ from app.kinematics.ik.verdict import (
     solved_without_limits,
     verdict_on_path,
 )
-from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array, Flags, Indices, compiled
+from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
+from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.model.robot import Robot
 
-Method: TypeAlias = Literal["auto"] | StepMethod
+Method: TypeAlias = Literal["auto", "analytic"] | StepMethod
 
 _FAR_ITERATIONS = 320
 """Budget for a target that is out of reach by distance: only the nearest configuration is wanted."""
@@ -50,8 +50,6 @@ _LOOSE, _SLACK = 1e-4, 0.9
 """Tolerances from which on a target that is not met exactly is tried again, and what share of them is used then."""
 _SETTLED_TOGETHER = 4096
 """Solutions that are moved along their self-motion at once: each needs a Hessian of its own."""
-_WITHIN = 1e-9
-"""How far beyond a limit rounding may put a joint, [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +64,13 @@ class Options:
         every: Whether all solutions are wanted.
         most: Largest number of solutions of one target.
         windings: Whether solutions that differ by full turns count as different.
-        method: `auto`, or one of the course's methods from the seed alone.
+        method: `auto`; `analytic`, a closed form or an elimination; or one of the course's methods from the seed alone.
         rule: How that steps.
         max_iterations: Budget for a target; None for the method's default.
         time_limit: For all targets, [s].
         random_seed: Of the starts.
         objective: What the freedom of a redundant arm is used for.
+        elbow_angle: Where a free elbow is to be, [rad]; of a closed form that has one.
         trace: Whether each iteration is to be told.
     """
 
@@ -88,6 +87,7 @@ class Options:
     time_limit: float | None = None
     random_seed: int = 0
     objective: Objective | None = None
+    elbow_angle: float | None = None
     trace: bool = False
 
     @property
@@ -105,25 +105,75 @@ def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array,
         targets: T_base_tip wanted; N of them.
         seeds: Where to start, and what solutions are to be near to; one for all or one each, shape (1 or N, n).
         options: What counts and how.
+
+    Raises:
+        InvalidField: A closed form is asked for, and none is known.
     """
     deadline = None if options.time_limit is None else time.monotonic() + options.time_limit
     question = Question(robot, chain, targets, seeds, options.task, options.tolerances, options.respect_limits)
+    form = _form(question, options)
+    if form is not None:
+        return _analytic(question, options, form, deadline)
     if options.every:
         return _every(question, options, deadline)
-    if options.method == "auto":
+    if options.method in {"auto", "analytic"}:
         return _one(question, options, deadline)
-    return _by_method(question, options, options.method, deadline)
+    return _by_method(question, options, cast(StepMethod, options.method), deadline)
 
 
-def solve_quickly(question: Question, starts: int, random_seed: int) -> InverseKinematics | None:
-    """The same for one solution a target where a few starts suffice, in tens of microseconds; else None.
+def _form(question: Question, options: Options) -> ClosedForm | None:
+    """The closed form that answers the question, where there is one and nothing is asked that it cannot tell."""
+    if options.method not in {"auto", "analytic"}:
+        return None
+    form = closed_form(question.chain, options.task)
+    if form is None and options.task is FULL_POSE and (options.every or options.method == "analytic"):
+        form = elimination(question.chain)
+    if options.method == "analytic" and form is None:
+        raise InvalidField("method", "no closed form is known for this chain and task; `auto` solves it")
+    if options.elbow_angle is not None and (form is None or not form.has_free_elbow):
+        raise InvalidField("elbow_angle", "it goes with arms of seven joints with a spherical shoulder and wrist only")
+    return None if options.trace or options.objective is not None else form
+
+
+def _analytic(question: Question, options: Options, form: ClosedForm, deadline: float | None) -> InverseKinematics:
+    """By the closed form; what it leaves unsolved by a search, which also knows the reason if there is no solution.
+
+    So is a continuum of solutions where all are wanted: a closed form tells one of it, a search gives a sample.
+    """
+    if not options.every:
+        found = analytic.nearest(question, form, options.elbow_angle, deadline)
+        left = np.flatnonzero(np.diff(found.firsts) == 0)
+    else:
+        found = analytic.every(question, form, options.most, options.windings, options.elbow_angle, deadline)
+        left = np.flatnonzero(
+            (np.diff(found.firsts) == 0) | (analytic.singular_targets(found) & (options.method == "auto"))
+        )
+    if len(left) == 0:
+        return found
+    rest = (_every if options.every else _one)(question.taken(left), options, deadline)
+    if options.elbow_angle is not None:
+        rest = analytic.elsewhere(rest)
+    return analytic.joined(found, left, rest)
+
+
+def solve_quickly(
+    question: Question, starts: int, random_seed: int, *, by_form: bool = False
+) -> InverseKinematics | None:
+    """The same for one solution a target where that takes but tens of microseconds; else None.
 
     Args:
         question: The targets; a few.
         starts: Of each target.
         random_seed: Of the starts.
+        by_form: Whether a closed form is asked for, and nothing else will do.
     """
     chain = question.chain
+    form = closed_form(chain, question.task)
+    if form is not None:
+        found = analytic.nearest(question, form, None, None)
+        return found if len(found.qs) == len(question) else None
+    if by_form:
+        return None
     goal = make_goal(
         chain,
         question.task,
@@ -253,50 +303,6 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
             # Starts that do not heed the limits have come to a solution within them.
             found.qs[i], found.solved[i], found.iterations[i] = q, True, 0
     return found, too_far, relaxed
-
-
-def judged(question: Question, qs: Array, claimed: Flags, worth: Flags | None = None) -> tuple[Flags, Array, Array]:
-    """Which configurations solve their targets, recomputed through Pinocchio and within the limits; and the errors.
-
-    Args:
-        question: The targets, one a configuration.
-        qs: Shape (N, n).
-        claimed: Which of them are said to; shape (N,).
-        worth: Which of them are worth recomputing; all if left out. Of the others the kernels tell the errors.
-
-    Returns:
-        Flags, shape (N,); distances [m] and angles [rad], shape (N,).
-    """
-    chain = question.chain
-    if worth is None or worth.all():
-        poses = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, range(len(qs)))
-    else:
-        poses = Poses(*chain_poses(chain.flat, qs))
-        rows = np.flatnonzero(worth)
-        recomputed = pinocchio_poses(question.robot, chain, chain.tip_frame, qs, rows.tolist())
-        poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
-    errors = question.task.errors(question.targets, poses)
-    limits = limits_of(chain, question.respect_limits)
-    return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
-
-
-@compiled
-def accepted(
-    qs: Array,
-    claimed: Flags,
-    errors: Array,
-    position_tolerance: float,
-    orientation_tolerance: float,
-    lower: Array,
-    upper: Array,
-) -> Flags:
-    """Which of the configurations that are said to be solutions are within the tolerances and the limits."""
-    good = claimed.copy()
-    for i in range(len(qs)):
-        good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
-        for j in range(qs.shape[1]):
-            good[i] &= lower[j] - _WITHIN <= qs[i, j] <= upper[j] + _WITHIN
-    return good
 
 
 def _settled(question: Question, objective: Objective, found: Found, deadline: float | None) -> Found:

@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from app.kinematics.ik.kernels import AXIS, FULL, SOME
+from app.kinematics.ik.iteration import AXIS, FULL, SOME
 from app.model.arrays import Array, compiled
 from app.model.poses import Poses, vectors_from_rotations
 

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
+from app.kinematics.ik.closed_form import closed_form
 from app.kinematics.ik.descent import Rule, StepMethod
 from app.kinematics.ik.reach import Reach
 from app.kinematics.ik.result import Failure, InverseKinematics
@@ -471,7 +472,10 @@ def test_a_small_budget_never_calls_a_target_unreachable_that_can_be_reached(nam
     targets = poses(machine, chain, draw(chain, 200, seed=62))
     answer = inverse_kinematics(machine, chain, targets, middle(chain), Options(max_iterations=budget))
     assert set(answer.statuses) <= {"solved", "not_converged"}
-    assert answer.statuses.count("not_converged") > (0 if budget < 100 else -1)
+    if closed_form(chain) is None:
+        assert answer.statuses.count("not_converged") > (0 if budget < 100 else -1)
+    else:
+        assert set(answer.statuses) == {"solved"}
     for i, failure in answer.failures.items():
         assert "allow more iterations" in failure.reason
         check_nearest(machine, chain, part(targets, slice(i, i + 1)), failure)

@@ -1,0 +1,267 @@
+"""Inverse kinematics by a closed form, in batches: the branch nearest to the seed, or all of them."""
+
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from app.kinematics.ik.branch_kernels import Branches
+from app.kinematics.ik.branches import SPACING, thin_out, wound
+from app.kinematics.ik.closed_form import ClosedForm
+from app.kinematics.ik.compositions import MOST
+from app.kinematics.ik.judge import judged
+from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches, Status
+from app.kinematics.ik.search import free_variables, is_over, pieces, processors, shared
+from app.kinematics.ik.verdict import Question
+from app.model.arrays import Flags, Indices
+
+_Number = TypeVar("_Number", np.float64, np.int64)
+
+_PIECE = 1024
+"""Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
+_ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
+"""Angles of a free elbow: where the seed's does not fit into the limits, and where all solutions are wanted."""
+
+
+def nearest(
+    question: Question, form: ClosedForm, elbow_angle: float | None, deadline: float | None
+) -> InverseKinematics:
+    """Of each target the branch that is nearest to the seed, none where there is none within the limits.
+
+    Args:
+        question: The targets.
+        form: The closed form of the chain.
+        elbow_angle: Where a free elbow is to be, [rad]; where the seed has it if left out, and if that does not fit
+            into the limits wherever it does, nearest to the seed.
+        deadline: When to stop, on the clock of `time.monotonic`, [s].
+    """
+    count, n = len(question), len(question.chain)
+    qs, labels = np.empty((count, n)), np.full((2, count), -1, dtype=np.int64)
+
+    def solve(part: slice) -> None:
+        if is_over(deadline):
+            return
+        targets, seeds = question.part(part)
+        table = form.solve(
+            targets,
+            seeds,
+            tolerances=question.tolerances,
+            respect_limits=question.respect_limits,
+            elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+            most=1,
+        )
+        rows = part.start + np.flatnonzero(np.diff(table.firsts))
+        qs[rows], labels[0, rows], labels[1, rows] = table.qs, table.codes, table.free
+
+    if count <= _PIECE:
+        solve(slice(0, count))
+    else:
+        shared(solve, pieces(count, processors(), _PIECE, deadline is not None), processors())
+    if form.has_free_elbow and elbow_angle is None:
+        for i in np.flatnonzero(labels[0] < 0).tolist():
+            if is_over(deadline):
+                break
+            table = _around(question, form, i, _ELBOWS_TRIED, 1)
+            if len(table.qs):
+                best = int(np.argmin(np.square(table.qs - question.seed(i)).sum(axis=1)))
+                qs[i], labels[0, i], labels[1, i] = table.qs[best], table.codes[best], table.free[best]
+    found = labels[0] >= 0
+    if found.all():
+        return _answer(question, form, Branches(qs, labels[0], labels[1], np.arange(count + 1)))
+    firsts = np.concatenate(([0], np.cumsum(found)))
+    return _answer(question, form, Branches(qs[found], labels[0, found], labels[1, found], firsts))
+
+
+def every(
+    question: Question,
+    form: ClosedForm,
+    most: int,
+    windings: bool,
+    elbow_angle: float | None,
+    deadline: float | None,
+) -> InverseKinematics:
+    """Of each target all branches within the limits, nearest to the seed first.
+
+    Args:
+        question: The targets.
+        form: The closed form of the chain.
+        most: Largest number of solutions of a target.
+        windings: Whether solutions that differ by full turns count as different, where limits allow them.
+        elbow_angle: Where a free elbow is to be, [rad]; all the way round, in steps, if left out.
+        deadline: When to stop, on the clock of `time.monotonic`, [s].
+    """
+    tables, complete = [], []
+    for i in range(len(question)):
+        if is_over(deadline):
+            table, whole = _nothing(len(question.chain)), False
+        elif form.has_free_elbow and elbow_angle is None:
+            table, whole = _thinned(question, form, i, most), False
+        else:
+            table = _one_by_one(question, form, i, elbow_angle)
+            whole = len(table.qs) <= most and not table.free.any()
+        if windings and len(table.qs):
+            table, whole = _turned(question, i, table, most, whole)
+        tables.append(_first(table, most))
+        complete.append(whole)
+    counts = [len(table.qs) for table in tables]
+    empty = _nothing(len(question.chain))
+    joined_ = Branches(
+        np.concatenate([*(table.qs for table in tables), empty.qs]),
+        np.concatenate([*(table.codes for table in tables), empty.codes]),
+        np.concatenate([*(table.free for table in tables), empty.free]),
+        np.concatenate(([0], np.cumsum(counts, dtype=np.int64))),
+    )
+    answer = _answer(question, form, joined_)
+    kept = np.diff(answer.firsts) == np.array(counts)
+    return replace(answer, complete=[bool(a and b) for a, b in zip(complete, kept, strict=True)])
+
+
+def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> InverseKinematics:
+    """The answer of a closed form, and in it what a search found of the targets that were left to it.
+
+    Args:
+        found: The one.
+        left: The targets that are answered anew; shape (k,).
+        rest: What was found of these.
+    """
+    by_form = np.ones(len(found), dtype=bool)
+    by_form[left] = False
+    counts = np.diff(found.firsts)
+    kept = np.repeat(by_form, counts)
+    counts[left] = np.diff(rest.firsts)
+    ours = np.repeat(by_form, counts)
+    statuses, complete = list(found.statuses), found.complete and list(found.complete)
+    for k, i in enumerate(left.tolist()):
+        statuses[i] = rest.statuses[k]
+        if complete:
+            complete[i] = rest.complete[k] if rest.complete else False
+    branches = found.branches
+    return replace(
+        found,
+        qs=_woven(ours, found.qs[kept], rest.qs),
+        position_errors=_woven(ours, found.position_errors[kept], rest.position_errors),
+        orientation_errors=_woven(ours, found.orientation_errors[kept], rest.orientation_errors),
+        iterations=_woven(ours, found.iterations[kept], rest.iterations),
+        restarts=_woven(ours, found.restarts[kept], rest.restarts),
+        firsts=np.concatenate(([0], np.cumsum(counts))),
+        statuses=statuses,
+        failures={int(left[k]): failure for k, failure in rest.failures.items()},
+        complete=complete,
+        branches=branches
+        and SolutionBranches(
+            branches.form,
+            _woven(ours, branches.codes[kept], np.full(len(rest.qs), -1, dtype=np.int64)),
+            _woven(ours, branches.free[kept], np.zeros(len(rest.qs), dtype=np.int64)),
+        ),
+    )
+
+
+def singular_targets(found: InverseKinematics) -> Flags:
+    """Which targets have a solution at which a joint is free; shape (N,)."""
+    owners = np.repeat(np.arange(len(found)), np.diff(found.firsts))
+    free = found.branches.free if found.branches else np.zeros(len(owners))
+    return np.bincount(owners, free, minlength=len(found)) > 0
+
+
+def elsewhere(rest: InverseKinematics) -> InverseKinematics:
+    """What a search solved, but not with the elbow where it was asked to be, as failures."""
+    failures, statuses = dict(rest.failures), list(rest.statuses)
+    reason = "no branch with the elbow at this angle is within the limits; with another it can be reached"
+    for i in np.flatnonzero(np.diff(rest.firsts)).tolist():
+        k = int(rest.firsts[i])
+        errors = float(rest.position_errors[k]), float(rest.orientation_errors[k])
+        statuses[i], failures[i] = "outside_limits", Failure(reason, rest.qs[k], *errors)
+    nothing = np.zeros(0, dtype=np.int64)
+    return replace(
+        rest,
+        qs=rest.qs[:0],
+        position_errors=rest.position_errors[:0],
+        orientation_errors=rest.orientation_errors[:0],
+        iterations=nothing,
+        restarts=nothing,
+        firsts=np.zeros_like(rest.firsts),
+        statuses=statuses,
+        failures=failures,
+    )
+
+
+def _woven(ours: Flags, a: npt.NDArray[_Number], b: npt.NDArray[_Number]) -> npt.NDArray[_Number]:
+    """Rows of the one where a flag is set, of the other elsewhere, each in order."""
+    table = np.empty((len(ours), *a.shape[1:]), dtype=a.dtype)
+    table[ours], table[~ours] = a, b
+    return table
+
+
+def _answer(question: Question, form: ClosedForm, table: Branches) -> InverseKinematics:
+    """The branches that are solutions when they are recomputed through Pinocchio."""
+    counts = np.diff(table.firsts)
+    owners = np.repeat(np.arange(len(counts)), counts)
+    asked = question if len(owners) == len(question) else question.taken(owners)
+    good, *errors = judged(asked, table.qs, np.ones(len(owners), dtype=np.bool_))
+    statuses: list[Status] = ["solved"] * len(question)
+    if not good.all():
+        table = Branches(table.qs[good], table.codes[good], table.free[good], table.firsts)
+        errors = [error[good] for error in errors]
+        counts = np.bincount(owners[good], minlength=len(counts))
+    zeros = np.zeros(len(table.qs), dtype=np.int64)
+    return InverseKinematics(
+        table.qs,
+        errors[0],
+        errors[1],
+        zeros,
+        zeros,
+        "damped_least_squares",
+        np.concatenate(([0], np.cumsum(counts))),
+        statuses,
+        branches=SolutionBranches(form, table.codes, table.free),
+    )
+
+
+def _one_by_one(question: Question, form: ClosedForm, i: int, elbow_angle: float | None) -> Branches:
+    return form.solve(
+        question.target(i),
+        question.seed(i)[None],
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+    )
+
+
+def _around(question: Question, form: ClosedForm, i: int, count: int, most: int) -> Branches:
+    """The branches of one target with the elbow at angles all the way round, the seed's first."""
+    target, seed = question.target(i), question.seed(i)[None]
+    steps = np.arange(count) * (2.0 * np.pi / count)
+    rows = np.zeros(count, dtype=np.int64)
+    targets = type(target)(target.positions[rows], target.rotations[rows])
+    return form.solve(
+        targets,
+        seed,
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+        elbow_angles=form.elbow_angles(seed)[0] + steps,
+        most=most,
+    )
+
+
+def _thinned(question: Question, form: ClosedForm, i: int, most: int) -> Branches:
+    """A sample of the self-motion, nearest to the seed first."""
+    table = _around(question, form, i, _ELBOWS_SAMPLED, MOST)
+    order = np.argsort(np.square(table.qs - question.seed(i)).sum(axis=1), kind="stable")
+    order = order[thin_out(table.qs[order], free_variables(question.chain), SPACING, most)]
+    return Branches(table.qs[order], table.codes[order], table.free[order], np.array([0, len(order)]))
+
+
+def _turned(question: Question, i: int, table: Branches, most: int, whole: bool) -> tuple[Branches, bool]:
+    """Each branch in all the full turns that the limits allow."""
+    qs, owners, whole = wound(question.chain, table.qs, question.seed(i), most, whole, question.respect_limits)
+    return Branches(qs, table.codes[owners], table.free[owners], np.array([0, len(qs)])), whole
+
+
+def _first(table: Branches, most: int) -> Branches:
+    return Branches(table.qs[:most], table.codes[:most], table.free[:most], table.firsts)
+
+
+def _nothing(n: int) -> Branches:
+    none = np.zeros(0, dtype=np.int64)
+    return Branches(np.empty((0, n)), none, none, np.zeros(2, dtype=np.int64))

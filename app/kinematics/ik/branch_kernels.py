@@ -1,0 +1,321 @@
+"""Every branch of a closed form, polished and judged, in batches.
+
+A closed form is as exact as the geometry that it assumes, and loses digits where two branches meet. So its candidates
+stand side by side in vector registers, eight at a time, and are driven to rounding by damped least squares on the
+chain as it is; what does not come within the tolerances is no solution.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from app.kinematics.ik.compositions import MOST, Candidates, Plan, compose, elbow_angle
+from app.kinematics.ik.elimination import make_space
+from app.kinematics.ik.iteration import COUNT, SINCE, Goal, Work, descend, linearise, read_lane, set_target, workspace
+from app.kinematics.lanes import LANES, bits, lanes, load, max_lanes, min_lanes, store, where
+from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
+from app.model.chain import FlatChain
+
+_TURN = 2.0 * np.pi
+_ROUNDS = 12
+"""Iterations of polishing at most; nearly always one or two are enough."""
+_PERFECT = 1e-28
+"""Squared error that is left alone, [m² + rad²]."""
+_DAMPING = 1e-12
+_SAME = 1e-7
+"""Candidates no further apart in any joint are one, [rad or m]."""
+_ROUNDING = 1e-10
+"""How far beyond a limit counts as at it, [rad or m]."""
+_POSITION, _ORIENTATION = SINCE, COUNT
+"""Rows of the state that hold the squared errors."""
+
+
+class Branches(NamedTuple):
+    """Solutions of N targets in one table: those of target i are its rows firsts[i] to firsts[i + 1].
+
+    Attributes:
+        qs: Nearest to the seed first; shape (M, n), [rad or m].
+        codes: Which roots each took; shape (M,).
+        free: Bit j where variable j was free and has kept the seed's value; shape (M,).
+        firsts: Where each target's begin; shape (N + 1,).
+    """
+
+    qs: Array
+    codes: Indices
+    free: Indices
+    firsts: Indices
+
+
+class _Kept(NamedTuple):
+    """The solutions of one target, sorted; rows of MOST."""
+
+    qs: Array
+    distances: Array
+    labels: Indices
+
+
+def branches(
+    flat: FlatChain,
+    plan: Plan,
+    goal: Goal,
+    limits: Array,
+    targets: Array,
+    seeds: Array,
+    elbow_angles: Array,
+    most: int,
+) -> Branches:
+    """The solutions of each target within the limits.
+
+    Args:
+        flat: The chain.
+        plan: How it is solved.
+        goal: What counts, and the tolerances.
+        limits: Lower and upper limit of each variable, infinite where none counts; shape (2, n).
+        targets: Rotation row by row, then position; shape (N, 12).
+        seeds: One configuration for all, or one each; shape (1 or N, n).
+        elbow_angles: Likewise, of arms that have a free elbow, [rad]; shape (1 or N,).
+        most: Bound on the solutions of one target: 1 for the nearest to the seed.
+    """
+    # To hand over a tuple costs a compiled function much more than its parts.
+    arguments: tuple[Any, ...] = (*flat, *plan, *goal, limits, targets, seeds, elbow_angles, min(most, MOST))
+    qs, labels, firsts = _branches(*arguments)
+    return Branches(qs, labels[0], labels[1], firsts)
+
+
+@compiled
+def _branches(
+    placements: Array,
+    joints: Indices,
+    drives: Array,
+    kind: int,
+    backwards: int,
+    form: int,
+    placed: int,
+    axes: Array,
+    points: Array,
+    slides: Indices,
+    order: Indices,
+    lines: Array,
+    zero: Array,
+    reach: float,
+    terms: Array,
+    bounds: Array,
+    weights: Array,
+    what: int,
+    axis: int,
+    position_tolerance: float,
+    chord_tolerance: float,
+    slack: float,
+    starts: int,
+    random_seed: int,
+    limits: Array,
+    targets: Array,
+    seeds: Array,
+    elbow_angles: Array,
+    most: int,
+) -> tuple[Array, Indices, Indices]:
+    """See `branches`."""
+    flat = FlatChain(placements, joints, drives)
+    plan = Plan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
+    goal = Goal(bounds, weights, what, axis, position_tolerance, chord_tolerance, slack, starts, random_seed)
+    count, n = len(targets), seeds.shape[1]
+    found = Candidates(
+        np.empty((MOST, n)),
+        np.empty(MOST, np.int64),
+        np.empty(MOST, np.int64),
+        np.empty(8),
+        np.empty((8, 3)),
+        np.empty((2, 8), np.int64),
+        make_space(),
+    )
+    kept = _Kept(np.empty((MOST + 1, n)), np.empty(MOST + 1), np.empty((2, MOST + 1), np.int64))
+    work = workspace(flat, n)
+    qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
+    firsts = np.zeros(count + 1, np.int64)
+    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, kept, work, qs, labels, firsts)
+    return qs[: firsts[count]], labels[:, : firsts[count]], firsts
+
+
+def elbow_angles(flat: FlatChain, plan: Plan, qs: Array) -> Array:
+    """Where the elbow of each configuration is about the line from shoulder to wrist; shape (N,), [rad]."""
+    arguments: tuple[Any, ...] = (flat.drives, *plan, qs)
+    angles: Array = _elbow_angles(*arguments)
+    return angles
+
+
+@compiled
+def _elbow_angles(
+    drives: Array,
+    kind: int,
+    backwards: int,
+    form: int,
+    placed: int,
+    axes: Array,
+    points: Array,
+    slides: Indices,
+    order: Indices,
+    lines: Array,
+    zero: Array,
+    reach: float,
+    terms: Array,
+    qs: Array,
+) -> Array:
+    """See `elbow_angles`."""
+    plan = Plan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
+    angles = np.empty(len(qs))
+    for i in range(len(qs)):
+        angles[i] = elbow_angle(plan, drives[:, 0] * qs[i] + drives[:, 1])
+    return angles
+
+
+@unmanaged
+def _solve_all(
+    flat: FlatChain,
+    plan: Plan,
+    goal: Goal,
+    limits: Array,
+    targets: Array,
+    seeds: Array,
+    elbow_angles: Array,
+    most: int,
+    found: Candidates,
+    kept: _Kept,
+    work: Work,
+    qs: Array,
+    labels: Indices,
+    firsts: Indices,
+) -> None:
+    """Fill the table, a target after the other."""
+    total, n = 0, seeds.shape[1]
+    for i in range(len(targets)):
+        seed = seeds[i if len(seeds) > 1 else 0]
+        elbow_angle = elbow_angles[i if len(elbow_angles) > 1 else 0]
+        count = _solve(flat, plan, goal, limits, targets[i], seed, elbow_angle, found, kept, work)
+        for k in range(min(count, most)):
+            for j in range(n):
+                qs[total, j] = kept.qs[k, j]
+            labels[0, total], labels[1, total] = kept.labels[0, k], kept.labels[1, k]
+            total += 1
+        firsts[i + 1] = total
+
+
+@unmanaged
+def _solve(
+    flat: FlatChain,
+    plan: Plan,
+    goal: Goal,
+    limits: Array,
+    target: Array,
+    seed: Array,
+    elbow_angle: float,
+    found: Candidates,
+    kept: _Kept,
+    work: Work,
+) -> int:
+    """The solutions of one target, sorted, into `kept`; their number."""
+    n = len(seed)
+    own = kept.qs[MOST]
+    for i in range(n):
+        j = n - 1 - i if plan.backwards else i
+        own[i] = flat.drives[j, 0] * seed[j] + flat.drives[j, 1]
+    candidates = compose(plan, target, own, elbow_angle, found)
+    solutions = 0
+    for first in range(0, candidates, LANES):
+        for lane in range(LANES):
+            row = min(first + lane, candidates - 1)
+            set_target(work, lane, target)
+            for j in range(n):
+                i = n - 1 - j if plan.backwards else j
+                work.q[j * LANES + lane] = (found.values[row, i] - flat.drives[j, 1]) * flat.drives[j, 0]
+        good = _polish(flat, goal, work)
+        for lane in range(min(LANES, candidates - first)):
+            if (good >> lane) & 1:
+                read_lane(work.previous, lane, own)
+                if _wound(flat, limits, seed, own):
+                    free = found.free[first + lane]
+                    solutions = _insert(kept, solutions, flat, seed, found.codes[first + lane], free, plan.backwards)
+    return solutions
+
+
+@unmanaged
+def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
+    """Drive the lanes to rounding, never to the worse; `previous` is where they end.
+
+    Returns:
+        A bit for each lane that is within the tolerances.
+    """
+    least, stalled, damping = lanes(np.inf), lanes(0.0), lanes(_DAMPING)
+    for _ in range(_ROUNDS):
+        e = linearise(flat, goal, work)
+        position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        error = position + orientation
+        better = error < least
+        stalled = where(error < 0.25 * least, 0.0, stalled + 1.0)
+        least = where(better, error, least)
+        store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
+        store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
+        damping = where(better, max_lanes(0.1 * damping, _DAMPING), min_lanes(100.0 * damping, 1e6))
+        if bits((least > _PERFECT) & (stalled < 3.0)) == 0:
+            for j in range(len(work.q) // LANES):
+                store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
+            break
+        descend(goal, work, e, damping, where(better, 1.0, 0.0), 1.0)
+    within = (load(work.state, _POSITION) <= goal.position_tolerance**2) & (
+        load(work.state, _ORIENTATION) <= goal.chord_tolerance**2
+    )
+    good: int = bits(within)
+    return good
+
+
+@inlined
+def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
+    """Turn each joint by full turns into its limits and as near to the seed as they allow; whether that can be."""
+    inside = True
+    for j in range(len(q)):
+        lower, upper = limits[0, j], limits[1, j]
+        x = q[j]
+        if flat.joints[j, 0] == 0:
+            x += _TURN * np.rint((seed[j] - x) / _TURN)
+            if x > upper + _ROUNDING:
+                x -= _TURN * np.ceil((x - upper - _ROUNDING) / _TURN)
+            elif x < lower - _ROUNDING:
+                x += _TURN * np.ceil((lower - x - _ROUNDING) / _TURN)
+        inside &= lower - _ROUNDING <= x <= upper + _ROUNDING
+        q[j] = min(max(x, lower), upper)
+    return inside
+
+
+@inlined
+def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array, code: int, free: int, backwards: int) -> int:
+    """Put the row behind the last among the solutions, nearest to the seed first, unless it stands there already."""
+    n = len(seed)
+    own = kept.qs[MOST]
+    distance = 0.0
+    for j in range(n):
+        distance += (own[j] - seed[j]) ** 2
+    for k in range(count):
+        apart = 0.0
+        for j in range(n):
+            difference = abs(kept.qs[k, j] - own[j])
+            if flat.joints[j, 0] == 0:
+                difference = abs(difference - _TURN * np.rint(difference / _TURN))
+            apart = max(apart, difference)
+        if apart <= _SAME:
+            return count
+    mask = free
+    if backwards:
+        mask = 0
+        for j in range(n):
+            mask |= ((free >> j) & 1) << (n - 1 - j)
+    place = count
+    while place > 0 and kept.distances[place - 1] > distance:
+        for j in range(n):
+            kept.qs[place, j] = kept.qs[place - 1, j]
+        kept.distances[place] = kept.distances[place - 1]
+        kept.labels[0, place], kept.labels[1, place] = kept.labels[0, place - 1], kept.labels[1, place - 1]
+        place -= 1
+    for j in range(n):
+        kept.qs[place, j] = own[j]
+    kept.distances[place] = distance
+    kept.labels[0, place], kept.labels[1, place] = code, mask
+    return count + 1
