@@ -15,11 +15,14 @@ from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranche
 from app.kinematics.ik.search import free_variables, is_over, pieces, processors, shared
 from app.kinematics.ik.verdict import Question
 from app.model.arrays import Flags, Indices
+from app.model.poses import Poses
 
 _Number = TypeVar("_Number", np.float64, np.int64)
 
 _PIECE = 1024
 """Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
+_FREE_SAMPLED = 24
+"""Positions of a joint that a singularity leaves free."""
 _ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
 """Angles of a free elbow: where the seed's does not fit into the limits, and where all solutions are wanted."""
 
@@ -80,6 +83,8 @@ def every(
     windings: bool,
     elbow_angle: float | None,
     deadline: float | None,
+    *,
+    sample: bool,
 ) -> InverseKinematics:
     """Of each target all branches within the limits, nearest to the seed first.
 
@@ -90,6 +95,7 @@ def every(
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
         elbow_angle: Where a free elbow is to be, [rad]; all the way round, in steps, if left out.
         deadline: When to stop, on the clock of `time.monotonic`, [s].
+        sample: Whether of joints that a singularity leaves free other positions than the seed's are given too.
     """
     tables, complete = [], []
     for i in range(len(question)):
@@ -100,6 +106,8 @@ def every(
         else:
             table = _one_by_one(question, form, i, elbow_angle)
             whole = len(table.qs) <= most and not table.free.any()
+            if sample and table.free.any():
+                table = _spread(question, form, i, table, most)
         if windings and len(table.qs):
             table, whole = _turned(question, i, table, most, whole)
         tables.append(_first(table, most))
@@ -155,13 +163,6 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
             _woven(ours, branches.free[kept], np.zeros(len(rest.qs), dtype=np.int64)),
         ),
     )
-
-
-def singular_targets(found: InverseKinematics) -> Flags:
-    """Which targets have a solution at which a joint is free; shape (N,)."""
-    owners = np.repeat(np.arange(len(found)), np.diff(found.firsts))
-    free = found.branches.free if found.branches else np.zeros(len(owners))
-    return np.bincount(owners, free, minlength=len(found)) > 0
 
 
 def elsewhere(rest: InverseKinematics) -> InverseKinematics:
@@ -233,9 +234,8 @@ def _around(question: Question, form: ClosedForm, i: int, count: int, most: int)
     target, seed = question.target(i), question.seed(i)[None]
     steps = np.arange(count) * (2.0 * np.pi / count)
     rows = np.zeros(count, dtype=np.int64)
-    targets = type(target)(target.positions[rows], target.rotations[rows])
     return form.solve(
-        targets,
+        Poses(target.positions[rows], target.rotations[rows]),
         seed,
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
@@ -250,6 +250,33 @@ def _thinned(question: Question, form: ClosedForm, i: int, most: int) -> Branche
     order = np.argsort(np.square(table.qs - question.seed(i)).sum(axis=1), kind="stable")
     order = order[thin_out(table.qs[order], free_variables(question.chain), SPACING, most)]
     return Branches(table.qs[order], table.codes[order], table.free[order], np.array([0, len(order)]))
+
+
+def _spread(question: Question, form: ClosedForm, i: int, table: Branches, most: int) -> Branches:
+    """The branches of one target, and a sample of those that a singularity joins to a continuum."""
+    target, seed = question.target(i), question.seed(i)
+    rng, seeds = np.random.default_rng(0), []
+    for mask in np.unique(table.free[table.free > 0]).tolist():
+        free = [j for j in range(len(seed)) if mask >> j & 1]
+        around = np.tile(seed, (_FREE_SAMPLED, 1))
+        around[:, free] += rng.uniform(-np.pi, np.pi, (_FREE_SAMPLED, len(free)))
+        if len(free) == 1:
+            around[:, free[0]] = seed[free[0]] + np.linspace(-np.pi, np.pi, _FREE_SAMPLED, endpoint=False)
+        seeds.append(around)
+    rows = np.zeros(sum(len(part) for part in seeds), dtype=np.int64)
+    others = form.solve(
+        Poses(target.positions[rows], target.rotations[rows]),
+        np.concatenate(seeds),
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+    )
+    loose = others.free > 0
+    qs = np.concatenate((table.qs, others.qs[loose]))
+    order = np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")
+    order = order[thin_out(qs[order], free_variables(question.chain), SPACING, most)]
+    codes = np.concatenate((table.codes, others.codes[loose]))[order]
+    free_ = np.concatenate((table.free, others.free[loose]))[order]
+    return Branches(qs[order], codes, free_, np.array([0, len(order)]))
 
 
 def _turned(question: Question, i: int, table: Branches, most: int, whole: bool) -> tuple[Branches, bool]:

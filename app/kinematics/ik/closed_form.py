@@ -45,6 +45,8 @@ _MEETING, _ALIGNED = 1e-6, 1e-6
 """Distance [m] at which lines meet, and sine of the angle at which they are parallel: descriptions round π."""
 _TESTS, _MUST_PASS = 48, 46
 """Configurations of the test, and how many must be found again: a few may lie next to a singularity."""
+_NAMING = 64
+"""Configurations that tell what the roots are called."""
 _GENERAL_TESTS, _GENERAL_MUST_PASS = 500, 498
 _FOUND_AGAIN = 1e-6
 _LINES = 16
@@ -157,9 +159,26 @@ class Choice:
 _VALUES = {"shoulder": ("front", "back"), "elbow": ("up", "down"), "wrist": ("no_flip", "flip")}
 
 
-@lru_cache(maxsize=256)
 def closed_form(chain: Chain, task: Task = FULL_POSE) -> ClosedForm | None:
     """The closed form that gives all solutions of a task, or None where none is known."""
+    holder = _recognised(chain, task)
+    if not holder:
+        holder.append(_recognise(chain, task))
+    return holder[0]
+
+
+def is_looked_at(chain: Chain, task: Task = FULL_POSE) -> bool:
+    """Whether `closed_form` knows its answer already; else it takes some hundredths of a second."""
+    return bool(_recognised(chain, task))
+
+
+@lru_cache(maxsize=1024)
+def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: ARG001
+    """Where what is recognised is kept: empty until then."""
+    return []
+
+
+def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
     if not _is_simple(chain):
         return None
     for name, plan in _plans(chain):
@@ -500,7 +519,7 @@ def _choices(form: ClosedForm) -> tuple[Choice, ...]:
     the wrist does not flip where its middle joint is positive.
     """
     roots = _roots(form.plan)
-    qs, table = _trial(form, 256)
+    qs, table = _trial(form, _NAMING)
     rows = np.array([_row_of(form.chain, table, i, q) for i, q in enumerate(qs)])
     qs, codes = qs[rows >= 0], table.codes[rows[rows >= 0]]
     choices = []

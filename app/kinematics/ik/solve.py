@@ -9,7 +9,7 @@ import numpy as np
 
 from app.kinematics.ik import analytic, kernels
 from app.kinematics.ik.branches import all_branches
-from app.kinematics.ik.closed_form import ClosedForm, closed_form, elimination
+from app.kinematics.ik.closed_form import ClosedForm, closed_form, elimination, is_looked_at
 from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
 from app.kinematics.ik.judge import judged
 from app.kinematics.ik.null_space import Objective, settle
@@ -136,18 +136,14 @@ def _form(question: Question, options: Options) -> ClosedForm | None:
 
 
 def _analytic(question: Question, options: Options, form: ClosedForm, deadline: float | None) -> InverseKinematics:
-    """By the closed form; what it leaves unsolved by a search, which also knows the reason if there is no solution.
-
-    So is a continuum of solutions where all are wanted: a closed form tells one of it, a search gives a sample.
-    """
-    if not options.every:
-        found = analytic.nearest(question, form, options.elbow_angle, deadline)
-        left = np.flatnonzero(np.diff(found.firsts) == 0)
+    """By the closed form; what it leaves unsolved by a search, which also knows the reason if there is no solution."""
+    if options.every:
+        most, angle = options.most, options.elbow_angle
+        sample = options.method == "auto"
+        found = analytic.every(question, form, most, options.windings, angle, deadline, sample=sample)
     else:
-        found = analytic.every(question, form, options.most, options.windings, options.elbow_angle, deadline)
-        left = np.flatnonzero(
-            (np.diff(found.firsts) == 0) | (analytic.singular_targets(found) & (options.method == "auto"))
-        )
+        found = analytic.nearest(question, form, options.elbow_angle, deadline)
+    left = np.flatnonzero(np.diff(found.firsts) == 0)
     if len(left) == 0:
         return found
     rest = (_every if options.every else _one)(question.taken(left), options, deadline)
@@ -168,6 +164,8 @@ def solve_quickly(
         by_form: Whether a closed form is asked for, and nothing else will do.
     """
     chain = question.chain
+    if not is_looked_at(chain, question.task):
+        return None
     form = closed_form(chain, question.task)
     if form is not None:
         found = analytic.nearest(question, form, None, None)
