@@ -8,6 +8,7 @@ from contextlib import asynccontextmanager
 from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
+from app.api.compare import compare_route
 from app.api.dh import dh_routes
 from app.api.inverse import inverse_operation
 from app.api.kinematics import kinematics_operations
@@ -68,6 +69,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.include_router(robots_router(library))
     app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
     app.router.routes.extend(dh_routes(library, executor, settings.max_body_bytes))
+    app.router.routes.append(compare_route(library, executor, settings.max_body_bytes))
     most = settings.max_answer_numbers
     for operation in (*kinematics_operations(most), inverse_operation(most)):
         handler = operation.computation.handler(library, executor)
