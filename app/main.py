@@ -9,8 +9,10 @@ from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
 from app.api.compare import compare_route
+from app.api.derive import derive_route
 from app.api.dh import dh_routes
 from app.api.inverse import inverse_operation
+from app.api.isolated import Isolated
 from app.api.kinematics import kinematics_operations
 from app.api.robots import robots_router, upload_routes
 from app.api.routes import Application
@@ -37,6 +39,7 @@ def create_app(settings: Settings) -> FastAPI:
     library = Library(settings.catalogue_dir, settings.data_dir / "robots")
     executor = ThreadPoolExecutor(settings.threads, thread_name_prefix="work")
     uploads = ThreadPoolExecutor(2, thread_name_prefix="upload")
+    derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
     readiness = Readiness()
 
     @asynccontextmanager
@@ -44,6 +47,8 @@ def create_app(settings: Settings) -> FastAPI:
         library.prepare()
         readiness.begin()
         yield
+        isolated.close()
+        derivations.shutdown()
         executor.shutdown()
         uploads.shutdown()
 
@@ -70,6 +75,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
     app.router.routes.extend(dh_routes(library, executor, settings.max_body_bytes))
     app.router.routes.append(compare_route(library, executor, settings.max_body_bytes))
+    app.router.routes.append(derive_route(isolated, derivations, settings.max_body_bytes))
     most = settings.max_answer_numbers
     for operation in (*kinematics_operations(most), inverse_operation(most)):
         handler = operation.computation.handler(library, executor)

@@ -3,6 +3,7 @@
 - `common`: the strict base of all payloads, names, chains.
 - `pose`: poses in every notation.
 - `dh`: Denavit-Hartenberg tables.
+- `compare`: requests and answers of comparisons of such tables with chains.
 - `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.
 - `kinematics`: requests and answers of forward kinematics and the Jacobian.
 - `ik`: requests and answers of inverse kinematics.

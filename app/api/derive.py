@@ -1,0 +1,230 @@
+"""The worked solution of a table: formulas from a process of their own, numbers from here."""
+
+import time
+from concurrent.futures import Executor
+from typing import Any
+
+from starlette.responses import Response
+
+from app.api.dh import dh_route
+from app.api.isolated import Isolated
+from app.api.payloads import JSON, BoundedRequest, json_response, read_json
+from app.api.problems import UnsupportedMediaType
+from app.api.routes import DocumentedRoute, in_thread
+from app.kinematics.derive.jacobian import ROW_NAMES
+from app.kinematics.derive.numeric import NumericSolution
+from app.kinematics.derive.steps import which_block
+from app.kinematics.derive.texts import ColumnText, ConditionText, Entry, Singularities, SolutionText
+from app.kinematics.derive.typeset import MatrixText, Text
+from app.kinematics.derive.worked import WorkedSolution, worked_solution
+from app.model.errors import InvalidField
+from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
+
+SECONDS = 8.0
+"""Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""
+
+
+def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+    """POST /v1/dh/derive."""
+
+    def derive_table(call: DeriveRequest) -> DeriveAnswer:
+        """Writes the worked solution of a table as a lecturer does, in symbols and in numbers.
+
+        Every A_i and T_0_i, the tip's pose, the Jacobian by its columns z × p, the determinant as a product, and the
+        singular configurations; `steps` tells it in words. Formulas stand in LaTeX and plain text; sums of angles
+        about parallel axes appear as c_{23}, and `legend` says what each symbol is. An angle within 1e-5 of a multiple
+        of 90°, 45° or 30° is read as that, which `notes` states.
+
+        Each formula has been compared with the numbers of the table at random configurations, and the numbers at the
+        given ones with Pinocchio's. Of a large arm the formulas that nobody would read are left out: `notes` says
+        which, and the numbers remain.
+        """
+        raise NotImplementedError
+
+    async def handle(request: BoundedRequest) -> Response:
+        deadline = time.monotonic() + SECONDS
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        body = await request.body()
+
+        def work() -> Response:
+            call = read_json(DeriveRequest, body)
+            return json_response(_answer(call, _solved(call, isolated, deadline)))
+
+        return await in_thread(executor, work)
+
+    return dh_route(
+        "/v1/dh/derive",
+        derive_table,
+        handle,
+        max_body_bytes,
+        operation_id="derive_dh",
+        summary="Table → worked solution",
+        example=EXAMPLE_ANTHROPOMORPHIC,
+    )
+
+
+def _solved(call: DeriveRequest, isolated: Isolated, deadline: float) -> WorkedSolution:
+    return worked_solution(
+        call.dh.table(),
+        call.joint_positions,
+        call.notation,
+        keeps_symbols=call.symbolic,
+        run=isolated.run,
+        deadline=deadline,
+    )
+
+
+def _answer(call: DeriveRequest, solution: WorkedSolution) -> dict[str, Any]:
+    found, singular = solution.formulas, solution.singularities
+    n, has_tip = len(solution.joint_names), found is not None and found.tip is not None
+    rows, frames = (found.rows, found.frames) if found else ([None] * n, [None] * n)
+    return {
+        "convention": call.dh.convention,
+        "joint_names": solution.joint_names,
+        "notation": call.notation,
+        "symbolic": call.symbolic,
+        "legend": _legend(solution),
+        "A": [_matrix(f"A_{i}", matrix) for i, matrix in enumerate(rows, start=1)],
+        "T_0": [_matrix(f"T_0_{i}", matrix) for i, matrix in enumerate(frames, start=1)],
+        "T_base_tool": _matrix("T_base_tool", found.tip) if found and has_tip else None,
+        "position": _matrix("p", found.position) if found and has_tip else None,
+        "rotation": _matrix("R", found.rotation) if found and has_tip else None,
+        "jacobian": _jacobian(solution),
+        "determinant": None if singular is None else _determinant(singular),
+        "singularities": _singularities(solution),
+        "numeric": [
+            _numbers(one, determinant) for one, determinant in zip(solution.numeric, solution.determinants, strict=True)
+        ],
+        "steps": [{"title": step.title, "text": step.text, "latex": step.latex} for step in solution.steps],
+        "notes": solution.notes,
+        "certificate": _formula_certificate(solution),
+        "numeric_certificate": _numeric_certificate(solution),
+    }
+
+
+def _matrix(name: str, matrix: MatrixText | None) -> dict[str, Any]:
+    if matrix is None:
+        return {"name": name, "latex": None, "plain": None}
+    return {"name": name, "latex": matrix.latex, "plain": matrix.plain}
+
+
+def _formula(text: Text) -> dict[str, str]:
+    return {"latex": text.latex, "plain": text.plain}
+
+
+def _legend(solution: WorkedSolution) -> list[dict[str, Any]]:
+    entries: dict[str, Entry] = {}
+    for part in (solution.formulas, solution.singularities):
+        for entry in part.legend if part else ():
+            entries.setdefault(entry.symbol.plain, entry)
+    return [
+        {**_formula(entry.symbol), "meaning_latex": entry.meaning.latex, "meaning": entry.meaning.plain}
+        | {"value": entry.value}
+        for entry in entries.values()
+    ]
+
+
+def _jacobian(solution: WorkedSolution) -> dict[str, Any] | None:
+    found = solution.formulas
+    if found is None or found.columns is None:
+        return None
+    columns = [
+        _column(name, i, column)
+        for i, (name, column) in enumerate(zip(solution.joint_names, found.columns, strict=True), start=1)
+    ]
+    return {"matrix": _matrix("J", found.jacobian), "columns": columns}
+
+
+def _column(joint: str, i: int, column: ColumnText) -> dict[str, Any]:
+    return {
+        "joint": joint,
+        "axis": _matrix("z", column.axis),
+        "arm": None if column.arm is None else _matrix("p", column.arm),
+        "linear": _matrix(f"J_v_{i}", column.linear),
+        "angular": _matrix(f"J_omega_{i}", column.angular),
+    }
+
+
+def _determinant(singular: Singularities) -> dict[str, Any] | None:
+    block, formula = singular.block, singular.formula
+    if block is None:
+        return None
+    return {
+        "block": block.kind,
+        "rows": [ROW_NAMES[i] for i in block.rows],
+        "frame": block.frame,
+        "why": which_block(singular),
+        "latex": None if formula is None else formula.latex,
+        "plain": None if formula is None else formula.plain,
+        "factors": [_formula(factor) for factor in singular.factors],
+    }
+
+
+def _singularities(solution: WorkedSolution) -> list[dict[str, Any]]:
+    conditions: list[ConditionText] = solution.singularities.conditions if solution.singularities else []
+    return [
+        {
+            "kind": condition.kind,
+            "condition": {"latex": f"{condition.factor.latex} = 0", "plain": f"{condition.factor.plain} = 0"},
+            "solutions": [_singular_value(one, solution.joint_names) for one in condition.solutions],
+            "example": condition.example,
+            "example_singular_value": sigma,
+        }
+        for condition, sigma in zip(conditions, solution.examples, strict=True)
+    ]
+
+
+def _singular_value(one: SolutionText, names: tuple[str, ...]) -> dict[str, Any]:
+    return {
+        "joints": [names[abs(i) - 1] for i in one.variables],
+        "signs": [1 if i > 0 else -1 for i in one.variables],
+        "variable": _formula(one.variable),
+        "formula": _formula(one.formula),
+        "value": one.value,
+    }
+
+
+def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
+    return {
+        "joint_positions": one.q.tolist(),
+        "A": [A.tolist() for A in one.rows],
+        "T_0": [T.tolist() for T in one.frames],
+        "T_base_tool": one.tip.tolist(),
+        "position": one.tip[:3, 3].tolist(),
+        "rotation": one.tip[:3, :3].tolist(),
+        "columns": [
+            {
+                "axis": column.axis.tolist(),
+                "arm": column.arm.tolist(),
+                "linear": column.linear.tolist(),
+                "angular": column.angular.tolist(),
+            }
+            for column in one.columns
+        ],
+        "jacobian": one.jacobian.tolist(),
+        "singular_values": one.singular_values.tolist(),
+        "rank": one.rank,
+        "determinant": determinant,
+    }
+
+
+def _formula_certificate(solution: WorkedSolution) -> dict[str, Any] | None:
+    certificate = solution.certificate
+    if certificate is None:
+        return None
+    return {"samples": certificate.samples, "max_error": certificate.max_error, "seed": certificate.seed}
+
+
+def _numeric_certificate(solution: WorkedSolution) -> dict[str, Any] | None:
+    poses, jacobians = solution.pose_certificate, solution.jacobian_certificate
+    if poses is None or jacobians is None:
+        return None
+    return {
+        "samples": poses.samples,
+        "max_position_error": poses.max_position_error,
+        "max_orientation_error": poses.max_orientation_error,
+        "max_jacobian_error": jacobians.max_error,
+    }

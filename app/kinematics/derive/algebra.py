@@ -1,0 +1,344 @@
+"""Polynomials in sines and cosines of sums of joint angles, lengths and constants: the algebra of a worked solution.
+
+Coefficients are exact. An angle is a sum of joint angles ϑ_i of parallel axes, written as its signed indices in order
+of magnitude: (2, 3) is ϑ_2 + ϑ_3, (1, 2, -4) is ϑ_1 + ϑ_2 - ϑ_4; an index that stands twice counts twice. The first
+index of an atom is positive, so that each sine and cosine has one name.
+
+No simplification is searched for: sums of angles come from the chain itself, and `reduced` turns products of sines and
+cosines of parallel axes into sums of single ones, which no identity can shorten further: two polynomials are the same
+function if and only if their reduced forms are equal.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Literal, NamedTuple, TypeAlias
+
+Angle: TypeAlias = tuple[int, ...]
+
+ROOT, LENGTH, VARIABLE, CONSTANT, TRIGONOMETRIC = range(5)
+"""Kinds of atoms, in the order in which a product is written."""
+
+MAX_TERMS = 4000
+"""Terms of a polynomial beyond which nobody reads it."""
+
+
+class TooManyTerms(Exception):
+    """A polynomial has grown beyond what anyone would read."""
+
+
+class Atom(NamedTuple):
+    """An indivisible factor: √2, a length a_2, a prismatic variable q_3, a constant cos α_3, or c_{23}.
+
+    Attributes:
+        kind: One of the kinds above.
+        indices: Of the row, or of the angle.
+        name: What it is, such as "a", "q", "c" and "s".
+    """
+
+    kind: int
+    indices: tuple[int, ...]
+    name: str
+
+
+Monomial: TypeAlias = tuple[tuple[Atom, int], ...]
+Group: TypeAlias = Callable[[int], int]
+"""The number of the group of parallel axes that a joint angle belongs to."""
+
+
+class Polynomial:
+    """A sum of monomials with exact coefficients; no zero among them. Never changed once made."""
+
+    __slots__ = ("terms",)
+
+    def __init__(self, terms: Mapping[Monomial, Fraction]) -> None:
+        if len(terms) > MAX_TERMS:
+            raise TooManyTerms
+        self.terms = terms
+
+    def __add__(self, other: "Polynomial") -> "Polynomial":
+        return total((self, other))
+
+    def __sub__(self, other: "Polynomial") -> "Polynomial":
+        return total((self, -other))
+
+    def __neg__(self) -> "Polynomial":
+        return Polynomial({monomial: -factor for monomial, factor in self.terms.items()})
+
+    def __mul__(self, other: "Polynomial") -> "Polynomial":
+        if len(self.terms) * len(other.terms) > 16 * MAX_TERMS:
+            raise TooManyTerms
+        return collected(
+            (monomial_product(left, right), p * q) for left, p in self.terms.items() for right, q in other.terms.items()
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Polynomial) and self.terms == other.terms
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self.terms.items()))
+
+    def __bool__(self) -> bool:
+        return bool(self.terms)
+
+    def __len__(self) -> int:
+        return len(self.terms)
+
+    def __iter__(self) -> Iterator[tuple[Monomial, Fraction]]:
+        return iter(self.terms.items())
+
+    @property
+    def atoms(self) -> set[Atom]:
+        """All atoms that occur."""
+        return {atom for monomial in self.terms for atom, _ in monomial}
+
+    @property
+    def constant(self) -> Fraction | None:
+        """Its value where it is a rational number, else None."""
+        if not self.terms:
+            return Fraction(0)
+        return self.terms.get(()) if len(self.terms) == 1 else None
+
+    def value(self, values: Mapping[Atom, float]) -> float:
+        """Its value where the atoms have these."""
+        result = 0.0
+        for monomial, factor in self.terms.items():
+            product = float(factor)
+            for atom, power in monomial:
+                product *= values[atom] ** power
+            result += product
+        return result
+
+
+Vector: TypeAlias = tuple[Polynomial, Polynomial, Polynomial]
+Matrix: TypeAlias = tuple[Vector, Vector, Vector]
+"""Row by row."""
+
+
+def number(value: int | Fraction) -> Polynomial:
+    """A constant."""
+    return Polynomial({(): Fraction(value)} if value else {})
+
+
+ZERO, ONE = number(0), number(1)
+
+
+def symbol(atom: Atom) -> Polynomial:
+    """An atom alone."""
+    return Polynomial({((atom, 1),): Fraction(1)})
+
+
+def total(polynomials: Iterable[Polynomial]) -> Polynomial:
+    """Their sum."""
+    return collected(term for polynomial in polynomials for term in polynomial)
+
+
+def collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Polynomial:
+    """The polynomial of these terms, equal monomials added up."""
+    sums: dict[Monomial, Fraction] = {}
+    for monomial, factor in terms:
+        value = sums.get(monomial, Fraction(0)) + factor
+        if value:
+            sums[monomial] = value
+        else:
+            sums.pop(monomial, None)
+    return Polynomial(sums)
+
+
+def monomial_product(left: Monomial, right: Monomial) -> Monomial:
+    """The product, its atoms in order."""
+    if not left or not right:
+        return left or right
+    powers = dict(left)
+    for atom, power in right:
+        powers[atom] = powers.get(atom, 0) + power
+    return tuple(sorted(powers.items()))
+
+
+def angle_sum(left: Angle, right: Angle, sign: int = 1) -> Angle:
+    """Left + sign · right."""
+    counts: dict[int, int] = {}
+    for angle, factor in ((left, 1), (right, sign)):
+        for index in angle:
+            counts[abs(index)] = counts.get(abs(index), 0) + (factor if index > 0 else -factor)
+    return tuple(index if count > 0 else -index for index, count in sorted(counts.items()) for _ in range(abs(count)))
+
+
+def cosine(angle: Angle, quarters: int = 0) -> Polynomial:
+    """cos(angle + quarters · π/2)."""
+    if quarters % 4 == 1:
+        return -sine(angle)
+    if quarters % 4 == 2:
+        return -cosine(angle)
+    if quarters % 4 == 3:
+        return sine(angle)
+    if not angle:
+        return ONE
+    return symbol(Atom(TRIGONOMETRIC, angle if angle[0] > 0 else tuple(-index for index in angle), "c"))
+
+
+def sine(angle: Angle, quarters: int = 0) -> Polynomial:
+    """sin(angle + quarters · π/2)."""
+    if quarters % 4:
+        return cosine(angle, quarters - 1)
+    if not angle:
+        return ZERO
+    if angle[0] < 0:
+        return -sine(tuple(-index for index in angle))
+    return symbol(Atom(TRIGONOMETRIC, angle, "s"))
+
+
+def dot(left: Sequence[Polynomial], right: Sequence[Polynomial]) -> Polynomial:
+    """Scalar product."""
+    return total(x * y for x, y in zip(left, right, strict=True))
+
+
+def cross(left: Vector, right: Vector) -> Vector:
+    """Vector product."""
+    (a, b, c), (x, y, z) = left, right
+    return b * z - c * y, c * x - a * z, a * y - b * x
+
+
+def product(left: Matrix, right: Matrix) -> Matrix:
+    """Product of two matrices."""
+    columns = tuple(zip(*right, strict=True))
+    rows = [(dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])) for row in left]
+    return rows[0], rows[1], rows[2]
+
+
+def applied(matrix: Matrix, vector: Vector) -> Vector:
+    """Matrix times vector."""
+    return dot(matrix[0], vector), dot(matrix[1], vector), dot(matrix[2], vector)
+
+
+def column(matrix: Matrix, index: Literal[0, 1, 2]) -> Vector:
+    """A column of a matrix."""
+    return matrix[0][index], matrix[1][index], matrix[2][index]
+
+
+def plus(left: Vector, right: Vector) -> Vector:
+    """Sum of two vectors."""
+    return left[0] + right[0], left[1] + right[1], left[2] + right[2]
+
+
+def minus(left: Vector, right: Vector) -> Vector:
+    """Difference of two vectors."""
+    return left[0] - right[0], left[1] - right[1], left[2] - right[2]
+
+
+def scaled(factor: Polynomial, vector: Vector) -> Vector:
+    """A vector times a polynomial."""
+    return factor * vector[0], factor * vector[1], factor * vector[2]
+
+
+def derivative(polynomial: Polynomial, index: int) -> Polynomial:
+    """∂/∂ϑ of joint `index`, or ∂/∂q where it is a prismatic variable."""
+    return collected(
+        (monomial_product(monomial_without(monomial, atom), (rest,) if rest else ()), factor * scale)
+        for monomial, factor in polynomial
+        for atom, power in monomial
+        for rest, scale in _derivatives(atom, power, index)
+    )
+
+
+def monomial_without(monomial: Monomial, atom: Atom) -> Monomial:
+    """The monomial less all powers of an atom."""
+    return tuple(item for item in monomial if item[0] != atom)
+
+
+def _derivatives(atom: Atom, power: int, index: int) -> list[tuple[tuple[Atom, int] | None, int]]:
+    """The derivative of atom^power, where it has one; powers of a sine or cosine are one here."""
+    if atom.kind == VARIABLE and atom.indices == (index,):
+        return [((atom, power - 1) if power > 1 else None, power)]
+    rate = sum((1 if i > 0 else -1) for i in atom.indices if abs(i) == index) if atom.kind == TRIGONOMETRIC else 0
+    if not rate:
+        return []
+    if power != 1:
+        raise TooManyTerms
+    return [((atom._replace(name="s"), 1), -rate) if atom.name == "c" else ((atom._replace(name="c"), 1), rate)]
+
+
+def reduced(polynomial: Polynomial, group: Group) -> Polynomial:
+    """The same function with at most one sine or cosine a group of parallel axes in each term, and s_α² = 1 - c_α².
+
+    This form is unique, so that it is zero only where the function is.
+    """
+    return collected(
+        (monomial, factor * scale)
+        for whole, factor in polynomial
+        for monomial, scale in _reduced_monomial(whole, group)
+    )
+
+
+def _reduced_monomial(whole: Monomial, group: Group) -> list[tuple[Monomial, Fraction]]:
+    waves: dict[int, list[Atom]] = {}
+    plain: list[tuple[Atom, int]] = []
+    for atom, power in whole:
+        if atom.kind == TRIGONOMETRIC:
+            waves.setdefault(group(abs(atom.indices[0])), []).extend([atom] * power)
+        else:
+            plain.append((atom, power))
+    if all(len(atoms) == 1 for atoms in waves.values()) and all(_is_reduced(*item) for item in plain):
+        return [(whole, Fraction(1))]
+    terms = _constants(plain)
+    for atoms in waves.values():
+        merged = _merged(atoms)
+        terms = [(monomial_product(left, right), p * q) for left, p in terms for right, q in merged]
+        if len(terms) > MAX_TERMS:
+            raise TooManyTerms
+    return terms
+
+
+def _is_reduced(atom: Atom, power: int) -> bool:
+    return power == 1 or not (atom.kind == ROOT or (atom.kind == CONSTANT and atom.name.startswith("s")))
+
+
+def _constants(items: Sequence[tuple[Atom, int]]) -> list[tuple[Monomial, Fraction]]:
+    """√n² = n, and sin² = 1 - cos² of a constant angle."""
+    terms: list[tuple[Monomial, Fraction]] = [((), Fraction(1))]
+    for atom, power in items:
+        if _is_reduced(atom, power):
+            factors: list[tuple[Monomial, Fraction]] = [(((atom, power),), Fraction(1))]
+        else:
+            odd: Monomial = ((atom, 1),) if power % 2 else ()
+            factors = [(odd, Fraction(1))]
+            for _ in range(power // 2):
+                if atom.kind == ROOT:
+                    factors = [(monomial, factor * atom.indices[0]) for monomial, factor in factors]
+                else:
+                    square: Monomial = ((atom._replace(name="c" + atom.name[1:]), 2),)
+                    factors += [(monomial_product(monomial, square), -factor) for monomial, factor in factors]
+        terms = [(monomial_product(left, right), p * q) for left, p in terms for right, q in factors]
+    return terms
+
+
+def _merged(atoms: Sequence[Atom]) -> list[tuple[Monomial, Fraction]]:
+    """A product of sines and cosines of sums in one group, as a sum of single ones."""
+    waves: dict[tuple[Angle, str], Fraction] = {(atoms[0].indices, atoms[0].name): Fraction(1)}
+    for atom in atoms[1:]:
+        sums: dict[tuple[Angle, str], Fraction] = {}
+        for (angle, name), factor in waves.items():
+            for sign in (1, -1):
+                other, kind, part = _wave(angle, name, atom, sign)
+                if part:
+                    sums[other, kind] = sums.get((other, kind), Fraction(0)) + factor * part / 2
+        waves = sums
+    return [
+        (((Atom(TRIGONOMETRIC, angle, name), 1),) if angle else (), factor)
+        for (angle, name), factor in waves.items()
+        if factor
+    ]
+
+
+def _wave(angle: Angle, name: str, atom: Atom, sign: int) -> tuple[Angle, str, int]:
+    """One of the two waves of twice a product: sum or difference of the angles, sine or cosine, and its factor.
+
+    2 cos x cos y = cos(x+y) + cos(x-y),  2 sin x sin y = cos(x-y) - cos(x+y),
+    2 sin x cos y = sin(x+y) + sin(x-y),  2 cos x sin y = sin(x+y) - sin(x-y).
+    """
+    combined = angle_sum(angle, atom.indices, sign)
+    kind = "c" if name == atom.name else "s"
+    factor = -sign if (name, atom.name) == ("s", "s") else sign if (name, atom.name) == ("c", "s") else 1
+    if combined and combined[0] < 0:
+        combined = tuple(-index for index in combined)
+        factor = factor if kind == "c" else -factor
+    return (combined, kind, 0 if kind == "s" and not combined else factor)

@@ -1,0 +1,226 @@
+"""The worked solution of a DH table: formulas, numbers, and each the judge of the other.
+
+The formulas come from the symbolic side, which shares no code with the numbers, and are compared with these at random
+configurations before anyone sees them; the numbers at given configurations are compared with Pinocchio's. What the
+symbolic side cannot do in the time that is left stays numeric, and the notes say so.
+"""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from app.kinematics.certify import Certificate, JacobianCertificate, certify_jacobians, certify_poses
+from app.kinematics.configuration import Configuration, configurations
+from app.kinematics.derive.check import (
+    FormulaCertificate,
+    determinants_error,
+    example_singular_values,
+    formulas_error,
+)
+from app.kinematics.derive.numeric import NumericSolution, numeric_solution
+from app.kinematics.derive.steps import Step, steps
+from app.kinematics.derive.symbolic import formulas, singularities
+from app.kinematics.derive.table import Numbers4, RowNumbers, TableNumbers
+from app.kinematics.derive.texts import Formulas, Question, Singularities
+from app.kinematics.derive.transforms import MAX_ENTRY_TERMS
+from app.kinematics.derive.typeset import Style
+from app.model.arrays import Array
+from app.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
+from app.model.dh import DhJoint, DhTable
+from app.model.errors import InvalidDhTable
+from app.model.poses import Poses
+from app.model.robot import Robot
+from app.model.urdf import read_urdf, write_urdf
+
+SAMPLES = 20
+SEED = 0
+_Result = TypeVar("_Result")
+
+
+class Runner(Protocol):
+    """Runs a function of plain data somewhere, for so many seconds at most; TimeoutError if it takes longer."""
+
+    def __call__(self, function: Callable[[Question], _Result], question: Question, seconds: float, /) -> _Result:
+        """The function's result."""
+        raise NotImplementedError
+
+
+def directly(function: Callable[[Question], _Result], question: Question, seconds: float) -> _Result:  # noqa: ARG001
+    """Run a function here and now, however long it takes."""
+    return function(question)
+
+
+@dataclass(frozen=True, slots=True)
+class WorkedSolution:
+    """Everything about a table.
+
+    Attributes:
+        joint_names: The order of a configuration.
+        formulas: Transforms and Jacobian; None where there was no time.
+        singularities: Determinant and where it vanishes; None where there was no time.
+        examples: Smallest singular value of the block at each condition's example; None where there is none.
+        numeric: One each given configuration.
+        determinants: Of the block at each of these; None where no block is square.
+        steps: The solution in words.
+        notes: What was read as something else, and what stays numeric and why.
+        certificate: Of the formulas; None where there are none.
+        pose_certificate: Of the poses at the configurations, by Pinocchio.
+        jacobian_certificate: Of the Jacobians likewise.
+    """
+
+    joint_names: tuple[str, ...]
+    formulas: Formulas | None
+    singularities: Singularities | None
+    examples: list[float | None]
+    numeric: list[NumericSolution]
+    determinants: list[float | None]
+    steps: list[Step]
+    notes: list[str]
+    certificate: FormulaCertificate | None
+    pose_certificate: Certificate | None
+    jacobian_certificate: JacobianCertificate | None
+
+
+def worked_solution(
+    table: DhTable,
+    values: Sequence[Configuration] = (),
+    style: Style = "short",
+    *,
+    keeps_symbols: bool = True,
+    run: Runner = directly,
+    deadline: float | None = None,
+) -> WorkedSolution:
+    """The worked solution of a table.
+
+    Args:
+        table: Standard or modified; every row with a variable of its own.
+        values: Configurations at which the numbers are wanted too, in order or by name, [rad or m].
+        style: `short` writes c_{12}, `full` writes cos(q_1 + q_2).
+        keeps_symbols: Whether lengths stay symbols; else their values stand in the formulas.
+        run: Where the symbolic part runs.
+        deadline: When the symbolic part must be over, on the monotonic clock; never if left out.
+
+    Raises:
+        InvalidDhTable: A row follows another joint.
+        WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration is none of the table.
+        CertificationFailed: Formulas and numbers, or numbers and Pinocchio's, differ.
+    """
+    for i, row in enumerate(table.joints):
+        if row.mimic is not None:
+            raise InvalidDhTable("a worked solution needs rows that follow no other joint", i, "mimic")
+    robot = Robot(read_urdf(write_urdf(describe_dh("table", table))), (BASE_FRAME, TOOL_FRAME))
+    qs = configurations(robot.chain(None, None), values)
+    numeric = [numeric_solution(table, q) for q in qs]
+    samples = _samples(table)
+    question = Question(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
+    notes: list[str] = []
+    found = _timed(run, formulas, question, deadline, 0.5, notes, "the transforms and the Jacobian")
+    singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
+    error, examples = 0.0, list[float | None]()
+    if found is not None:
+        notes = [*found.remarks, *_limits(table, found, singular), *notes]
+        as_read = _read_back(table, found.as_read)
+        solutions = [numeric_solution(as_read, q) for q in samples]
+        error = formulas_error(found.values, solutions)
+        if singular is not None:
+            error = max(error, determinants_error(singular, solutions))
+            examples = example_singular_values(singular, as_read)
+    return WorkedSolution(
+        tuple(row.name for row in table.joints),
+        found,
+        singular,
+        examples,
+        numeric,
+        [_determinant(singular, solution) for solution in numeric],
+        steps(table.convention, found, singular) if found is not None else [],
+        notes,
+        None if found is None else FormulaCertificate(len(samples), error, SEED),
+        *_certified(robot, qs, numeric),
+    )
+
+
+def _timed(
+    run: Runner,
+    function: Callable[[Question], _Result],
+    question: Question,
+    deadline: float | None,
+    share: float,
+    notes: list[str],
+    what: str,
+) -> _Result | None:
+    """The result of a symbolic part within its share of the time that is left; else None and a note."""
+    seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
+    try:
+        return run(function, question, seconds)
+    except (TimeoutError, ChildProcessError):
+        notes.append(f"{what} could not be worked out in symbols in the time allowed: only numbers are given")
+        return None
+
+
+def _samples(table: DhTable) -> Array:
+    reach = np.array([np.pi if row.type == "revolute" else 1.0 for row in table.joints])
+    return np.random.default_rng(SEED).uniform(-reach, reach, (SAMPLES, len(reach)))
+
+
+def _numbers(table: DhTable) -> TableNumbers:
+    rows = tuple(RowNumbers(row.type == "revolute", row.a, row.alpha, row.d, row.theta) for row in table.joints)
+    return TableNumbers(table.convention, rows, _tuples(table.base), _tuples(table.tool))
+
+
+def _tuples(matrix: Array) -> Numbers4:
+    return tuple(tuple(row) for row in matrix.tolist())
+
+
+def _read_back(table: DhTable, numbers: TableNumbers) -> DhTable:
+    """The table that the formulas stand for: angles and lengths as they were read."""
+    joints = tuple(
+        DhJoint(row.name, row.type, read.a, read.alpha, read.d, read.theta)
+        for row, read in zip(table.joints, numbers.rows, strict=True)
+    )
+    return DhTable(table.convention, joints, np.array(numbers.base), np.array(numbers.tool))
+
+
+def _determinant(singular: Singularities | None, solution: NumericSolution) -> float | None:
+    if singular is not None and singular.block is not None:
+        return solution.determinant(singular.block.rows, singular.block.frame)
+    return solution.determinant(range(6), 0) if solution.jacobian.shape[1] == 6 else None
+
+
+def _certified(
+    robot: Robot, qs: Array, numeric: Sequence[NumericSolution]
+) -> tuple[Certificate | None, JacobianCertificate | None]:
+    """The numbers at the configurations against Pinocchio's."""
+    if not numeric:
+        return None, None
+    chain = robot.chain(None, None)
+    positions = np.array([solution.tip[:3, 3] for solution in numeric])
+    rotations = np.array([solution.tip[:3, :3] for solution in numeric])
+    poses = certify_poses(robot, chain, qs, {TOOL_FRAME: Poses(positions, rotations)})
+    return poses, certify_jacobians(robot, chain, qs, np.array([solution.jacobian for solution in numeric]))
+
+
+def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:
+    """What stays numeric, and why."""
+    notes = []
+    written = sum(frame is not None for frame in found.frames)
+    n = len(table.joints)
+    if written < n:
+        notes.append(
+            f"T_0_i stands in symbols up to i = {written}: the next has an entry of more than {MAX_ENTRY_TERMS} terms, "
+            "so that from there on, and for the Jacobian, only numbers at given configurations are given"
+        )
+    elif found.jacobian is None:
+        notes.append("the pose of the tip or the Jacobian has too many terms to be written out: only numbers are given")
+    if singular is None or written < n:
+        return notes
+    if singular.block is None:
+        notes.append(
+            f"the Jacobian is 6 × {n}, and neither the rows that ever differ from zero nor the linear or angular ones "
+            f"of these are {n}: there is no determinant, and singular is where the rank drops"
+        )
+    elif singular.formula is None:
+        notes.append("the determinant has too many terms to be written out: only its numbers are given")
+    return notes

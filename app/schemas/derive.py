@@ -1,0 +1,207 @@
+"""The worked solution of a table on the wire."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from app.schemas.common import Answer, Payload
+from app.schemas.dh import DhTablePayload
+from app.schemas.kinematics import Configuration
+
+MAX_CONFIGURATIONS = 100
+
+Grid = list[list[float]]
+
+
+class DeriveRequest(Payload):
+    """A table, how its solution is to be written, and configurations at which the numbers are wanted."""
+
+    dh: DhTablePayload
+    joint_positions: Annotated[
+        list[Configuration],
+        Field(
+            max_length=MAX_CONFIGURATIONS,
+            description="Configurations for `numeric`: each one number a row, or an object of values by joint name; "
+            "[rad] for revolute joints, [m] for prismatic ones. Left out, there are formulas alone.",
+        ),
+    ] = []  # noqa: RUF012
+    notation: Literal["short", "full"] = Field(
+        "short", description="`short` writes c_{12} for cos(q_1 + q_2), `full` writes cos(q_1 + q_2)."
+    )
+    symbolic: bool = Field(
+        True,
+        description="Whether lengths and angles of the table stay symbols; else their values stand in the formulas.",
+    )
+
+
+class FormulaInfo(Answer):
+    """A formula in both notations."""
+
+    latex: str = Field(description="For KaTeX or LaTeX with amsmath.")
+    plain: str = Field(description="An expression of Python and of most computer algebra systems.")
+
+
+class MatrixInfo(Answer):
+    """A matrix; null where an entry has too many terms to be written out."""
+
+    name: str
+    latex: str | None = Field(description="The whole matrix, for KaTeX or LaTeX with amsmath.")
+    plain: list[list[str]] | None = Field(description="Entry by entry, row by row.")
+
+
+class LegendEntry(Answer):
+    """A symbol and what it stands for."""
+
+    latex: str
+    plain: str
+    meaning_latex: str
+    meaning: str
+    value: float | None = Field(
+        description="What the table gives for it, [m], or a cosine or sine; null for variables."
+    )
+
+
+class ColumnInfo(Answer):
+    """A column of the geometric Jacobian in the axes of the base."""
+
+    joint: str
+    axis: MatrixInfo = Field(description="z of the joint: z_{i-1} in a standard table, z_i in a modified one.")
+    arm: MatrixInfo | None = Field(description="p from the joint's frame to the tip; null for a prismatic joint.")
+    linear: MatrixInfo = Field(description="z × p, simplified; z for a prismatic joint.")
+    angular: MatrixInfo = Field(description="z; nought for a prismatic joint.")
+
+
+class JacobianInfo(Answer):
+    """The geometric Jacobian, linear rows first, in the axes of the base, at the tip."""
+
+    matrix: MatrixInfo
+    columns: list[ColumnInfo]
+
+
+class DeterminantInfo(Answer):
+    """The determinant of the square block of the Jacobian."""
+
+    block: Literal["full", "moving", "linear", "angular"] = Field(
+        description="The whole Jacobian; the rows that ever differ from zero; the linear, or the angular ones of these."
+    )
+    rows: list[Literal["v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"]]
+    frame: int = Field(description="Number of the frame in whose axes these rows are meant.")
+    why: str = Field(description="Why this block.")
+    latex: str | None = Field(description="The determinant as a product; null where it has too many terms.")
+    plain: str | None
+    factors: list[FormulaInfo] = Field(description="The factors of the product beside its number, each one once.")
+
+
+class SingularValueInfo(Answer):
+    """A value at which a factor vanishes."""
+
+    joints: list[str] = Field(description="The joints whose variables, added with `signs`, have the value.")
+    signs: list[int] = Field(description="1 or -1 for each of these.")
+    variable: FormulaInfo
+    formula: FormulaInfo
+    value: float = Field(description="[rad] in (-π, π], or [m].")
+
+
+class SingularityInfo(Answer):
+    """A factor of the determinant that some configurations make vanish."""
+
+    kind: Literal["solved", "equation", "never"] = Field(
+        description="Solved for a variable, left as an equation, or without a real solution with these lengths."
+    )
+    condition: FormulaInfo = Field(description="The factor that is zero.")
+    solutions: list[SingularValueInfo]
+    example: list[float] | None = Field(
+        description="A configuration that fulfils the condition, the other joints drawn at random, [rad or m]; null "
+        "where none was found."
+    )
+    example_singular_value: float | None = Field(
+        description="Smallest singular value of the block at the example, by the numbers of the table."
+    )
+
+
+class NumericColumnInfo(Answer):
+    """A column of the Jacobian at a configuration."""
+
+    axis: list[float] = Field(description="z of the joint.")
+    arm: list[float] = Field(description="From the joint's frame to the tip, [m].")
+    linear: list[float] = Field(description="[m per rad or m]")
+    angular: list[float] = Field(description="[rad per rad or m]")
+
+
+class NumericInfo(Answer):
+    """The numbers at one configuration."""
+
+    joint_positions: list[float] = Field(description="[rad or m]")
+    A: list[Grid] = Field(description="A_1 … A_n, translation in [m].")
+    T_0: list[Grid] = Field(description="T_0_1 … T_0_n, translation in [m].")
+    T_base_tool: Grid = Field(description="Translation in [m].")
+    position: list[float] = Field(description="Of the tool in the base, [m].")
+    rotation: Grid = Field(description="Of the tool in the base; no unit.")
+    columns: list[NumericColumnInfo]
+    jacobian: Grid = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
+    singular_values: list[float] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")
+    rank: int = Field(description="Singular values above 1e-10 times the largest.")
+    determinant: float | None = Field(description="Of the block that `determinant` names; null where none is square.")
+
+
+class StepInfo(Answer):
+    """A section of the worked solution."""
+
+    title: str
+    text: str
+    latex: list[str] = Field(description="Formulas, each to stand on a line of its own.")
+
+
+class DeriveCertificate(Answer):
+    """Formulas against numbers from the table's own product of transforms, at random configurations."""
+
+    samples: int = Field(description="Configurations at which every formula was evaluated.")
+    max_error: float = Field(description="Largest difference of an entry; [m] or no unit.")
+    seed: int = Field(description="Of the choice of samples.")
+
+
+class NumericCertificate(Answer):
+    """Numbers at the given configurations against Pinocchio's."""
+
+    samples: int = Field(description="Configurations that were recomputed.")
+    max_position_error: float = Field(description="Largest distance, [m].")
+    max_orientation_error: float = Field(description="Largest angle, [rad].")
+    max_jacobian_error: float = Field(description="Largest difference of an entry of the Jacobian.")
+
+
+class DeriveAnswer(Answer):
+    """The worked solution."""
+
+    convention: Literal["standard", "modified"]
+    joint_names: list[str] = Field(description="The order of a configuration.")
+    notation: Literal["short", "full"]
+    symbolic: bool
+    legend: list[LegendEntry] = Field(description="What each symbol stands for.")
+    A: list[MatrixInfo] = Field(description="A_1 … A_n.")
+    T_0: list[MatrixInfo] = Field(description="T_0_1 … T_0_n.")
+    T_base_tool: MatrixInfo | None
+    position: MatrixInfo | None = Field(description="Of the tool in the base.")
+    rotation: MatrixInfo | None = Field(description="Of the tool in the base.")
+    jacobian: JacobianInfo | None
+    determinant: DeterminantInfo | None = Field(description="Null where no block is square, or without time.")
+    singularities: list[SingularityInfo] = Field(
+        description="One each factor of the determinant that depends on a joint."
+    )
+    numeric: list[NumericInfo] = Field(description="One entry a configuration.")
+    steps: list[StepInfo] = Field(description="The same told in the order of a lecture.")
+    notes: list[str] = Field(description="What was read as something else; what stays numeric, and why.")
+    certificate: DeriveCertificate | None = Field(description="Null where there are no formulas.")
+    numeric_certificate: NumericCertificate | None = Field(description="Null where there are no configurations.")
+
+
+EXAMPLE_ANTHROPOMORPHIC: dict[str, Any] = {
+    "dh": {
+        "convention": "standard",
+        "joints": [
+            {"type": "revolute", "a": 0.0, "alpha": 1.5707963267948966, "d": 0.0, "theta": 0.0},
+            {"type": "revolute", "a": 0.5, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+            {"type": "revolute", "a": 0.4, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+        ],
+    },
+    "joint_positions": [[0.3, 0.6, -0.8]],
+}

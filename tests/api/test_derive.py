@@ -1,0 +1,157 @@
+"""The worked solution over HTTP."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from starlette.testclient import TestClient
+
+from app.api import derive
+from app.main import create_app
+from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
+from app.settings import Settings
+from tests.oracles import catalogue, dh_columns, expressions
+
+PATH = "/v1/dh/derive"
+PANDA = catalogue.dh_table("panda_dh")
+
+
+def posted(client: TestClient, body: object) -> dict[str, Any]:
+    answer = client.post(PATH, json=body)
+    assert answer.status_code == 200, answer.text
+    DeriveAnswer.model_validate(answer.json())
+    content: dict[str, Any] = answer.json()
+    return content
+
+
+def test_the_anthropomorphic_arm(client: TestClient) -> None:
+    answer = posted(client, EXAMPLE_ANTHROPOMORPHIC)
+    assert [matrix["name"] for matrix in answer["A"]] == ["A_1", "A_2", "A_3"]
+    assert [matrix["name"] for matrix in answer["T_0"]] == ["T_0_1", "T_0_2", "T_0_3"]
+    assert answer["T_0"][2]["plain"][0] == ["c1*c23", "-c1*s23", "s1", "c1*(a2*c2 + a3*c23)"]
+    assert answer["T_0"][2]["latex"].startswith(r"\begin{bmatrix} c_{1} c_{23} & -c_{1} s_{23} & s_{1} & c_{1} \left(")
+    assert answer["determinant"]["plain"] == "-a2*a3*s3*(a2*c2 + a3*c23)"
+    assert answer["determinant"]["rows"] == ["v_x", "v_y", "v_z"]
+    assert [one["condition"]["plain"] for one in answer["singularities"]] == ["s3 = 0", "a2*c2 + a3*c23 = 0"]
+    assert answer["singularities"][0]["solutions"][1] == {
+        "joints": ["joint_3"],
+        "signs": [1],
+        "variable": {"latex": "q_{3}", "plain": "q3"},
+        "formula": {"latex": r"\pi", "plain": "pi"},
+        "value": np.pi,
+    }
+    numbers = answer["numeric"][0]
+    assert numbers["position"] == pytest.approx([0.768753959783, 0.237803466792, 0.202853504379])
+    assert numbers["determinant"] == pytest.approx(0.115450491367)
+    assert numbers["rank"] == 3
+    assert answer["certificate"]["max_error"] < 1e-14
+    assert answer["numeric_certificate"]["max_jacobian_error"] < 1e-14
+    assert answer["notes"] == []
+
+
+@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("options", [{}, {"notation": "full", "symbolic": False}], ids=str)
+def test_the_catalogue_by_its_text(client: TestClient, name: str, options: dict[str, Any]) -> None:
+    dh = catalogue.dh_table(name)
+    judge = dh_columns.from_json(dh)
+    q = [0.3 + 0.1 * i for i in range(len(dh["joints"]))]
+    answer = posted(client, {"dh": dh, "joint_positions": [q], **options})
+    names = expressions.namespace(answer["legend"], q)
+    tip = [[expressions.value(entry, names) for entry in row] for row in answer["T_base_tool"]["plain"]]
+    np.testing.assert_allclose(tip, judge.pose(q), atol=1e-12)
+    np.testing.assert_allclose(answer["numeric"][0]["T_base_tool"], judge.pose(q), atol=1e-12)
+    plain = answer["jacobian"]["matrix"]["plain"]
+    jacobian = [[expressions.value(entry, names) for entry in row] for row in plain]
+    np.testing.assert_allclose(jacobian, judge.jacobian(q), atol=1e-12)
+    np.testing.assert_allclose(answer["numeric"][0]["jacobian"], judge.jacobian(q), atol=1e-12)
+    if answer["determinant"]:
+        value = expressions.value(answer["determinant"]["plain"], names)
+        assert value == pytest.approx(answer["numeric"][0]["determinant"], abs=1e-12)
+
+
+def test_configurations_by_name_and_in_plural(client: TestClient) -> None:
+    body = {
+        "dh": catalogue.dh_table("planar_2r"),
+        "joint_positions": [[0.3, 0.8], {"joint_2": 0.8, "joint_1": 0.3}],
+    }
+    first, second = posted(client, body)["numeric"]
+    assert first == second
+    assert first["determinant"] == pytest.approx(0.502149263630)
+    assert posted(client, {"dh": body["dh"]})["numeric"] == []
+
+
+@pytest.mark.parametrize(
+    ("change", "status", "pointer"),
+    [
+        ({"joint_positions": [[0.1, 0.2]]}, 422, "#/joint_positions/0"),
+        ({"joint_positions": [[0.1, 0.2, 1e9]]}, 422, "#/joint_positions"),
+        ({"joint_positions": [{"joint_1": 0.1}]}, 422, "#/joint_positions/0"),
+        ({"notation": "long"}, 422, None),
+        ({"steps": True}, 422, None),
+        ({"joint_positions": [[0.0] * 3] * 101}, 422, None),
+    ],
+)
+def test_bad_input_is_told_where_it_is(
+    client: TestClient, change: dict[str, Any], status: int, pointer: str | None
+) -> None:
+    answer = client.post(PATH, json={**EXAMPLE_ANTHROPOMORPHIC, **change})
+    assert answer.status_code == status, answer.text
+    if pointer:
+        assert answer.json()["pointer"] == pointer
+
+
+def test_a_row_that_follows_another_joint_is_refused(client: TestClient) -> None:
+    joints = [dict(joint) for joint in EXAMPLE_ANTHROPOMORPHIC["dh"]["joints"]]
+    joints[2]["mimic"] = {"joint": "joint_2"}
+    answer = client.post(PATH, json={"dh": {"convention": "standard", "joints": joints}})
+    assert answer.status_code == 422
+    assert answer.json()["pointer"] == "#/dh/joints/2/mimic"
+
+
+def test_a_large_arm_is_answered_in_time_and_says_what_it_leaves_out(client: TestClient) -> None:
+    row = {"type": "revolute", "a": 0.1, "alpha": 0.7, "d": 0.2, "theta": 0.3}
+    started = time.monotonic()
+    answer = posted(client, {"dh": {"convention": "standard", "joints": [row] * 64}, "joint_positions": [[0.1] * 64]})
+    assert time.monotonic() - started < 10
+    assert answer["A"][63]["plain"] is not None
+    assert answer["T_0"][63]["plain"] is None
+    assert answer["jacobian"] is None
+    assert "only numbers" in answer["notes"][0]
+    assert len(answer["numeric"][0]["T_0"]) == 64
+
+
+def test_without_time_the_numbers_are_answered_all_the_same(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(derive, "SECONDS", 0.0)
+    answer = posted(client, {"dh": PANDA, "joint_positions": [[0.1] * 7]})
+    assert answer["A"][0]["plain"] is None
+    assert answer["certificate"] is None
+    assert "time allowed" in answer["notes"][0]
+    tip = answer["numeric"][0]["T_base_tool"]
+    np.testing.assert_allclose(tip, dh_columns.from_json(PANDA).pose([0.1] * 7), atol=1e-12)
+
+
+def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestClient) -> None:
+    dh = catalogue.dh_table("ur5_dh")
+    posted(client, {"dh": dh})
+    started = time.monotonic()
+    posted(client, {"dh": {**dh, "tool": {"position": [0, 0, 0.1], "rpy": [0, 0, 0]}}})
+    assert time.monotonic() - started < 3
+
+
+def test_no_process_is_left_behind(tmp_path: Path) -> None:
+    before = workers()
+    with TestClient(create_app(Settings(data_dir=tmp_path))) as client:
+        assert workers() == before
+        posted(client, EXAMPLE_ANTHROPOMORPHIC)
+        assert len(workers() - before) == 1
+    assert workers() == before
+
+
+def workers() -> set[str]:
+    """Processes that this one has started, zombies too; but for the one that multiprocessing keeps for itself."""
+    children = {pid for task in Path("/proc/self/task").iterdir() for pid in (task / "children").read_text().split()}
+    return {pid for pid in children if b"resource_tracker" not in Path(f"/proc/{pid}/cmdline").read_bytes()}
