@@ -21,8 +21,8 @@ from app.settings import Settings
 from app.store.library import Library
 
 DESCRIPTION = """
-A URDF or a Denavit-Hartenberg table goes in; forward kinematics and Jacobians come out, each answer recomputed
-through Pinocchio before it is sent (a sample of a large batch).
+A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics and
+Jacobians come out, each answer recomputed through Pinocchio before it is sent (a sample of a large batch).
 
 Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A pose `T_a_b` is that of b in a; a
 quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the

@@ -267,7 +267,7 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
     return good
 
 
-@inlined
+@unmanaged
 def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
     """Turn each joint by full turns into its limits and as near to the seed as they allow; whether that can be."""
     inside = True
@@ -285,7 +285,7 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
     return inside
 
 
-@inlined
+@unmanaged
 def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array, code: int, free: int, backwards: int) -> int:
     """Put the row behind the last among the solutions, nearest to the seed first, unless it stands there already."""
     n = len(seed)

@@ -240,7 +240,7 @@ def _few_turns(plan: Plan, a: Vector, y: Vector, square: Vector, values: Array) 
         values[last] = angle_onto(row(plan.axes, last), square, y)
 
 
-@inlined
+@unmanaged
 def _three_turns(
     plan: Plan, i: int, a: Vector, y: Vector, square: Vector, second: bool, seed: Array, values: Array
 ) -> tuple[int, int]:
@@ -309,7 +309,7 @@ def _positions(plan: Plan, start: Vector, goal: Vector, seed: Array, found: Cand
     return _finished(plan, start, goal, seed, ways, found)
 
 
-@inlined
+@unmanaged
 def _third(plan: Plan, start: Vector, o2: Vector) -> tuple[Vector, Vector, Vector, Coefficients]:
     """The vector v as a function of joint 3, and its square."""
     zero = (0.0, 0.0, 0.0)
@@ -367,7 +367,7 @@ def _third_slides(plan: Plan) -> int:
     return plan.slides[plan.order[2]] if plan.placed == 3 else 1
 
 
-@inlined
+@unmanaged
 def _quadratic_roots(plan: Plan, f: Quadratic, found: Candidates) -> int:
     """Joint 3 from one quadratic equation; where there is none, its place is held by zero."""
     if plan.placed < 3:
@@ -378,7 +378,7 @@ def _quadratic_roots(plan: Plan, f: Quadratic, found: Candidates) -> int:
     return turns_of_quadratic(f, found.roots)
 
 
-@inlined
+@unmanaged
 def _by_turn(
     plan: Plan,
     v0: Vector,
@@ -439,7 +439,7 @@ def _by_turn(
     return count
 
 
-@inlined
+@unmanaged
 def _by_slide(
     plan: Plan, v0: Vector, v1: Vector, v2: Vector, square: Coefficients, k1: float, k2: float, found: Candidates
 ) -> int:
@@ -487,7 +487,7 @@ def _by_slide(
     return count
 
 
-@inlined
+@unmanaged
 def _finished(plan: Plan, start: Vector, goal: Vector, seed: Array, ways: int, found: Candidates) -> int:
     """Joint 1 for each way of the others; what is free is put to the seed's value."""
     L, slides = plan.lines, plan.slides
@@ -691,7 +691,7 @@ def _elbow(plan: Plan, M: Motion, seed: Array, elbow_angle: float, found: Candid
     return count
 
 
-@inlined
+@unmanaged
 def _shoulder_turn(h1: Vector, line: Vector, at_zero: Vector, elbow: Vector, angle: float) -> Motion:
     """The rotation that puts the wrist's point on a line from the shoulder, and the elbow at an angle about it.
 

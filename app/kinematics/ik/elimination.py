@@ -148,7 +148,7 @@ def eliminated(terms: Array, axes: Array, points: Array, p: Vector, d: Vector, s
     _triangulate(left, right)
 
 
-@inlined
+@unmanaged
 def _interpolate(values: Array, k: int, right: Array, left: Array) -> None:
     """From values at thirds of a turn of two joints to the coefficients of 1, cosine and sine of each."""
     half = 1.0 / math.sqrt(3.0)
@@ -171,7 +171,7 @@ def _interpolate(values: Array, k: int, right: Array, left: Array) -> None:
             right[k, 3 * i - 1], right[k, 3 * i], right[k, 3 * i + 1] = constant, cosine, sine
 
 
-@inlined
+@unmanaged
 def _triangulate(left: Array, right: Array) -> None:
     """Householder's reflections that make the right sides triangular, done to both; then the last rows are free."""
     for j in range(8):
@@ -263,7 +263,7 @@ def third_joint(space: Space) -> int:
     return _roots_on_circle(space)
 
 
-@inlined
+@unmanaged
 def _series_at(series: Array, q: float) -> tuple[float, float, float]:
     """A trigonometric polynomial and its first two derivatives."""
     c, s = math.cos(q), math.sin(q)
@@ -337,7 +337,7 @@ def _turning_points(space: Space) -> int:
     return count
 
 
-@inlined
+@unmanaged
 def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> None:
     """The slope on an arc, by the coefficients of Bernstein's polynomials."""
     for k in range(_TERMS):
@@ -371,7 +371,7 @@ def _sign_changes(coefficients: Array) -> int:
     return changes
 
 
-@inlined
+@unmanaged
 def _halve(coefficients: Array, left: Array) -> None:
     """De Casteljau's division: the coefficients become those of the right half, `left` those of the left one."""
     for k in range(_TERMS):
@@ -380,7 +380,7 @@ def _halve(coefficients: Array, left: Array) -> None:
             coefficients[m] = 0.5 * (coefficients[m] + coefficients[m + 1])
 
 
-@inlined
+@unmanaged
 def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slope: bool) -> float:
     """The root of the polynomial, or of its slope, between two points, by Newton's method in a bracket."""
     x = 0.5 * (lower + upper)
@@ -446,7 +446,7 @@ def next_two(space: Space, q3: float) -> int:
     return 3
 
 
-@inlined
+@unmanaged
 def _angles_of(v: Array, pair: Array) -> None:
     """Two angles from the products of powers of the tangents of their halves; the first goes up to the third."""
     top, bottom = 0.0, 0.0
@@ -502,7 +502,7 @@ def _null_vectors(space: Space) -> int:
     return nullity
 
 
-@inlined
+@unmanaged
 def _largest_below(M: Array, first: int) -> tuple[int, int, float]:
     """Where the largest entry of the lower right block is, and its size."""
     at, best = first * ORDER + first, 0.0
@@ -513,7 +513,7 @@ def _largest_below(M: Array, first: int) -> tuple[int, int, float]:
     return at // ORDER, at % ORDER, best
 
 
-@inlined
+@unmanaged
 def _back_substituted(space: Space, rank: int, free: int, x: Array) -> None:
     """A vector whose entries beyond the rank are 0 but one, which is 1; then of unit length, in the matrix's order."""
     M, order = space.matrix, space.order
@@ -533,7 +533,7 @@ def _back_substituted(space: Space, rank: int, free: int, x: Array) -> None:
         x[order[j]] = scale * M[ORDER - 1, j]
 
 
-@inlined
+@unmanaged
 def first_two(axes: Array, points: Array, u: Vector, m: Vector, p: Vector, d: Vector) -> tuple[float, float]:
     """Joints 1 and 2 from E_1 E_2 (u, m) = (p, d), a point and a direction, by least squares; [rad]."""
     h1, h2, o1, o2 = row(axes, 0), row(axes, 1), row(points, 0), row(points, 1)
