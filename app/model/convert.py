@@ -154,7 +154,8 @@ def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
         if slides:
             lower, upper = stock.travel(row)
             bodies[parent] += stock.rod(foot[:3, 3], foot[:3, 3] + row.d * foot[:3, 2])
-            own += [stock.carriage(), *stock.rod((0.0, 0.0, -upper), (0.0, 0.0, -lower))]
+            # The rod slides with the carriage, and reaches it also where the travel begins further on.
+            own += [stock.carriage(), *stock.rod((0.0, 0.0, min(-upper, 0.0)), (0.0, 0.0, max(-lower, 0.0)))]
         else:
             own += [stock.hub(-row.d), *stock.rod((0.0, 0.0, -row.d), origin)]
         parent, pending = f"link_{i}", _around_motion(row, table.convention)[1]

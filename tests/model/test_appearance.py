@@ -74,18 +74,23 @@ def test_rods_lie_along_d_and_a_wherever_the_robot_moves(convention: Convention,
 
 
 @both_conventions
-def test_a_slide_keeps_touching_its_rod(convention: Convention) -> None:
-    """The rod is long enough to reach the parent at both ends of the way."""
-    row = DhJoint("slide", "prismatic", 0.2, 0.3, 0.4, 0.5, lower=-0.1, upper=0.3)
+@pytest.mark.parametrize("limits", [(-0.1, 0.3), (0.2, 0.6), (-0.6, -0.2)])
+def test_a_rod_reaches_from_the_parent_to_the_carriage(convention: Convention, limits: tuple[float, float]) -> None:
+    """At both ends of the way and between, wherever the way begins."""
+    row = DhJoint("slide", "prismatic", 0.2, 0.3, 0.4, 0.5, *limits)
     dh = DhTable(convention, (row,))
     text = write_urdf(describe_dh("arm", dh))
-    for q in (-0.1, 0.0, 0.3):
+    at_zero = dh.frames([0.0])[1] if convention == "modified" else dh_columns.shift(2, 0.4)
+    for q in (limits[0], 0.5 * sum(limits), limits[1]):
         ends = rods(text, {"slide": np.array([q])})
-        housing = dh.frames([0.0])[1] if convention == "modified" else dh_columns.shift(2, 0.4)
-        distances = [np.linalg.norm(np.cross(b - a, housing[:3, 3] - a)) / np.linalg.norm(b - a) for a, b in ends]
-        inside = [0 <= (housing[:3, 3] - a) @ (b - a) <= (b - a) @ (b - a) + 1e-12 for a, b in ends]
-        assert min(d for d, reaches in zip(distances, inside, strict=True) if reaches) < 1e-12
+        carriage = at_zero[:3, 3] + q * at_zero[:3, 2]
+        assert any(lies_on(at_zero[:3, 3], *rod) and lies_on(carriage, *rod) for rod in ends)
     assert "<box" in text
+
+
+def lies_on(point: Array, a: Array, b: Array) -> bool:
+    """Whether a point is on the way between two others."""
+    return bool(np.linalg.norm(point - a) + np.linalg.norm(b - point) <= np.linalg.norm(b - a) + 1e-12)
 
 
 @pytest.mark.parametrize("name", catalogue.TABLES)
