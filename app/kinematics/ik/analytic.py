@@ -104,10 +104,12 @@ def every(
         elif form.has_free_elbow and elbow_angle is None:
             table, whole = _thinned(question, form, i, most), False
         else:
-            table = _one_by_one(question, form, i, elbow_angle)
-            whole = len(table.qs) <= most and not table.free.any()
-            if sample and table.free.any():
-                table = _spread(question, form, i, table, most)
+            table = _one_by_one(question, form, i, elbow_angle, question.respect_limits)
+            anywhere = _one_by_one(question, form, i, elbow_angle, False) if question.respect_limits else table
+            whole = len(table.qs) <= most and not anywhere.free.any()
+            if anywhere.free.any() and (sample or not table.free.any()):
+                # Where the seed's position of a free joint is none of the limits', others may be.
+                table = _spread(question, form, i, table, np.unique(anywhere.free[anywhere.free > 0]), most)
         if windings and len(table.qs):
             table, whole = _turned(question, i, table, most, whole)
         tables.append(_first(table, most))
@@ -219,12 +221,14 @@ def _answer(question: Question, form: ClosedForm, table: Branches) -> InverseKin
     )
 
 
-def _one_by_one(question: Question, form: ClosedForm, i: int, elbow_angle: float | None) -> Branches:
+def _one_by_one(
+    question: Question, form: ClosedForm, i: int, elbow_angle: float | None, respect_limits: bool
+) -> Branches:
     return form.solve(
         question.target(i),
         question.seed(i)[None],
         tolerances=question.tolerances,
-        respect_limits=question.respect_limits,
+        respect_limits=respect_limits,
         elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
     )
 
@@ -252,11 +256,20 @@ def _thinned(question: Question, form: ClosedForm, i: int, most: int) -> Branche
     return Branches(table.qs[order], table.codes[order], table.free[order], np.array([0, len(order)]))
 
 
-def _spread(question: Question, form: ClosedForm, i: int, table: Branches, most: int) -> Branches:
-    """The branches of one target, and a sample of those that a singularity joins to a continuum."""
+def _spread(question: Question, form: ClosedForm, i: int, table: Branches, masks: Indices, most: int) -> Branches:
+    """The branches of one target, and a sample of those that a singularity joins to a continuum.
+
+    Args:
+        question: The targets.
+        form: The closed form.
+        i: Which target.
+        table: Its branches.
+        masks: Which joints are free together.
+        most: Largest number of solutions.
+    """
     target, seed = question.target(i), question.seed(i)
     rng, seeds = np.random.default_rng(0), []
-    for mask in np.unique(table.free[table.free > 0]).tolist():
+    for mask in masks.tolist():
         free = [j for j in range(len(seed)) if mask >> j & 1]
         around = np.tile(seed, (_FREE_SAMPLED, 1))
         around[:, free] += rng.uniform(-np.pi, np.pi, (_FREE_SAMPLED, len(free)))

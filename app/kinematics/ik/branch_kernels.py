@@ -11,7 +11,18 @@ import numpy as np
 
 from app.kinematics.ik.compositions import MOST, Candidates, Plan, compose, elbow_angle
 from app.kinematics.ik.elimination import make_space
-from app.kinematics.ik.iteration import COUNT, SINCE, Goal, Work, descend, linearise, read_lane, set_target, workspace
+from app.kinematics.ik.iteration import (
+    COUNT,
+    FULL,
+    SINCE,
+    Goal,
+    Work,
+    descend,
+    linearise,
+    read_lane,
+    set_target,
+    workspace,
+)
 from app.kinematics.lanes import LANES, bits, lanes, load, max_lanes, min_lanes, store, where
 from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
 from app.model.chain import FlatChain
@@ -21,7 +32,10 @@ _ROUNDS = 12
 """Iterations of polishing at most; nearly always one or two are enough."""
 _PERFECT = 1e-28
 """Squared error that is left alone, [m² + rad²]."""
-_DAMPING = 1e-12
+_EXACT = 1e-20
+"""Squared error up to which a target is met, [m² + rad²]."""
+_DAMPING, _LEAST_DAMPING = 1e-12, 1e-22
+"""λ of the first step, and how far steps that succeed bring it down: next to a singularity it must not hold back."""
 _SAME = 1e-7
 """Candidates no further apart in any joint are one, [rad or m]."""
 _ROUNDING = 1e-10
@@ -51,6 +65,7 @@ class _Kept(NamedTuple):
 
     qs: Array
     distances: Array
+    errors: Array
     labels: Indices
 
 
@@ -128,7 +143,7 @@ def _branches(
         np.empty((2, 8), np.int64),
         make_space(),
     )
-    kept = _Kept(np.empty((MOST + 1, n)), np.empty(MOST + 1), np.empty((2, MOST + 1), np.int64))
+    kept = _Kept(np.empty((MOST + 1, n)), np.empty(MOST + 1), np.empty(MOST + 1), np.empty((2, MOST + 1), np.int64))
     work = workspace(flat, n)
     qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
     firsts = np.zeros(count + 1, np.int64)
@@ -232,9 +247,11 @@ def _solve(
             if (good >> lane) & 1:
                 read_lane(work.previous, lane, own)
                 if _wound(flat, limits, seed, own):
-                    free = found.free[first + lane]
-                    solutions = _insert(kept, solutions, flat, seed, found.codes[first + lane], free, plan.backwards)
-    return solutions
+                    error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
+                    kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
+                    kept.labels[1, MOST] = _mask(found.free[first + lane], n, plan.backwards)
+                    solutions = _insert(kept, solutions, flat, seed)
+    return _without_near_misses(kept, solutions)
 
 
 @unmanaged
@@ -245,6 +262,8 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
         A bit for each lane that is within the tolerances.
     """
     least, stalled, damping = lanes(np.inf), lanes(0.0), lanes(_DAMPING)
+    # With fewer joints than directions JJᵀ is singular everywhere, and needs what damping there is.
+    floor = _LEAST_DAMPING if len(work.q) >= 6 * LANES and goal.kind == FULL else _DAMPING
     for _ in range(_ROUNDS):
         e = linearise(flat, goal, work)
         position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
@@ -254,7 +273,7 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
         least = where(better, error, least)
         store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
         store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
-        damping = where(better, max_lanes(0.1 * damping, _DAMPING), min_lanes(100.0 * damping, 1e6))
+        damping = where(better, max_lanes(1e-3 * damping, floor), min_lanes(100.0 * damping, 1e6))
         if bits((least > _PERFECT) & (stalled < 3.0)) == 0:
             for j in range(len(work.q) // LANES):
                 store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
@@ -285,37 +304,63 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
     return inside
 
 
+@inlined
+def _mask(free: int, n: int, backwards: int) -> int:
+    """Bits of joints in solving order as bits of variables."""
+    if not backwards:
+        return free
+    mask = 0
+    for j in range(n):
+        mask |= ((free >> j) & 1) << (n - 1 - j)
+    return mask
+
+
 @unmanaged
-def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array, code: int, free: int, backwards: int) -> int:
+def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
     """Put the row behind the last among the solutions, nearest to the seed first, unless it stands there already."""
-    n = len(seed)
     own = kept.qs[MOST]
     distance = 0.0
-    for j in range(n):
+    for j in range(len(seed)):
         distance += (own[j] - seed[j]) ** 2
     for k in range(count):
         apart = 0.0
-        for j in range(n):
+        for j in range(len(seed)):
             difference = abs(kept.qs[k, j] - own[j])
             if flat.joints[j, 0] == 0:
                 difference = abs(difference - _TURN * np.rint(difference / _TURN))
             apart = max(apart, difference)
         if apart <= _SAME:
+            kept.labels[1, k] |= kept.labels[1, MOST]
             return count
-    mask = free
-    if backwards:
-        mask = 0
-        for j in range(n):
-            mask |= ((free >> j) & 1) << (n - 1 - j)
+    kept.distances[MOST] = distance
     place = count
     while place > 0 and kept.distances[place - 1] > distance:
-        for j in range(n):
-            kept.qs[place, j] = kept.qs[place - 1, j]
-        kept.distances[place] = kept.distances[place - 1]
-        kept.labels[0, place], kept.labels[1, place] = kept.labels[0, place - 1], kept.labels[1, place - 1]
+        _copy(kept, place - 1, place)
         place -= 1
-    for j in range(n):
-        kept.qs[place, j] = own[j]
-    kept.distances[place] = distance
-    kept.labels[0, place], kept.labels[1, place] = code, mask
+    _copy(kept, MOST, place)
     return count + 1
+
+
+@inlined
+def _copy(kept: _Kept, source: int, place: int) -> None:
+    """One row of the solutions into another."""
+    for j in range(kept.qs.shape[1]):
+        kept.qs[place, j] = kept.qs[source, j]
+    kept.distances[place], kept.errors[place] = kept.distances[source], kept.errors[source]
+    kept.labels[0, place], kept.labels[1, place] = kept.labels[0, source], kept.labels[1, source]
+
+
+@inlined
+def _without_near_misses(kept: _Kept, count: int) -> int:
+    """Where a target is met exactly, what is only within the tolerances is no branch; how many are left."""
+    least = np.inf
+    for k in range(count):
+        least = min(least, kept.errors[k])
+    if least > _EXACT:
+        return count
+    left = 0
+    for k in range(count):
+        if kept.errors[k] <= _EXACT:
+            _copy(kept, k, left)
+            left += 1
+    return left

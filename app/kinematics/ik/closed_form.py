@@ -35,7 +35,7 @@ from app.kinematics.ik.compositions import (
 from app.kinematics.ik.elimination import left_sides
 from app.kinematics.ik.search import limits_of, make_goal, mid_range, target_rows
 from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.kernels import chain_poses
+from app.kinematics.kernels import chain_jacobians, chain_poses
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain
 from app.model.poses import Poses, inverse
@@ -179,7 +179,7 @@ def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: A
 
 
 def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
-    if not _is_simple(chain):
+    if not _is_simple(chain) or not _is_independent(chain):
         return None
     for name, plan in _plans(chain):
         form = ClosedForm(name, chain, task, plan)
@@ -208,6 +208,14 @@ def _is_simple(chain: Chain) -> bool:
     flat = chain.flat
     own = len(flat.joints) == len(chain) and (flat.joints[:, 1] == np.arange(len(chain))).all()
     return bool(own) and 2 <= len(chain) <= 7 and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
+
+
+def _is_independent(chain: Chain) -> bool:
+    """Whether no joint can make up for another one, but for the elbow of seven joints."""
+    reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
+    qs = np.random.default_rng(1).uniform(-reach, reach, (5, len(chain)))
+    sizes = np.linalg.svd(chain_jacobians(chain.flat, qs)[2], compute_uv=False)[:, min(len(chain), 6) - 1]
+    return bool(np.median(sizes) > 1e-9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -462,18 +470,24 @@ def _square_to(h: Array) -> Array:
 
 
 def _found_again(form: ClosedForm, count: int) -> int:
-    """How many of some random configurations are among the branches of their own poses."""
+    """How many of some random configurations are among the branches of their own poses, with no joint left free.
+
+    A joint that is always free is none that the plan determines: then it would not find solutions with another seed.
+    """
     qs, table = _trial(form, count)
-    return sum(_row_of(form.chain, table, i, q) >= 0 for i, q in enumerate(qs))
+    free = np.add.reduceat(np.append(table.free, 0), table.firsts[:-1]) * (np.diff(table.firsts) > 0)
+    return sum(_row_of(form.chain, table, i, q) >= 0 and not free[i] for i, q in enumerate(qs))
 
 
 def _trial(form: ClosedForm, count: int) -> tuple[Array, Branches]:
-    """Random configurations, and the branches of their poses."""
+    """Random configurations, and the branches of their poses from other seeds."""
     chain = form.chain
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
-    qs = mid_range(chain) + np.random.default_rng(0).uniform(-reach, reach, (count, len(chain)))
+    draws = np.random.default_rng(0).uniform(-reach, reach, (2, count, len(chain)))
+    qs, seeds = mid_range(chain) + draws
     poses = Poses(*chain_poses(chain.flat, qs))
-    return qs, form.solve(poses, qs, respect_limits=False)
+    elbows = form.elbow_angles(qs) if form.has_free_elbow else None
+    return qs, form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)
 
 
 def _row_of(chain: Chain, table: Branches, i: int, q: Array) -> int:
@@ -521,15 +535,15 @@ def _choices(form: ClosedForm) -> tuple[Choice, ...]:
     roots = _roots(form.plan)
     qs, table = _trial(form, _NAMING)
     rows = np.array([_row_of(form.chain, table, i, q) for i, q in enumerate(qs)])
-    qs, codes = qs[rows >= 0], table.codes[rows[rows >= 0]]
+    qs, codes, all_codes = qs[rows >= 0], table.codes[rows[rows >= 0]], table.codes
     choices = []
     if form.plan.kind != ELBOW and form.plan.form in {SKEW, OBLIQUE} and form.plan.placed == 3:
         choices.append(Choice("arm", 0))
     shoulder = roots.get("shoulder", 0)
     for name, bit in roots.items():
-        set_ = (codes & bit) != 0
-        if set_.all() or not set_.any():
+        if len(np.unique(all_codes & bit)) < 2:
             continue  # The two roots are always one.
+        set_ = (codes & bit) != 0
         if name == "shoulder":
             choices.append(_named(name, bit, _share(set_, _near_middle(form, qs)) > 0.5))
         elif name == "wrist":
@@ -574,7 +588,8 @@ def _elbow_heights(form: ClosedForm, qs: Array, codes: Array, bit: int) -> Flags
     """Which configurations have the higher elbow of the two that differ in it alone."""
     higher = np.zeros(len(qs), dtype=bool)
     poses = Poses(*chain_poses(form.chain.flat, qs))
-    table = form.solve(poses, qs, respect_limits=False)
+    elbows = form.elbow_angles(qs) if form.has_free_elbow else None
+    table = form.solve(poses, qs, respect_limits=False, elbow_angles=elbows)
     for i, q in enumerate(qs):
         part = slice(table.firsts[i], table.firsts[i + 1])
         other = np.flatnonzero(table.codes[part] == (codes[i] ^ bit))

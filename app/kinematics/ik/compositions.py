@@ -23,6 +23,7 @@ from app.kinematics.ik.subproblems import (
     Quadratic,
     angle_onto,
     product,
+    rest_of,
     slides_at,
     slides_of_quadratic,
     turns_at,
@@ -47,6 +48,9 @@ _NO_ARM = 1e-10
 """A lever this short [m, or the sine of an angle] turns nothing: the joint is free."""
 _FLAT = 1e-7
 """Sine below which the middle turn of three is so small that its direction is told by its rate."""
+
+_TURNS_TRIED = 16
+"""Angles of a free joint at which others are looked for that go with it."""
 
 Motion: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float, float, float]
 """A displacement: rotation row by row, then translation."""
@@ -296,14 +300,17 @@ def _positions(plan: Plan, start: Vector, goal: Vector, seed: Array, found: Cand
     slides = plan.slides
     near = minus(goal, o2)
     k1, k2 = dot(row(L, _LEVER), near), dot(row(L, _LEVER + 1), near)
-    bent = 0.0
+    bent, off_axis = 0.0, -1.0
     if slides[plan.order[0]] == 0:
         reach, offset = minus(goal, o1), minus(o2, o1)
         k2 = dot(reach, reach) - dot(offset, offset)
         bent = 1.0
+        if dot(offset, offset) == 0.0:
+            across = cross(row(L, _AXIS), reach)
+            off_axis = math.sqrt(dot(across, across))
     v0, v1, v2, square = _third(plan, start, o2)
     if plan.form <= COPLANAR:
-        ways = _by_turn(plan, v0, v1, v2, square, k1, k2, bent, found)
+        ways = _by_turn(plan, v0, v1, v2, square, k1, k2, bent, off_axis, found)
     else:
         ways = _by_slide(plan, v0, v1, v2, square, k1, k2, found)
     return _finished(plan, start, goal, seed, ways, found)
@@ -388,9 +395,13 @@ def _by_turn(
     k1: float,
     k2: float,
     bent: float,
+    off_axis: float,
     found: Candidates,
 ) -> int:
-    """Joints 2 and 3 where joint 2 turns: u is of v's height and length, and two equations tell where it points."""
+    """Joints 2 and 3 where joint 2 turns: u is of v's height and length, and two equations tell where it points.
+
+    Of axes 1 and 2 that meet, `off_axis` is how far the goal is from axis 1; else it is negative.
+    """
     L, slides = plan.lines, _third_slides(plan)
     h2 = row(L, _AXIS + 1)
     height = _along(h2, v0, v1, v2)
@@ -398,6 +409,7 @@ def _by_turn(
     b2 = _sum(_sum((k2, 0.0, 0.0), -bent, square), -L[_LEVEL, 1], height)
     radial = _total((square[0], square[1], square[2], 0.0, 0.0, 0.0), -1.0, product(height, height))
     x, y = row(L, _ALONG), row(L, _ACROSS)
+    lean = L[_LEVEL, 0]
     first, marks = found.first, found.marks
     count = 0
     if plan.form == SKEW:
@@ -425,10 +437,13 @@ def _by_turn(
         v = plus(plus(scaled(basis[0], v0), basis[1], v1), basis[2], v2)
         across = cross(h2, v)
         length, w = dot(across, across), value(level, basis)
-        rest = length - w * w
-        if rest < -BEYOND * (length + w * w):
+        if length - w * w < -BEYOND * (length + w * w):
             continue
-        side = math.sqrt(max(rest, 0.0))
+        if off_axis >= 0.0:
+            # Axes that meet: seen from axis 1 the same side keeps its digits also where the goal is next to it.
+            side = rest_of(off_axis, (value(height, basis) - lean * k1) / math.sqrt(1.0 - lean * lean))
+        else:
+            side = rest_of(math.sqrt(length), w)
         for sign in range(2):
             u = plus(scaled(w, x), side if sign else -side, y)
             first[count, 1], first[count, 2] = angle_onto(h2, v, u), q3
@@ -554,7 +569,7 @@ def _parallel(plan: Plan, M: Motion, seed: Array, found: Candidates) -> int:
         w = value(c2, _basis(0, q1))
         if abs(w) > 1.0 + BEYOND:
             continue
-        side = math.sqrt(max((1.0 - w) * (1.0 + w), 0.0))
+        side = rest_of(1.0, w)
         for second in range(2):
             s = side if second else -side
             q5 = math.atan2(w * y + s * x, w * x - s * y)
@@ -583,22 +598,44 @@ def _in_plane(
     Returns:
         How many there are then.
     """
-    h, h1, h5, h6 = row(plan.axes, 1), row(plan.axes, 0), row(plan.axes, 4), row(plan.axes, 5)
-    outwards = turned(h1, q1, h)
+    h, h5, h6 = row(plan.axes, 1), row(plan.axes, 4), row(plan.axes, 5)
+    outwards = turned(row(plan.axes, 0), q1, h)
     g = (
         M[0] * outwards[0] + M[3] * outwards[1] + M[6] * outwards[2],
         M[1] * outwards[0] + M[4] * outwards[1] + M[7] * outwards[2],
         M[2] * outwards[0] + M[5] * outwards[1] + M[8] * outwards[2],
     )
     b, across, level = turned(h5, -q5, h), cross(h6, turned(h5, -q5, h)), cross(h6, g)
-    lost, flat = 0, dot(across, across) < _FLAT * _FLAT
+    flat = dot(across, across) < _FLAT * _FLAT
     if flat and side != 0.0:
         b = scaled(-side, cross(h5, b))
-    if flat and dot(level, level) < _NO_ARM * _NO_ARM:
-        q6, lost = seed[5], 1 << 5
-    else:
+    if not (flat and dot(level, level) < _NO_ARM * _NO_ARM):
         q6 = angle_onto(h6, g, b)
-    q5 = angle_onto(h5, turned(h6, q6, g), h)
+        return _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
+    for k in range(_TURNS_TRIED):
+        # Joint 6 is free where it is: where the plane's joints do not reach then, the next angle that they reach.
+        q6 = seed[5] + (k + 1) // 2 * (2.0 * math.pi / _TURNS_TRIED) * (1.0 if k % 2 else -1.0)
+        more = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
+        if more > count:
+            return more
+    return count
+
+
+@unmanaged
+def _planar(
+    plan: Plan,
+    M: Motion,
+    q1: float,
+    q5: float,
+    q6: float,
+    lost: int,
+    code: int,
+    seed: Array,
+    found: Candidates,
+    count: int,
+) -> int:
+    """Joints 2, 3 and 4 for given others; `lost` are those of these that were free. Else as `_in_plane`."""
+    h, h1, h5, h6 = row(plan.axes, 1), row(plan.axes, 0), row(plan.axes, 4), row(plan.axes, 5)
     square = row(plan.lines, _SQUARE)
     x = turned(h1, -q1, _rotated(M, turned(h6, -q6, turned(h5, -q5, square))))
     theta = angle_onto(h, square, x)
@@ -662,6 +699,8 @@ def _elbow(plan: Plan, M: Motion, seed: Array, elbow_angle: float, found: Candid
     for bend in range(2):
         q4 = middle + half if bend else middle - half
         at_zero = plus(base, 1.0, turned(h4, q4, arm))
+        aside, along = _flattened(_unit(at_zero), base), cross(row(plan.axes, 2), at_zero)
+        straight = dot(aside, aside) < _NO_ARM and dot(along, along) < _NO_ARM
         S = _shoulder_turn(row(plan.axes, 0), line, at_zero, base, elbow_angle)
         a, y = _rotated(S, row(plan.axes, 2)), _rotated(S, row(L, _SQUARE + 1))
         for first in range(2):
@@ -669,6 +708,9 @@ def _elbow(plan: Plan, M: Motion, seed: Array, elbow_angle: float, found: Candid
             outcome, lost = _three_turns(plan, 0, a, y, row(L, _SQUARE + 1), first == 1, seed, values)
             if outcome < 0:
                 break
+            if straight:
+                # The line from shoulder to wrist is axis 3: the elbow turns without moving.
+                values[2], lost = seed[2], lost | 1 << 2
             q1, q2, q3 = values[0], values[1], values[2]
             b, z = _rotated(M, row(plan.axes, 6)), _rotated(M, row(L, _SQUARE))
             b, z = turned(row(plan.axes, 0), -q1, b), turned(row(plan.axes, 0), -q1, z)

@@ -393,10 +393,10 @@ def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slo
         else:
             upper = x
         following = x - value / slope if slope != 0.0 else lower
+        if value == 0.0 or (slope != 0.0 and abs(following - x) < 1e-15):
+            return x
         if not lower < following < upper:
             following = 0.5 * (lower + upper)
-        if abs(following - x) < 1e-15:
-            return following
         x = following
     return x
 

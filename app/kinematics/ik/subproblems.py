@@ -21,6 +21,8 @@ Quadratic: TypeAlias = tuple[float, float, float, float, float, float]
 
 BEYOND = 1e-4
 """How far an equation may miss its nearest answer, relative to its largest term, and the answer still be tried."""
+ROUNDING = 2e-15
+"""What rounding leaves of a difference of squares, as a share of them."""
 _ROUNDS = 60
 """Of a bracketed Newton iteration; it takes about six."""
 
@@ -34,6 +36,16 @@ def angle_onto(axis: Vector, a: Vector, b: Vector) -> float:
 
 
 @inlined
+def rest_of(length: float, part: float) -> float:
+    """The other side of a right triangle, √(length² - part²), with the digits that the difference has.
+
+    Where that is none but rounding the two solutions that differ in its sign are one.
+    """
+    square = (length - part) * (length + part)
+    return math.sqrt(square) if square > ROUNDING * length * length else 0.0
+
+
+@inlined
 def turns_at(g: Coefficients) -> tuple[float, float, bool]:
     """The angles at which g₀ + g₁ cos q + g₂ sin q = 0: middle and half the distance; and whether they are any good."""
     length = math.hypot(g[1], g[2])
@@ -41,9 +53,7 @@ def turns_at(g: Coefficients) -> tuple[float, float, bool]:
         return 0.0, 0.0, False
     cosine = -g[0] / length
     good = abs(cosine) <= 1.0 + BEYOND
-    # Near ±1 the arc cosine loses half the digits: by the sine it loses none that the equation has.
-    sine = math.sqrt(max((1.0 - cosine) * (1.0 + cosine), 0.0))
-    return math.atan2(g[2], g[1]), math.atan2(sine, cosine), good
+    return math.atan2(g[2], g[1]), math.atan2(rest_of(1.0, cosine), cosine), good
 
 
 @inlined
@@ -201,9 +211,9 @@ def _root_between(p: tuple[float, float, float, float, float], lower: float, upp
         else:
             upper = x
         following = x - y / slope if slope != 0.0 else lower
+        if y == 0.0 or (slope != 0.0 and abs(following - x) <= 4e-16 * (1.0 + abs(x))):
+            return x, True
         if not lower < following < upper:
             following = 0.5 * (lower + upper)
-        if abs(following - x) <= 4e-16 * (1.0 + abs(x)):
-            return following, True
         x = following
     return x, True
