@@ -97,34 +97,77 @@ def every(
         deadline: When to stop, on the clock of `time.monotonic`, [s].
         sample: Whether of joints that a singularity leaves free other positions than the seed's are given too.
     """
-    tables, complete = [], []
-    for i in range(len(question)):
-        if is_over(deadline):
-            table, whole = _nothing(len(question.chain)), False
-        elif form.has_free_elbow and elbow_angle is None:
-            table, whole = _thinned(question, form, i, most), False
+    tables: list[Branches] = []
+    complete: list[bool] = []
+    for first in range(0, len(question), _PIECE):
+        part = slice(first, min(first + _PIECE, len(question)))
+        if form.has_free_elbow and elbow_angle is None:
+            found = [_sampled(question, form, i, most, windings, deadline) for i in range(part.start, part.stop)]
         else:
-            table = _one_by_one(question, form, i, elbow_angle, question.respect_limits)
-            anywhere = _one_by_one(question, form, i, elbow_angle, False) if question.respect_limits else table
-            whole = len(table.qs) <= most and not anywhere.free.any()
-            if anywhere.free.any() and (sample or not table.free.any()):
-                # Where the seed's position of a free joint is none of the limits', others may be.
-                table = _spread(question, form, i, table, np.unique(anywhere.free[anywhere.free > 0]), most)
-        if windings and len(table.qs):
-            table, whole = _turned(question, i, table, most, whole)
-        tables.append(_first(table, most))
-        complete.append(whole)
-    counts = [len(table.qs) for table in tables]
+            found = _piece(question, form, part, most, windings, elbow_angle, deadline, sample=sample)
+        for table, whole in found:
+            tables.append(table)
+            complete += [whole] * (len(table.firsts) - 1)
+    counts = np.concatenate([np.zeros(0, dtype=np.int64), *(np.diff(table.firsts) for table in tables)])
     empty = _nothing(len(question.chain))
-    joined_ = Branches(
+    together = Branches(
         np.concatenate([*(table.qs for table in tables), empty.qs]),
         np.concatenate([*(table.codes for table in tables), empty.codes]),
         np.concatenate([*(table.free for table in tables), empty.free]),
-        np.concatenate(([0], np.cumsum(counts, dtype=np.int64))),
+        np.concatenate(([0], np.cumsum(counts))),
     )
-    answer = _answer(question, form, joined_)
-    kept = np.diff(answer.firsts) == np.array(counts)
+    answer = _answer(question, form, together)
+    kept = np.diff(answer.firsts) == counts
     return replace(answer, complete=[bool(a and b) for a, b in zip(complete, kept, strict=True)])
+
+
+def _piece(
+    question: Question,
+    form: ClosedForm,
+    part: slice,
+    most: int,
+    windings: bool,
+    elbow_angle: float | None,
+    deadline: float | None,
+    *,
+    sample: bool,
+) -> list[tuple[Branches, bool]]:
+    """The branches of some targets, and whether they are all; see `every`.
+
+    In one table where there is nothing special about any of them, else a table for each.
+    """
+    count, n = part.stop - part.start, len(question.chain)
+    if is_over(deadline):
+        return [(_nothing(n, count), False)]
+    anywhere = _solved(question, form, part, elbow_angle, respect_limits=False)
+    table = _solved(question, form, part, elbow_angle, respect_limits=True) if question.respect_limits else anywhere
+    if not (windings or anywhere.free.any() or np.diff(table.firsts).max(initial=0) > most):
+        return [(table, True)]
+    found: list[tuple[Branches, bool]] = []
+    for k in range(count):
+        if is_over(deadline):
+            return [*found, (_nothing(n, count - k), False)]
+        i, own, free = part.start + k, _row(table, k), _row(anywhere, k).free
+        whole = len(own.qs) <= most and not free.any()
+        if free.any() and (sample or not own.free.any()):
+            # Where the seed's position of a free joint is none of the limits', others may be.
+            own = _spread(question, form, i, own, np.unique(free[free > 0]), most, elbow_angle)
+        if windings and len(own.qs):
+            own, whole = _turned(question, i, own, most, whole)
+        found.append((_first(own, most), whole))
+    return found
+
+
+def _sampled(
+    question: Question, form: ClosedForm, i: int, most: int, windings: bool, deadline: float | None
+) -> tuple[Branches, bool]:
+    """A sample of the self-motion of a free elbow, which is never all there is."""
+    if is_over(deadline):
+        return _nothing(len(question.chain), 1), False
+    table = _thinned(question, form, i, most)
+    if windings and len(table.qs):
+        table, _ = _turned(question, i, table, most, whole=False)
+    return _first(table, most), False
 
 
 def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> InverseKinematics:
@@ -221,16 +264,27 @@ def _answer(question: Question, form: ClosedForm, table: Branches) -> InverseKin
     )
 
 
-def _one_by_one(
-    question: Question, form: ClosedForm, i: int, elbow_angle: float | None, respect_limits: bool
+def _solved(
+    question: Question, form: ClosedForm, part: slice, elbow_angle: float | None, *, respect_limits: bool
 ) -> Branches:
+    targets, seeds = question.part(part)
     return form.solve(
-        question.target(i),
-        question.seed(i)[None],
+        targets,
+        seeds,
         tolerances=question.tolerances,
         respect_limits=respect_limits,
         elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
     )
+
+
+def _row(table: Branches, k: int) -> Branches:
+    """The branches of one of the targets."""
+    rows = slice(table.firsts[k], table.firsts[k + 1])
+    return Branches(table.qs[rows], table.codes[rows], table.free[rows], _firsts_of_one(rows.stop - rows.start))
+
+
+def _firsts_of_one(count: int) -> Indices:
+    return np.array([0, count], dtype=np.int64)
 
 
 def _around(question: Question, form: ClosedForm, i: int, count: int, most: int) -> Branches:
@@ -253,10 +307,18 @@ def _thinned(question: Question, form: ClosedForm, i: int, most: int) -> Branche
     table = _around(question, form, i, _ELBOWS_SAMPLED, MOST)
     order = np.argsort(np.square(table.qs - question.seed(i)).sum(axis=1), kind="stable")
     order = order[thin_out(table.qs[order], free_variables(question.chain), SPACING, most)]
-    return Branches(table.qs[order], table.codes[order], table.free[order], np.array([0, len(order)]))
+    return Branches(table.qs[order], table.codes[order], table.free[order], _firsts_of_one(len(order)))
 
 
-def _spread(question: Question, form: ClosedForm, i: int, table: Branches, masks: Indices, most: int) -> Branches:
+def _spread(
+    question: Question,
+    form: ClosedForm,
+    i: int,
+    table: Branches,
+    masks: Indices,
+    most: int,
+    elbow_angle: float | None,
+) -> Branches:
     """The branches of one target, and a sample of those that a singularity joins to a continuum.
 
     Args:
@@ -266,6 +328,7 @@ def _spread(question: Question, form: ClosedForm, i: int, table: Branches, masks
         table: Its branches.
         masks: Which joints are free together.
         most: Largest number of solutions.
+        elbow_angle: Where a free elbow is to be, [rad].
     """
     target, seed = question.target(i), question.seed(i)
     rng, seeds = np.random.default_rng(0), []
@@ -282,6 +345,7 @@ def _spread(question: Question, form: ClosedForm, i: int, table: Branches, masks
         np.concatenate(seeds),
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
+        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
     )
     loose = others.free > 0
     qs = np.concatenate((table.qs, others.qs[loose]))
@@ -289,19 +353,21 @@ def _spread(question: Question, form: ClosedForm, i: int, table: Branches, masks
     order = order[thin_out(qs[order], free_variables(question.chain), SPACING, most)]
     codes = np.concatenate((table.codes, others.codes[loose]))[order]
     free_ = np.concatenate((table.free, others.free[loose]))[order]
-    return Branches(qs[order], codes, free_, np.array([0, len(order)]))
+    return Branches(qs[order], codes, free_, _firsts_of_one(len(order)))
 
 
 def _turned(question: Question, i: int, table: Branches, most: int, whole: bool) -> tuple[Branches, bool]:
     """Each branch in all the full turns that the limits allow."""
     qs, owners, whole = wound(question.chain, table.qs, question.seed(i), most, whole, question.respect_limits)
-    return Branches(qs, table.codes[owners], table.free[owners], np.array([0, len(qs)])), whole
+    return Branches(qs, table.codes[owners], table.free[owners], _firsts_of_one(len(qs))), whole
 
 
 def _first(table: Branches, most: int) -> Branches:
-    return Branches(table.qs[:most], table.codes[:most], table.free[:most], table.firsts)
+    """The first solutions of one target."""
+    return Branches(table.qs[:most], table.codes[:most], table.free[:most], _firsts_of_one(min(len(table.qs), most)))
 
 
-def _nothing(n: int) -> Branches:
+def _nothing(n: int, count: int = 1) -> Branches:
+    """No branch of so many targets."""
     none = np.zeros(0, dtype=np.int64)
-    return Branches(np.empty((0, n)), none, none, np.zeros(2, dtype=np.int64))
+    return Branches(np.empty((0, n)), none, none, np.zeros(count + 1, dtype=np.int64))
