@@ -3,11 +3,12 @@
 import sys
 from collections.abc import Callable
 
-from tests.benchmarks import batch, ik, quality, requests, start, volume
+from tests.benchmarks import batch, ik, ik_all, quality, requests, start, volume
 from tests.benchmarks.table import Row, show
 
 BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
     "solvers": ik.measure,
+    "ik-all": ik_all.measure,
     "quality": quality.measure,
     "batch": batch.measure,
     "requests": requests.measure,

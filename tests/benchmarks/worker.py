@@ -4,6 +4,7 @@ import gc
 import os
 import time
 from collections.abc import Callable
+from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from typing import Any, NamedTuple
@@ -46,29 +47,34 @@ class Run(NamedTuple):
     inside: Array | None = None
 
 
-class Worker:
-    """The process of one solver."""
+class Attendant:
+    """A process that answers whatever it is asked by one function, which begins anew when it has crashed or hangs.
 
-    def __init__(self, peer: type[Peer]) -> None:
-        self.peer = peer
+    Args:
+        answer: Called there with what is asked; returns the answer, or a string that says why there is none.
+        one_core: Whether it is held on one core.
+    """
+
+    def __init__(self, answer: Callable[..., Any], one_core: bool) -> None:
+        self._answer, self._one_core = answer, one_core
         self._start()
 
     def _start(self) -> None:
         context = get_context("spawn")
         self._pipe, theirs = context.Pipe()
-        self._process = context.Process(target=serve, args=(self.peer, theirs), daemon=True)
+        self._process = context.Process(target=serve, args=(self._answer, self._one_core, theirs), daemon=True)
         with patch.dict(os.environ, ONE_THREAD):
             self._process.start()
         theirs.close()
 
-    def run(self, arm: Arm, targets: Targets) -> Run:
-        """Have all targets of an arm solved.
+    def ask(self, *question: Any) -> Any:
+        """Wait for the answer.
 
         Raises:
-            Failed: There are no answers.
+            Failed: There is none.
         """
         try:
-            self._pipe.send((arm, targets))
+            self._pipe.send(question)
             if not self._pipe.poll(PATIENCE):
                 self._restart()
                 raise Failed(f"no answer after {PATIENCE:.0f} s")
@@ -76,9 +82,9 @@ class Worker:
         except (EOFError, OSError):
             exit_code = self._restart()
             raise Failed(f"crashed, exit code {exit_code}") from None
-        if isinstance(answer, Run):
-            return answer
-        raise Failed(answer)
+        if isinstance(answer, str):
+            raise Failed(answer)
+        return answer
 
     def _restart(self) -> int | None:
         """Begin anew; returns with what the old process ended."""
@@ -95,26 +101,49 @@ class Worker:
         self._pipe.close()
 
 
-def serve(peer: type[Peer], pipe: Connection) -> None:
+class Worker(Attendant):
+    """The process of one solver."""
+
+    def __init__(self, peer: type[Peer]) -> None:
+        self.peer = peer
+        super().__init__(partial(solve_all, peer), peer.one_core)
+
+    def run(self, arm: Arm, targets: Targets) -> Run:
+        """Have all targets of an arm solved.
+
+        Raises:
+            Failed: There are no answers.
+        """
+        run = self.ask(arm, targets)
+        assert isinstance(run, Run)
+        return run
+
+
+def serve(answer: Callable[..., Any], one_core: bool, pipe: Connection) -> None:
     """Answer until the other end is closed."""
-    if peer.one_core:
+    if one_core:
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
     while True:
         try:
-            arm, targets = pipe.recv()
+            question = pipe.recv()
         except EOFError:
             return
-        pipe.send(attempt(peer, arm, targets))
+        pipe.send(attempt(answer, question))
 
 
-def attempt(peer: type[Peer], arm: Arm, targets: Targets) -> Run | str:
+def attempt(answer: Callable[..., Any], question: tuple[Any, ...]) -> Any:
     """What a solver does, or why it does not."""
     try:
-        return measure(peer(arm), targets)
+        return answer(*question)
     except ImportError as error:
         return f"missing: {error}"
     except BaseException as error:  # A panic in Rust is no Exception.
         return f"cannot: {(str(error) or repr(error)).splitlines()[0]}"
+
+
+def solve_all(peer: type[Peer], arm: Arm, targets: Targets) -> Run:
+    """What a solver does with all targets of an arm."""
+    return measure(peer(arm), targets)
 
 
 def measure(peer: Peer, targets: Targets) -> Run:

@@ -28,8 +28,8 @@ from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
 from app.model.chain import FlatChain
 
 _TURN = 2.0 * np.pi
-_ROUNDS = 12
-"""Iterations of polishing at most; nearly always one or two are enough."""
+_ROUNDS = 40
+"""Iterations of polishing at most; nearly always one or two are enough, but where two branches meet each halves."""
 _PERFECT = 1e-28
 """Squared error that is left alone, [m² + rad²]."""
 _EXACT = 1e-20
@@ -269,12 +269,12 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
         position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
         error = position + orientation
         better = error < least
-        stalled = where(error < 0.25 * least, 0.0, stalled + 1.0)
+        stalled = where(error < 0.5 * least, 0.0, stalled + 1.0)
         least = where(better, error, least)
         store(work.state, _POSITION, where(better, position, load(work.state, _POSITION)))
         store(work.state, _ORIENTATION, where(better, orientation, load(work.state, _ORIENTATION)))
         damping = where(better, max_lanes(1e-3 * damping, floor), min_lanes(100.0 * damping, 1e6))
-        if bits((least > _PERFECT) & (stalled < 3.0)) == 0:
+        if bits((least > _PERFECT) & (stalled < 6.0)) == 0:
             for j in range(len(work.q) // LANES):
                 store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
             break

@@ -97,7 +97,7 @@ class ClosedForm:
         if elbow_angles is None and self.has_free_elbow:
             angles = self.elbow_angles(seeds)
         rows = _in_reach_of(self, target_rows(targets))
-        limits = np.stack(limits_of(chain, respect_limits))
+        limits = _limit_rows(chain, respect_limits)
         return branches(chain.flat, self.plan, goal, limits, rows, np.ascontiguousarray(seeds), angles, most)
 
     @property
@@ -201,6 +201,12 @@ def elimination(chain: Chain) -> ClosedForm | None:
     if scores[best] < _GENERAL_MUST_PASS:
         return None
     return ClosedForm(GENERAL_NAME, chain, FULL_POSE, forms[best].plan, (Choice("arm", 0),))
+
+
+@lru_cache(maxsize=256)
+def _limit_rows(chain: Chain, respect_limits: bool) -> Array:
+    """Lower and upper limits of the variables, infinite where they do not count; shape (2, n)."""
+    return np.stack(limits_of(chain, respect_limits))
 
 
 def _is_simple(chain: Chain) -> bool:

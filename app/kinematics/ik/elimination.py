@@ -312,7 +312,8 @@ def _turning_points(space: Space) -> int:
     count = 0
     for arc in range(_ARCS):
         centre = (2 * arc + 1) * _HALF_ARC
-        _bernstein(series, centre, space.powers, stack[0])
+        if not _bernstein(series, centre, space.powers, stack[0]):
+            continue
         lefts, widths = space.edges[0], space.edges[1]
         lefts[0], widths[0] = centre - _HALF_ARC, 2.0 * _HALF_ARC
         depth = 1
@@ -338,8 +339,11 @@ def _turning_points(space: Space) -> int:
 
 
 @unmanaged
-def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> None:
-    """The slope on an arc, by the coefficients of Bernstein's polynomials."""
+def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> bool:
+    """The slope on an arc, by the coefficients of Bernstein's polynomials; False where its constant outweighs the rest.
+
+    Then it does not vanish on the arc.
+    """
     for k in range(_TERMS):
         powers[k] = 0.0
     c, s = math.cos(centre), math.sin(centre)
@@ -351,11 +355,17 @@ def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> None:
         for k in range(_TERMS):
             powers[k] += factor * (across if k % 2 == 0 else along) * (-1.0 if (k + 1) // 2 % 2 else 1.0)
             factor *= x / (k + 1)
+    rest = 0.0
+    for k in range(1, _TERMS):
+        rest += abs(powers[k])
+    if abs(powers[0]) > rest:
+        return False
     for k in range(_TERMS):
         total = 0.0
         for m in range(_TERMS):
             total += _TO_BERNSTEIN[k, m] * powers[m]
         out[k] = total
+    return True
 
 
 @inlined
