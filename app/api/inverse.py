@@ -47,7 +47,7 @@ def inverse_operation(max_answer_numbers: int) -> Operation:
         turning or sliding); six joints with three parallel axes; positioning arms of two and three joints, with or
         without turns at their end (planar, SCARA, Cartesian, cylindrical, spherical, anthropomorphic); spherical
         wrists; seven joints with a spherical shoulder and wrist, by the angle of the elbow. Of six turning joints of
-        any other geometry `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one.
+        most other geometries `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one.
         """
         chain, targets, seeds = _asked(loaded, call)
         _check_size(call, len(targets), len(chain), max_answer_numbers)
@@ -181,6 +181,8 @@ def _task(call: InverseRequest) -> Task:
 
 @lru_cache(maxsize=64)
 def _task_of(directions: frozenset[Direction]) -> Task:
+    if len(directions) == len(DIRECTIONS):
+        return FULL_POSE
     return Task(tuple(direction for direction in DIRECTIONS if direction in directions))
 
 

@@ -108,8 +108,13 @@ class Isolated:
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
         process = context.Process(target=serve, args=(theirs,), name="isolated", daemon=True)
-        process.start()
-        theirs.close()
+        try:
+            process.start()
+        except (OSError, RuntimeError) as error:
+            ours.close()
+            raise ChildProcessError("no process could be started") from error
+        finally:
+            theirs.close()
         self._process, self._connection = process, ours
         return ours
 

@@ -189,6 +189,8 @@ def _place(error: errors.KinematicsError) -> str | None:
             return "#/urdf"
         case errors.InvalidDhTable(joint=None):
             return "#/dh"
+        case errors.InvalidPose(field=("base" | "tool") as place, index=None):
+            return f"#/dh/{place}"
         case errors.InvalidDhTable(joint=joint, parameter=parameter):
             return f"#/dh/joints/{joint}" + (f"/{parameter}" if parameter else "")
     index, field = getattr(error, "index", None), getattr(error, "field", "joint_positions")

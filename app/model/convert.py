@@ -167,6 +167,11 @@ def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
 def _warnings(table: DhTable) -> tuple[str, ...]:
     warnings = []
     for row in table.joints:
+        for key in ("alpha", "theta"):
+            angle = getattr(row, key)
+            if abs(angle) > 2.0 * math.pi:
+                more = f"{key} = {angle:.6g} rad is more than a full turn, in degrees it would be {angle / 180:.6g} π"
+                warnings.append(f"joint {quoted(row.name)}: {more}")
         if row.mimic is not None:
             continue
         left_out = [key for key in ("lower", "upper") if getattr(row, key) is None]

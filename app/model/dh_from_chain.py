@@ -43,6 +43,8 @@ PARALLEL = 2e-11
 """Tilt [rad] below which axes are parallel after all where their common normal is too far away: π to eleven digits."""
 MAX_SNAP_TOLERANCE = 0.1
 
+_DIGITS = 12
+"""Decimals of a snapped length."""
 _SQUARE = 1e-4
 """Tilt of the tip's z against the last axis below which the tool takes it up: the normal could be far away."""
 _STEEP = 1e-2
@@ -337,7 +339,8 @@ class _Lines:
 
     def _zero(self, length: float) -> float:
         if abs(length) > self._length:
-            return length
+            # A person would not write the last digits that sums of decimals leave.
+            return round(length, _DIGITS) if self._snapping else length
         self._most_length = max(self._most_length, abs(length))
         return 0.0
 

@@ -136,7 +136,9 @@ class SolutionInfo(Answer):
         "quartic."
     )
     free_joints: list[str] | None = Field(
-        None, description="Joints that a singularity leaves free; they have kept the seed's positions."
+        None,
+        description="Joints that a singularity leaves free: at the seed's positions where the others can follow, else "
+        "at others.",
     )
     elbow_angle: float | None = Field(
         None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
@@ -192,7 +194,11 @@ class InverseResult(Answer):
         description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
         "follow at `nearest`.",
     )
-    complete: bool | None = Field(None, description="With `all`: whether these are all solutions.")
+    complete: bool | None = Field(
+        None,
+        description="With `all`: whether these are all solutions; false next to a singularity too, where rounding may "
+        "cost one.",
+    )
     stop_reason: StopReason | None = Field(
         None, description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ)."
     )

@@ -7,20 +7,26 @@ import numpy as np
 import numpy.typing as npt
 
 from app.kinematics.ik.branch_kernels import Branches
-from app.kinematics.ik.branches import SPACING, thin_out, wound
+from app.kinematics.ik.branches import SPACING, all_branches, thin_out, wound
 from app.kinematics.ik.closed_form import ClosedForm
 from app.kinematics.ik.compositions import MOST
 from app.kinematics.ik.judge import judged
+from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches, Status
-from app.kinematics.ik.search import free_variables, is_over, pieces, processors, shared
+from app.kinematics.ik.search import free_variables, is_over, limits_of, pieces, processors, shared, target_rows
 from app.kinematics.ik.verdict import Question
-from app.model.arrays import Flags, Indices
+from app.kinematics.kernels import chain_jacobians
+from app.model.arrays import Array, Flags, Indices
 from app.model.poses import Poses
 
 _Number = TypeVar("_Number", np.float64, np.int64)
 
 _PIECE = 1024
 """Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
+_APART = 1e-6
+"""How far apart two solutions are that a closed form and a search have found, [rad or m]."""
+_NEWTON_STEPS, _EXACT = 20, 1e-11
+"""Of a solution that a search has found, and the error that it must come to, [m, rad]."""
 _FREE_SAMPLED = 24
 """Positions of a joint that a singularity leaves free."""
 _ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
@@ -141,7 +147,8 @@ def _piece(
         return [(_nothing(n, count), False)]
     anywhere = _solved(question, form, part, elbow_angle, respect_limits=False)
     table = _solved(question, form, part, elbow_angle, respect_limits=True) if question.respect_limits else anywhere
-    if not (windings or anywhere.free.any() or np.diff(table.firsts).max(initial=0) > most):
+    doubtful = _doubtful(question, form, anywhere)
+    if not (windings or anywhere.free.any() or doubtful.any() or np.diff(table.firsts).max(initial=0) > most):
         return [(table, True)]
     found: list[tuple[Branches, bool]] = []
     for k in range(count):
@@ -152,10 +159,70 @@ def _piece(
         if free.any() and (sample or not own.free.any()):
             # Where the seed's position of a free joint is none of the limits', others may be.
             own = _spread(question, form, i, own, np.unique(free[free > 0]), most, elbow_angle)
+        if doubtful[k]:
+            whole = False
+            if not form.is_exact:
+                own = _completed(question, i, own, most)
         if windings and len(own.qs):
             own, whole = _turned(question, i, own, most, whole)
         found.append((_first(own, most), whole))
     return found
+
+
+def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
+    """At which targets a closed form may lack solutions, for being next to a singularity; shape (N,).
+
+    There rounding tells, and where the geometry is only nearly special the arm may have others than the form.
+    """
+    count = len(table.firsts) - 1
+    owners = np.repeat(np.arange(count), np.diff(table.firsts))
+    sizes = np.linalg.svd(chain_jacobians(question.chain.flat, table.qs)[2], compute_uv=False)
+    near = sizes[:, min(len(question.chain), len(question.task)) - 1] < form.doubt
+    flags: Flags = np.bincount(owners, near, minlength=count) > 0
+    return flags if form.is_exact else flags | (np.diff(table.firsts) == 0)
+
+
+def _completed(question: Question, i: int, table: Branches, most: int) -> Branches:
+    """The branches of one target, and what a search finds beside them, whose code is -1."""
+    found = all_branches(
+        question.chain,
+        target_rows(question.target(i))[0],
+        question.seed(i),
+        task=question.task,
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+        random_seed=0,
+        most=most,
+        windings=False,
+    )
+    more = _refined(question, i, found.qs)
+    qs = np.concatenate((table.qs, more))
+    codes = np.concatenate((table.codes, np.full(len(more), -1, dtype=np.int64)))
+    free = np.concatenate((table.free, np.zeros(len(more), dtype=np.int64)))
+    # The form's come first, so that of two that are the same the named one stays.
+    order = thin_out(qs, free_variables(question.chain), _APART, most)
+    order = order[np.argsort(np.square(qs[order] - question.seed(i)).sum(axis=1), kind="stable")]
+    return Branches(qs[order], codes[order], free[order], _firsts_of_one(len(order)))
+
+
+def _refined(question: Question, i: int, qs: Array) -> Array:
+    """Solutions driven to rounding by Newton's method, which next to a singularity goes further than damped steps.
+
+    What does not come there is only within the tolerances, and left out.
+    """
+    best, least = qs.copy(), np.full(len(qs), np.inf)
+    target, lower, upper = question.target(i), *limits_of(question.chain, question.respect_limits)
+    for _ in range(_NEWTON_STEPS if len(qs) else 0):
+        es, Js = linearise(question.chain, target, qs, question.task)
+        errors = np.linalg.norm(es, axis=1)
+        better = errors < least
+        if not better.any():
+            break
+        best[better], least[better] = qs[better], errors[better]
+        steps = np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=1e-14), es)
+        steps *= np.minimum(1.0, 0.5 / np.maximum(np.abs(steps).max(axis=1), 1e-300))[:, None]
+        qs = np.clip(np.where(better[:, None], qs + steps, qs), lower, upper)
+    return best[least <= _EXACT]
 
 
 def _sampled(
@@ -210,14 +277,22 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
     )
 
 
-def elsewhere(rest: InverseKinematics) -> InverseKinematics:
-    """What a search solved, but not with the elbow where it was asked to be, as failures."""
+def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinematics:
+    """What a search solved, but not as it was asked to be, as failures.
+
+    Args:
+        rest: What the search came to.
+        elbow_angle: Where the elbow was asked to be; None where only a closed form was asked for.
+    """
     failures, statuses = dict(rest.failures), list(rest.statuses)
-    reason = "no branch with the elbow at this angle is within the limits; with another it can be reached"
+    reason = "no branch with the elbow at this angle reaches it as asked; with another angle it is reached"
+    if elbow_angle is None:
+        reason = "no branch of the closed form reaches it as asked; what a search finds is in `nearest`"
     for i in np.flatnonzero(np.diff(rest.firsts)).tolist():
         k = int(rest.firsts[i])
         errors = float(rest.position_errors[k]), float(rest.orientation_errors[k])
-        statuses[i], failures[i] = "outside_limits", Failure(reason, rest.qs[k], *errors)
+        statuses[i] = "not_converged" if elbow_angle is None else "outside_limits"
+        failures[i] = Failure(reason, rest.qs[k], *errors)
     nothing = np.zeros(0, dtype=np.int64)
     return replace(
         rest,
@@ -243,7 +318,7 @@ def _answer(question: Question, form: ClosedForm, table: Branches) -> InverseKin
     """The branches that are solutions when they are recomputed through Pinocchio."""
     counts = np.diff(table.firsts)
     owners = np.repeat(np.arange(len(counts)), counts)
-    asked = question if len(owners) == len(question) else question.taken(owners)
+    asked = question if (counts == 1).all() else question.taken(owners)
     good, *errors = judged(asked, table.qs, np.ones(len(owners), dtype=np.bool_))
     statuses: list[Status] = ["solved"] * len(question)
     if not good.all():

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.kinematics.ik.compositions import MOST, Candidates, Plan, compose, elbow_angle
-from app.kinematics.ik.elimination import make_space
+from app.kinematics.ik.elimination import largest_below, make_space
 from app.kinematics.ik.iteration import (
     COUNT,
     FULL,
@@ -32,6 +32,10 @@ _ROUNDS = 40
 """Iterations of polishing at most; nearly always one or two are enough, but where two branches meet each halves."""
 _PERFECT = 1e-28
 """Squared error that is left alone, [m² + rad²]."""
+_REFINEMENTS, _SHORTEST_SHARE = 40, 1e-4
+"""Steps of Newton's method, and the share of one after which a lane is given up."""
+DIRECTIONS = 6
+"""Of a whole pose."""
 _EXACT = 1e-20
 """Squared error up to which a target is met, [m² + rad²]."""
 _DAMPING, _LEAST_DAMPING = 1e-12, 1e-22
@@ -61,12 +65,15 @@ class Branches(NamedTuple):
 
 
 class _Kept(NamedTuple):
-    """The solutions of one target, sorted; rows of MOST."""
+    """The solutions of one target, sorted; rows of MOST, and one behind them. Then room for refining them."""
 
     qs: Array
     distances: Array
     errors: Array
     labels: Indices
+    system: Array
+    residuals: Array
+    order: Indices
 
 
 def branches(
@@ -143,7 +150,15 @@ def _branches(
         np.empty((2, 8), np.int64),
         make_space(),
     )
-    kept = _Kept(np.empty((MOST + 1, n)), np.empty(MOST + 1), np.empty(MOST + 1), np.empty((2, MOST + 1), np.int64))
+    kept = _Kept(
+        np.empty((MOST + 1, n)),
+        np.empty(MOST + 1),
+        np.empty(MOST + 1),
+        np.empty((2, MOST + 1), np.int64),
+        np.empty((DIRECTIONS, DIRECTIONS + 1)),
+        np.empty((DIRECTIONS + 1) * LANES),
+        np.empty(DIRECTIONS, np.int64),
+    )
     work = workspace(flat, n)
     qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
     firsts = np.zeros(count + 1, np.int64)
@@ -243,6 +258,8 @@ def _solve(
                 i = n - 1 - j if plan.backwards else j
                 work.q[j * LANES + lane] = (found.values[row, i] - flat.drives[j, 1]) * flat.drives[j, 0]
         good = _polish(flat, goal, work)
+        if n == DIRECTIONS and goal.kind == FULL:
+            good = _refine(flat, goal, work, kept)
         for lane in range(min(LANES, candidates - first)):
             if (good >> lane) & 1:
                 read_lane(work.previous, lane, own)
@@ -284,6 +301,92 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
     )
     good: int = bits(within)
     return good
+
+
+@unmanaged
+def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
+    """Newton's method on J itself for the lanes that are not at rounding yet.
+
+    Next to a singularity the square of a small singular value is lost in JJᵀ, and damped steps stop too early.
+
+    Returns:
+        A bit for each lane that is within the tolerances.
+    """
+    state, A, share = work.state, kept.system, kept.residuals[DIRECTIONS * LANES :]
+    share[:] = 1.0
+    for _ in range(_REFINEMENTS):
+        if bits(load(state, _POSITION) + load(state, _ORIENTATION) > _PERFECT) == 0:
+            break
+        for j in range(DIRECTIONS):
+            store(work.q, j, load(work.previous, j))
+        e = linearise(flat, goal, work)
+        for k in range(DIRECTIONS):
+            store(kept.residuals, k, e[k])
+        for lane in range(LANES):
+            if state[_POSITION * LANES + lane] + state[_ORIENTATION * LANES + lane] <= _PERFECT:
+                continue
+            for k in range(DIRECTIONS):
+                for j in range(DIRECTIONS):
+                    A[k, j] = work.J[(6 * j + k) * LANES + lane]
+                A[k, DIRECTIONS] = kept.residuals[k * LANES + lane]
+            _eliminate(A, kept.order)
+            for j in range(DIRECTIONS):
+                work.q[j * LANES + lane] += share[lane] * A[j, DIRECTIONS]
+        e = linearise(flat, goal, work)
+        position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
+        before = load(state, _POSITION) + load(state, _ORIENTATION)
+        better = position + orientation < before
+        # What has gone too far goes a quarter of the way next time.
+        store(share, 0, where(better, min_lanes(2.0 * load(share, 0), 1.0), 0.25 * load(share, 0)))
+        if bits((load(share, 0) > _SHORTEST_SHARE) & (before > _PERFECT)) == 0:
+            break
+        for j in range(DIRECTIONS):
+            store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
+        store(state, _POSITION, where(better, position, load(state, _POSITION)))
+        store(state, _ORIENTATION, where(better, orientation, load(state, _ORIENTATION)))
+    within = (load(state, _POSITION) <= goal.position_tolerance**2) & (
+        load(state, _ORIENTATION) <= goal.chord_tolerance**2
+    )
+    good: int = bits(within)
+    return good
+
+
+@unmanaged
+def _eliminate(A: Array, order: Indices) -> None:
+    """Solve six linear equations by full pivoting; the last column becomes the solution, no entry larger than 0.5.
+
+    What belongs to a pivot that is nothing but rounding is left alone.
+    """
+    n = DIRECTIONS
+    for j in range(n):
+        order[j] = j
+    largest = 0.0
+    for j in range(n):
+        row, column, best = largest_below(A, j, n)
+        largest = max(largest, best)
+        for m in range(n + 1):
+            A[j, m], A[row, m] = A[row, m], A[j, m]
+        for k in range(n):
+            A[k, j], A[k, column] = A[k, column], A[k, j]
+        order[j], order[column] = order[column], order[j]
+        if best <= 1e-15 * largest:
+            continue
+        for k in range(j + 1, n):
+            factor = A[k, j] / A[j, j]
+            for m in range(j, n + 1):
+                A[k, m] -= factor * A[j, m]
+    scale = 1.0
+    for i in range(n):
+        j = n - 1 - i
+        total = A[j, n]
+        for m in range(j + 1, n):
+            total -= A[j, m] * A[m, n]
+        A[j, n] = total / A[j, j] if abs(A[j, j]) > 1e-15 * largest else 0.0
+        scale = max(scale, 2.0 * abs(A[j, n]))
+    for j in range(n):
+        A[j, 0] = A[j, n] / scale
+    for j in range(n):
+        A[order[j], n] = A[j, 0]
 
 
 @unmanaged

@@ -6,7 +6,7 @@ recognised here is solved, whatever the description calls itself.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
 from typing import TypeAlias
@@ -33,16 +33,21 @@ from app.kinematics.ik.compositions import (
     Plan,
 )
 from app.kinematics.ik.elimination import left_sides
+from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import limits_of, make_goal, mid_range, target_rows
 from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.kernels import chain_jacobians, chain_poses
+from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain
 from app.model.poses import Poses, inverse
 
 GENERAL_NAME = "six turning joints, by elimination"
-_MEETING, _ALIGNED = 1e-6, 1e-6
+_EXACTLY, _ROUNDED, _NEARLY = 1e-14, 1e-10, 1e-6
 """Distance [m] at which lines meet, and sine of the angle at which they are parallel: descriptions round π."""
+_SINGULAR = 1e-6
+"""Smallest singular value so near to a singularity that rounding may cost a solution."""
+_CLEARLY = 1e-4
+"""The same that shows beyond doubt that they do not."""
 _TESTS, _MUST_PASS = 48, 46
 """Configurations of the test, and how many must be found again: a few may lie next to a singularity."""
 _NAMING = 64
@@ -63,6 +68,7 @@ class ClosedForm:
         plan: How it is solved.
         choices: What each root means: its bit, the name of the choice, and what it is called where the bit is 0 and
             where it is 1.
+        tolerance: How far the geometry may be from what the plan assumes: sine of an angle, or distance [m].
     """
 
     name: str
@@ -70,6 +76,7 @@ class ClosedForm:
     task: Task
     plan: Plan
     choices: tuple["Choice", ...] = ()
+    tolerance: float = 0.0
 
     def solve(
         self,
@@ -99,6 +106,19 @@ class ClosedForm:
         rows = _in_reach_of(self, target_rows(targets))
         limits = _limit_rows(chain, respect_limits)
         return branches(chain.flat, self.plan, goal, limits, rows, np.ascontiguousarray(seeds), angles, most)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the geometry is what the plan assumes, rounding apart."""
+        return self.tolerance <= _EXACTLY
+
+    @property
+    def doubt(self) -> float:
+        """Smallest singular value [m, rad] below which the arm may have other solutions than those that are told.
+
+        Where two solutions meet, what is off by ε is off by √ε in the joints: in the geometry, or at least by rounding.
+        """
+        return max(_SINGULAR, 10.0 * float(np.sqrt(self.tolerance)))
 
     @property
     def method(self) -> str:
@@ -179,12 +199,13 @@ def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: A
 
 
 def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
-    if not _is_simple(chain) or not _is_independent(chain):
+    if not _is_simple(chain) or not _is_independent(chain, task):
         return None
-    for name, plan in _plans(chain):
-        form = ClosedForm(name, chain, task, plan)
-        if _fits(form) and _found_again(form, _TESTS) >= _MUST_PASS:
-            return ClosedForm(name, chain, task, plan, _choices(form))
+    for tolerance in (_EXACTLY, _ROUNDED, _NEARLY):
+        for name, plan in _plans(chain, tolerance):
+            form = ClosedForm(name, chain, task, plan)
+            if _fits(form) and _found_again(form, _TESTS) >= _MUST_PASS:
+                return ClosedForm(name, chain, task, plan, _choices(form), tolerance)
     return None
 
 
@@ -193,7 +214,7 @@ def elimination(chain: Chain) -> ClosedForm | None:
     """How all solutions of six turning joints without a closed form are found; None where that does not work."""
     if not _is_simple(chain) or len(chain) != 6 or chain.flat.joints[:, 0].any():
         return None
-    ahead = _screws(chain)
+    ahead = _screws(chain, _NEARLY)
     forms = [ClosedForm(GENERAL_NAME, chain, FULL_POSE, _general_plan(screws)) for screws in (ahead, ahead.reversed())]
     # Where the geometry is special one of the two is better, or neither works.
     scores = [_found_again(form, _GENERAL_TESTS) for form in forms]
@@ -216,11 +237,14 @@ def _is_simple(chain: Chain) -> bool:
     return bool(own) and 2 <= len(chain) <= 7 and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
 
 
-def _is_independent(chain: Chain) -> bool:
-    """Whether no joint can make up for another one, but for the elbow of seven joints."""
+def _is_independent(chain: Chain, task: Task) -> bool:
+    """Whether no joint can make up for another one in what counts, but for the elbow of seven joints."""
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
     qs = np.random.default_rng(1).uniform(-reach, reach, (5, len(chain)))
-    sizes = np.linalg.svd(chain_jacobians(chain.flat, qs)[2], compute_uv=False)[:, min(len(chain), 6) - 1]
+    Js = linearise(chain, Poses(*chain_poses(chain.flat, qs)), qs, task)[1]
+    if len(task) < min(len(chain), 6):
+        return False
+    sizes = np.linalg.svd(Js, compute_uv=False)[:, min(len(chain), 6) - 1]
     return bool(np.median(sizes) > 1e-9)
 
 
@@ -235,6 +259,7 @@ class Screws:
         tip: The tip's origin at zero, where solving starts at the base, else the base's; shape (3,), [m].
         zero: T_0⁻¹; shape (12,).
         backwards: Whether the order is from the tip's end.
+        tolerance: Distance [m] at which lines count as meeting, and sine of an angle at which they count as parallel.
     """
 
     axes: Array
@@ -243,15 +268,22 @@ class Screws:
     tip: Array
     zero: Array
     backwards: bool
+    tolerance: float
 
     def reversed(self) -> "Screws":
         """The same arm from its other end: M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹."""
         return Screws(
-            -self.axes[::-1], self.points[::-1].copy(), self.slides[::-1].copy(), np.zeros(3), self.zero, True
+            -self.axes[::-1],
+            self.points[::-1].copy(),
+            self.slides[::-1].copy(),
+            np.zeros(3),
+            self.zero,
+            True,
+            self.tolerance,
         )
 
 
-def _screws(chain: Chain) -> Screws:
+def _screws(chain: Chain, tolerance: float) -> Screws:
     T = np.eye(4)
     axes, points = [], []
     flat = chain.flat
@@ -270,12 +302,13 @@ def _screws(chain: Chain) -> Screws:
         T[:3, 3].copy(),
         np.append(zero[:3, :3], zero[:3, 3]),
         False,
+        tolerance,
     )
 
 
-def _plans(chain: Chain) -> Iterator[tuple[str, Plan]]:
+def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, Plan]]:
     """The ways in which an arm may be solved, the best first."""
-    ahead = _screws(chain)
+    ahead = _screws(chain, tolerance)
     n = len(chain)
     if n == 7:
         yield from _elbow_plans(ahead)
@@ -298,7 +331,7 @@ def _decoupled_plans(screws: Screws, last: int) -> Iterator[tuple[str, Plan]]:
     if screws.slides[placed:].any():
         return
     centre = _meeting_point(screws, placed, n)
-    if centre is None:
+    if centre is None or not _is_positioned(screws, placed, centre):
         return
     ends = ("base", "shoulder") if screws.backwards else ("tip", "wrist")
     name = (
@@ -314,6 +347,33 @@ def _decoupled_plans(screws: Screws, last: int) -> Iterator[tuple[str, Plan]]:
             lines[13] = centre
             lines[6] = _square_to(screws.axes[-1])
             yield name, _plan(screws, DECOUPLED, form, placed, order, lines)
+
+
+def _is_positioned(screws: Screws, placed: int, centre: Array) -> bool:
+    """Whether the first joints move a point in as many directions as they are: else its position does not tell them."""
+    step, rng = 1e-5, np.random.default_rng(2)
+    ranks = []
+    for _ in range(5):
+        q = rng.uniform(-1.0, 1.0, placed)
+        columns = [
+            (_carried(screws, q + step * unit, centre) - _carried(screws, q - step * unit, centre)) / (2.0 * step)
+            for unit in np.eye(placed)
+        ]
+        ranks.append(int(np.linalg.matrix_rank(np.array(columns), tol=1e-7)) if placed else 0)
+    return int(np.median(ranks)) == placed
+
+
+def _carried(screws: Screws, q: Array, point: Array) -> Array:
+    """A point moved by the first joints."""
+    for i in reversed(range(len(q))):
+        h, o = screws.axes[i], screws.points[i]
+        if screws.slides[i]:
+            point = point + q[i] * h
+        else:
+            arm = point - o
+            c, s = np.cos(q[i]), np.sin(q[i])
+            point = o + c * arm + (1.0 - c) * (h @ arm) * h + s * np.cross(h, arm)
+    return np.asarray(point)
 
 
 def _plan(screws: Screws, kind: int, form: int, placed: int, order: Sequence[int], lines: Array) -> Plan:
@@ -342,12 +402,12 @@ def _meeting_point(screws: Screws, first: int, n: int) -> Array | None:
     if len(axes) == 1:
         return np.asarray(points[0] + axes[0] * (axes[0] @ (screws.tip - points[0])))
     for a, b in pairwise(axes):
-        if np.linalg.norm(np.cross(a, b)) < 1e3 * _ALIGNED:
+        if np.linalg.norm(np.cross(a, b)) < _CLEARLY:
             return None
     squares = [np.eye(3) - np.outer(a, a) for a in axes]
     centre = np.linalg.solve(sum(squares), sum(P @ p for P, p in zip(squares, points, strict=True)))
     apart = max(float(np.linalg.norm(P @ (centre - p))) for P, p in zip(squares, points, strict=True))
-    return np.asarray(centre) if apart <= _MEETING else None
+    return np.asarray(centre) if apart <= screws.tolerance else None
 
 
 def _elimination(screws: Screws, order: Sequence[int]) -> tuple[int, Array] | None:
@@ -363,11 +423,11 @@ def _elimination(screws: Screws, order: Sequence[int]) -> tuple[int, Array] | No
     if slides[1]:
         points[1] = points[0]
     elif not slides[0]:
-        points[0], points[1] = _feet(points[0], h1, points[1], h2)
+        points[0], points[1] = _feet(points[0], h1, points[1], h2, screws.tolerance)
     lines[: len(order)], lines[3 : 3 + len(order)] = axes, points
     if slides[0]:
         across = np.cross(h1, h2)
-        across = across / np.linalg.norm(across) if np.linalg.norm(across) > _ALIGNED else _square_to(h1)
+        across = across / np.linalg.norm(across) if np.linalg.norm(across) > screws.tolerance else _square_to(h1)
         betas = np.array([across, np.cross(h1, across)])
     else:
         betas = np.array([h1, 2.0 * (points[1] - points[0])])
@@ -375,19 +435,22 @@ def _elimination(screws: Screws, order: Sequence[int]) -> tuple[int, Array] | No
     lines[14:16] = betas
     if slides[1]:
         if slides[0]:
-            return (RAILS, lines) if abs(betas[1] @ h2) > _ALIGNED else None
-        return (OBLIQUE if abs(h1 @ h2) > _ALIGNED else SQUARE), lines
+            return (RAILS, lines) if abs(betas[1] @ h2) > screws.tolerance else None
+        return (OBLIQUE if abs(h1 @ h2) > screws.tolerance else SQUARE), lines
     x = _square_to(h2)
-    return _combination(lines, betas, x, np.cross(h2, x))
+    return _combination(lines, betas, x, np.cross(h2, x), screws.tolerance)
 
 
-def _combination(lines: Array, betas: Array, x: Array, y: Array) -> tuple[int, Array] | None:
+def _combination(lines: Array, betas: Array, x: Array, y: Array, tolerance: float) -> tuple[int, Array] | None:
     """How two equations B u = b tell a vector u of a plane whose length is known; B's rows are β in the axes x, y."""
     B = np.column_stack((betas @ x, betas @ y))
     lengths = np.linalg.norm(B, axis=1)
-    if lengths.max() <= _MEETING:
+    if lengths.max() <= tolerance:
         return None
-    if abs(np.linalg.det(B)) > _ALIGNED * lengths.max():
+    apart = abs(np.linalg.det(B)) / lengths.max()
+    if tolerance < apart <= _CLEARLY and tolerance < _NEARLY:
+        return None
+    if apart > tolerance:
         lines[9], lines[10] = x, y
         lines[11:13, :2] = np.linalg.inv(B)
         return SKEW, lines
@@ -403,20 +466,20 @@ def _combination(lines: Array, betas: Array, x: Array, y: Array) -> tuple[int, A
 def _parallel_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
     """Six turning joints, the second to the fourth about parallel axes."""
     h = screws.axes[1]
-    if screws.slides.any() or np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > _ALIGNED:
+    if screws.slides.any() or np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > screws.tolerance:
         return
     points = screws.points.copy()
-    feet = _feet(points[4], screws.axes[4], points[5], screws.axes[5])
+    feet = _feet(points[4], screws.axes[4], points[5], screws.axes[5], screws.tolerance)
     points[5] = feet[1]
-    if np.linalg.norm(feet[1] - feet[0]) <= _MEETING:
+    if np.linalg.norm(feet[1] - feet[0]) <= screws.tolerance:
         points[4] = feet[0]
-    screws = Screws(screws.axes, points, screws.slides, screws.tip, screws.zero, screws.backwards)
+    screws = replace(screws, points=points)
     h5, lines = screws.axes[4], np.zeros((_LINES, 3))
     for k, (start, arm) in enumerate(((h @ points[4], points[5] - points[4]), (0.0, screws.axes[5]))):
         axial = (h @ h5) * (h5 @ arm)
         lines[14 + k] = start + axial, h @ arm - axial, h @ np.cross(h5, arm)
     # Of (cos q_5, sin q_5) the combination is that of a plane's axes.
-    combined = _combination(lines, lines[14:16] @ np.eye(3)[:, [1, 2, 0]], np.eye(3)[0], np.eye(3)[1])
+    combined = _combination(lines, lines[14:16] @ np.eye(3)[:, [1, 2, 0]], np.eye(3)[0], np.eye(3)[1], screws.tolerance)
     if combined is not None:
         lines[6] = _square_to(h)
         yield "three parallel axes", _plan(screws, PARALLEL, combined[0], 3, (0, 1, 2), lines)
@@ -427,11 +490,14 @@ def _general_plan(screws: Screws) -> Plan:
     lines = np.zeros((_LINES, 3))
     points = screws.points.copy()
     for i in range(5):
-        points[i], points[i + 1] = points[i], _feet(points[i], screws.axes[i], points[i + 1], screws.axes[i + 1])[1]
+        points[i], points[i + 1] = (
+            points[i],
+            _feet(points[i], screws.axes[i], points[i + 1], screws.axes[i + 1], screws.tolerance)[1],
+        )
     size = 1.0 / max(float(np.linalg.norm(points - points[2], axis=1).max()), 1e-9)
     lines[:6] = size * (points - points[2])
     lines[6], lines[7], lines[8, 0] = _square_to(screws.axes[5]), points[2], size
-    moved = Screws(screws.axes, points, screws.slides, screws.tip, screws.zero, screws.backwards)
+    moved = replace(screws, points=points)
     plan = _plan(moved, GENERAL, SKEW, 3, (0, 1, 2), lines)
     return plan._replace(terms=left_sides(plan.axes, np.ascontiguousarray(lines[:6])))
 
@@ -446,24 +512,24 @@ def _elbow_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
     points, lines = screws.points.copy(), np.zeros((_LINES, 3))
     h4 = screws.axes[3]
     points[3] += h4 * (h4 @ (shoulder - points[3]))
-    if np.linalg.norm(points[3] - shoulder) <= _MEETING:
+    if np.linalg.norm(points[3] - shoulder) <= screws.tolerance:
         return
     lines[3], lines[13] = shoulder, wrist
     lines[6], lines[7] = _square_to(screws.axes[6]), _square_to(screws.axes[2])
-    moved = Screws(screws.axes, points, screws.slides, screws.tip, screws.zero, screws.backwards)
+    moved = replace(screws, points=points)
     yield "spherical shoulder and wrist", _plan(moved, ELBOW, COPLANAR, 3, (0, 1, 2), lines)
 
 
-def _feet(p: Array, a: Array, q: Array, b: Array) -> tuple[Array, Array]:
+def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Array, Array]:
     """Where two lines are nearest to each other; of parallel ones the foot of the first's point."""
     normal = np.cross(a, b)
     square = float(normal @ normal)
-    if square <= _ALIGNED**2:
+    if square <= tolerance**2:
         return p, np.asarray(q + b * (b @ (p - q)))
     between = q - p
     s, t = np.cross(between, b) @ normal / square, np.cross(between, a) @ normal / square
     first, second = p + s * a, q + t * b
-    if np.linalg.norm(second - first) <= _MEETING:
+    if np.linalg.norm(second - first) <= tolerance:
         # They meet: one point for both.
         first = second = 0.5 * (first + second)
     return np.asarray(first), np.asarray(second)
@@ -519,7 +585,7 @@ def _roots(plan: Plan) -> Roots:
         return {"shoulder": ARM_ROOT, "elbow": SECOND_ROOT, "wrist": LAST_ROOT}
     roots = {}
     if plan.form == COPLANAR and plan.placed:
-        parallel = np.linalg.norm(np.cross(plan.lines[0], plan.lines[1])) <= _ALIGNED
+        parallel = np.linalg.norm(np.cross(plan.lines[0], plan.lines[1])) <= _NEARLY
         names = (ends[0], "elbow") if parallel else ("elbow", ends[0])
         roots = {names[0]: FIRST_ROOT, names[1]: SECOND_ROOT} if plan.placed == 3 else {names[1]: SECOND_ROOT}
     elif plan.form == SQUARE:
@@ -629,7 +695,8 @@ def _fits(form: ClosedForm) -> bool:
     n, plan, wanted = len(form.chain), form.plan, frozenset(form.task.directions)
     if len(wanted) == 6:
         return True
-    if plan.kind != DECOUPLED or n != len(wanted):
+    # From the tip's end the whole orientation of the target would count.
+    if plan.kind != DECOUPLED or n != len(wanted) or plan.backwards:
         return False
     if n == 3 and wanted in {frozenset("xyz"), frozenset(("rx", "ry", "rz"))}:
         return plan.placed == (3 if "x" in wanted else 0)
@@ -644,7 +711,7 @@ def _plane_of(form: ClosedForm) -> int | None:
     """Along which axis of the base all joints turn and slide; None where they do not."""
     k = int(np.argmax(np.abs(form.plan.axes[0])))
     along = np.abs(form.plan.axes @ np.eye(3)[k])
-    return k if (along >= 1.0 - _ALIGNED**2).all() else None
+    return k if (along >= 1.0 - _NEARLY**2).all() else None
 
 
 def _in_reach_of(form: ClosedForm, rows: Array) -> Array:

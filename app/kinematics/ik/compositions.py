@@ -310,9 +310,9 @@ def _positions(plan: Plan, start: Vector, goal: Vector, seed: Array, found: Cand
             off_axis = math.sqrt(dot(across, across))
     v0, v1, v2, square = _third(plan, start, o2)
     if plan.form <= COPLANAR:
-        ways = _by_turn(plan, v0, v1, v2, square, k1, k2, bent, off_axis, found)
+        ways = _by_turn(plan, v0, v1, v2, square, k1, k2, bent, off_axis, seed, found)
     else:
-        ways = _by_slide(plan, v0, v1, v2, square, k1, k2, found)
+        ways = _by_slide(plan, v0, v1, v2, square, k1, k2, seed, found)
     return _finished(plan, start, goal, seed, ways, found)
 
 
@@ -363,10 +363,15 @@ def _basis(slides: int, q: float) -> Coefficients:
 
 
 @inlined
-def _roots_of(slides: int, g: Coefficients) -> tuple[float, float, bool]:
+def _roots_of(slides: int, g: Coefficients, kept: float) -> tuple[float, float, bool, bool]:
+    """Where a function of joint 3 vanishes, as `turns_at` has it; and whether it does everywhere: then `kept`."""
+    if abs(g[0]) + abs(g[1]) + abs(g[2]) < _NO_ARM * _NO_ARM:
+        return kept, 0.0, True, True
     if slides:
-        return slides_at(g[2], g[1], g[0])
-    return turns_at(g)
+        middle, half, good = slides_at(g[2], g[1], g[0])
+    else:
+        middle, half, good = turns_at(g)
+    return middle, half, good, False
 
 
 @inlined
@@ -396,6 +401,7 @@ def _by_turn(
     k2: float,
     bent: float,
     off_axis: float,
+    seed: Array,
     found: Candidates,
 ) -> int:
     """Joints 2 and 3 where joint 2 turns: u is of v's height and length, and two equations tell where it points.
@@ -425,11 +431,13 @@ def _by_turn(
             marks[0, count], marks[1, count] = k << ROOT_NUMBER, 0
             count += 1
         return count
-    middle, half, good = 0.0, 0.0, True
+    middle, half, good, idle = 0.0, 0.0, True, False
     if plan.placed == 3:
-        middle, half, good = _roots_of(slides, _sum(_sum((0.0, 0.0, 0.0), L[_SOLVE, 0], b1), L[_SOLVE, 1], b2))
+        g = _sum(_sum((0.0, 0.0, 0.0), L[_SOLVE, 0], b1), L[_SOLVE, 1], b2)
+        middle, half, good, idle = _roots_of(slides, g, seed[plan.order[2]])
     if not good:
         return 0
+    lost = 1 << plan.order[2] if idle else 0
     level = _sum(_sum((0.0, 0.0, 0.0), L[_SOLVE + 1, 0], b1), L[_SOLVE + 1, 1], b2)
     for third in range(2 if plan.placed == 3 else 1):
         q3 = middle + half if third else middle - half
@@ -447,16 +455,24 @@ def _by_turn(
         for sign in range(2):
             u = plus(scaled(w, x), side if sign else -side, y)
             first[count, 1], first[count, 2] = angle_onto(h2, v, u), q3
-            marks[0, count], marks[1, count] = FIRST_ROOT * third + SECOND_ROOT * sign, 0
+            marks[0, count], marks[1, count] = FIRST_ROOT * third + SECOND_ROOT * sign, lost
             if length < _NO_ARM * _NO_ARM:
-                marks[1, count] = 1 << plan.order[1]
+                marks[1, count] |= 1 << plan.order[1]
             count += 1
     return count
 
 
 @unmanaged
 def _by_slide(
-    plan: Plan, v0: Vector, v1: Vector, v2: Vector, square: Coefficients, k1: float, k2: float, found: Candidates
+    plan: Plan,
+    v0: Vector,
+    v1: Vector,
+    v2: Vector,
+    square: Coefficients,
+    k1: float,
+    k2: float,
+    seed: Array,
+    found: Candidates,
 ) -> int:
     """Joints 2 and 3 where joint 2 slides: u = v + q_2 h_2."""
     L, slides = plan.lines, _third_slides(plan)
@@ -478,18 +494,19 @@ def _by_slide(
             marks[0, count], marks[1, count] = k << ROOT_NUMBER, 0
             count += 1
         return count
-    middle, half, good = 0.0, 0.0, True
+    middle, half, good, idle = 0.0, 0.0, True, False
     if plan.placed == 3:
-        middle, half, good = _roots_of(slides, miss)
+        middle, half, good, idle = _roots_of(slides, miss, seed[plan.order[2]])
     if not good:
         return 0
+    lost = 1 << plan.order[2] if idle else 0
     for third in range(2 if plan.placed == 3 and half > 0.0 else 1):
         q3 = middle + half if third else middle - half
         basis = _basis(slides, q3)
         v = plus(plus(scaled(basis[0], v0), basis[1], v1), basis[2], v2)
         if plan.form == RAILS:
             first[count, 1], first[count, 2] = (k2 - dot(l2, v)) / L[_LEVEL, 1], q3
-            marks[0, count], marks[1, count] = FIRST_ROOT * third, 0
+            marks[0, count], marks[1, count] = FIRST_ROOT * third, lost
             count += 1
             continue
         near, far, good = slides_at(1.0, 2.0 * dot(h2, v), value(square, basis) - k2)
@@ -497,7 +514,7 @@ def _by_slide(
             continue
         for sign in range(2):
             first[count, 1], first[count, 2] = near + far if sign else near - far, q3
-            marks[0, count], marks[1, count] = FIRST_ROOT * third + SECOND_ROOT * sign, 0
+            marks[0, count], marks[1, count] = FIRST_ROOT * third + SECOND_ROOT * sign, lost
             count += 1
     return count
 
@@ -515,7 +532,7 @@ def _finished(plan: Plan, start: Vector, goal: Vector, seed: Array, ways: int, f
         p = start
         if plan.placed == 3:
             p = _moved(slides[plan.order[2]], h3, o3, values[2], p)
-        if found.marks[1, way]:
+        if found.marks[1, way] & 1 << plan.order[1]:
             values[1] = seed[plan.order[1]]
         p = _moved(slides[plan.order[1]], h2, o2, values[1], p)
         if slides[plan.order[0]]:

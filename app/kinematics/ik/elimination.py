@@ -487,7 +487,7 @@ def _null_vectors(space: Space) -> int:
         order[j] = j
     largest, nullity = 0.0, 1
     for j in range(ORDER - 1):
-        row_, column, best = _largest_below(M, j)
+        row_, column, best = largest_below(M, j, ORDER)
         if j == 0:
             largest = best
         if j == ORDER - 2 and best <= _DEFICIENT * largest:
@@ -513,14 +513,14 @@ def _null_vectors(space: Space) -> int:
 
 
 @unmanaged
-def _largest_below(M: Array, first: int) -> tuple[int, int, float]:
-    """Where the largest entry of the lower right block is, and its size."""
-    at, best = first * ORDER + first, 0.0
-    for k in range(first, ORDER):
-        for m in range(first, ORDER):
+def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
+    """Where the largest entry of the lower right block of a square matrix is, and its size."""
+    at, best = first * order + first, 0.0
+    for k in range(first, order):
+        for m in range(first, order):
             if abs(M[k, m]) > best:
-                at, best = k * ORDER + m, abs(M[k, m])
-    return at // ORDER, at % ORDER, best
+                at, best = k * order + m, abs(M[k, m])
+    return at // order, at % order, best
 
 
 @unmanaged

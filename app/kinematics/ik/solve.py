@@ -126,7 +126,7 @@ def _form(question: Question, options: Options) -> ClosedForm | None:
     if options.method not in {"auto", "analytic"}:
         return None
     form = closed_form(question.chain, options.task)
-    if form is None and options.task is FULL_POSE and (options.every or options.method == "analytic"):
+    if form is None and len(options.task) == len(FULL_POSE) and (options.every or options.method == "analytic"):
         form = elimination(question.chain)
     if options.method == "analytic" and form is None:
         raise InvalidField("method", "no closed form is known for this chain and task; `auto` solves it")
@@ -136,7 +136,7 @@ def _form(question: Question, options: Options) -> ClosedForm | None:
 
 
 def _analytic(question: Question, options: Options, form: ClosedForm, deadline: float | None) -> InverseKinematics:
-    """By the closed form; what it leaves unsolved by a search, which also knows the reason if there is no solution."""
+    """By the closed form; what it leaves unsolved goes to a search, which also knows the reason if there is none."""
     if options.every:
         most, angle = options.most, options.elbow_angle
         sample = options.method == "auto"
@@ -147,8 +147,8 @@ def _analytic(question: Question, options: Options, form: ClosedForm, deadline: 
     if len(left) == 0:
         return found
     rest = (_every if options.every else _one)(question.taken(left), options, deadline)
-    if options.elbow_angle is not None:
-        rest = analytic.elsewhere(rest)
+    if options.method == "analytic":
+        rest = analytic.unmet(rest, options.elbow_angle)
     return analytic.joined(found, left, rest)
 
 

@@ -19,6 +19,7 @@ from app.kinematics.ik.result import InverseKinematics
 from app.kinematics.ik.search import target_rows
 from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.jacobian import jacobians
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField
@@ -203,8 +204,13 @@ def test_arms_of_the_catalogue(name: str) -> None:
     assert_solved(machine, chain, targets, answer, far=EXACT)
     assert answer.branches is not None
     assert answer.branches.form.name == form.name
-    assert (answer.branches.codes >= 0).all()
-    assert answer.complete == [True] * 200
+    assert answer.complete is not None
+    for i, complete in enumerate(answer.complete):
+        # Not sure to be all next to a singularity alone, and then a search may add to them.
+        sizes = np.linalg.svd(jacobians(machine, chain, of(answer, i)).values, compute_uv=False)[:, -1]
+        assert complete or sizes.min() < form.doubt
+        codes = answer.branches.codes[answer.firsts[i] : answer.firsts[i + 1]]
+        assert (codes >= 0).all() or not complete
     turning = chain.flat.joints[:, 0] == 0
     for i, q in enumerate(qs):
         apart = np.abs(np.where(turning, same_turn(of(answer, i) - q), of(answer, i) - q)).max(axis=1)
