@@ -176,10 +176,22 @@ def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
     """
     count = len(table.firsts) - 1
     owners = np.repeat(np.arange(count), np.diff(table.firsts))
-    sizes = np.linalg.svd(chain_jacobians(question.chain.flat, table.qs)[2], compute_uv=False)
-    near = sizes[:, min(len(question.chain), len(question.task)) - 1] < form.doubt
+    near = _near_singular(chain_jacobians(question.chain.flat, table.qs)[2], len(question.task), form.doubt)
     flags: Flags = np.bincount(owners, near, minlength=count) > 0
     return flags if form.is_exact else flags | (np.diff(table.firsts) == 0)
+
+
+def _near_singular(Js: Array, directions: int, least: float) -> Flags:
+    """Of which Jacobians the smallest singular value is below a bound; shape (N,)."""
+    rows = np.arange(len(Js))
+    if Js.shape[1] == Js.shape[2]:
+        # The others' product is at most what equal ones would have: most are cleared without decomposing them.
+        others = np.square(Js).sum(axis=(1, 2)) / (Js.shape[1] - 1)
+        rows = np.flatnonzero(np.abs(np.linalg.det(Js)) < least * others ** (0.5 * (Js.shape[1] - 1)))
+    near = np.zeros(len(Js), dtype=bool)
+    sizes = np.linalg.svd(Js[rows], compute_uv=False)
+    near[rows] = sizes[:, min(Js.shape[2], directions) - 1] < least
+    return near
 
 
 def _completed(question: Question, i: int, table: Branches, most: int) -> Branches:
