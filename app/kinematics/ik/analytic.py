@@ -14,6 +14,7 @@ from app.kinematics.ik.judge import judged
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches, Status
 from app.kinematics.ik.search import free_variables, is_over, limits_of, pieces, processors, shared, target_rows
+from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.ik.verdict import Question
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array, Flags, Indices
@@ -25,6 +26,8 @@ _PIECE = 1024
 """Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
 _APART = 1e-6
 """How far apart two solutions are that a closed form and a search have found, [rad or m]."""
+_BESIDE = 1e-9
+"""How far beside a target its branches are counted once more, along each axis, [m]."""
 _NEWTON_STEPS, _EXACT = 20, 1e-11
 """Of a solution that a search has found, and the error that it must come to, [m, rad]."""
 _FREE_SAMPLED = 24
@@ -147,7 +150,7 @@ def _piece(
         return [(_nothing(n, count), False)]
     anywhere = _solved(question, form, part, elbow_angle, respect_limits=False)
     table = _solved(question, form, part, elbow_angle, respect_limits=True) if question.respect_limits else anywhere
-    doubtful = _doubtful(question, form, anywhere)
+    doubtful = _doubtful(question, form, anywhere) | _unsteady(question, form, part, elbow_angle, anywhere)
     if not (windings or anywhere.free.any() or doubtful.any() or np.diff(table.firsts).max(initial=0) > most):
         return [(table, True)]
     found: list[tuple[Branches, bool]] = []
@@ -179,6 +182,22 @@ def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
     near = _near_singular(chain_jacobians(question.chain.flat, table.qs)[2], len(question.task), form.doubt)
     flags: Flags = np.bincount(owners, near, minlength=count) > 0
     return flags if form.is_exact else flags | (np.diff(table.firsts) == 0)
+
+
+def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: float | None, table: Branches) -> Flags:
+    """Targets next to which there is another number of branches: where some meet, rounding may have cost one."""
+    if len(question.chain) < len(DIRECTIONS):
+        return np.zeros(part.stop - part.start, dtype=bool)
+    targets, seeds = question.part(part)
+    beside = form.solve(
+        Poses(targets.positions + _BESIDE, targets.rotations),
+        seeds,
+        tolerances=question.tolerances,
+        respect_limits=False,
+        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+    )
+    unsteady: Flags = np.diff(beside.firsts) != np.diff(table.firsts)
+    return unsteady
 
 
 def _near_singular(Js: Array, directions: int, least: float) -> Flags:
