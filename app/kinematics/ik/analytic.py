@@ -60,7 +60,7 @@ def nearest(
             seeds,
             tolerances=question.tolerances,
             respect_limits=question.respect_limits,
-            elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+            elbow_angles=elbow_angle,
             most=1,
         )
         rows = part.start + np.flatnonzero(np.diff(table.firsts))
@@ -194,7 +194,7 @@ def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: fl
         seeds,
         tolerances=question.tolerances,
         respect_limits=False,
-        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+        elbow_angles=elbow_angle,
     )
     unsteady: Flags = np.diff(beside.firsts) != np.diff(table.firsts)
     return unsteady
@@ -335,6 +335,7 @@ def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinemati
         firsts=np.zeros_like(rest.firsts),
         statuses=statuses,
         failures=failures,
+        complete=None,
     )
 
 
@@ -379,7 +380,7 @@ def _solved(
         seeds,
         tolerances=question.tolerances,
         respect_limits=respect_limits,
-        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+        elbow_angles=elbow_angle,
     )
 
 
@@ -451,7 +452,7 @@ def _spread(
         np.concatenate(seeds),
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
-        elbow_angles=None if elbow_angle is None else np.array([elbow_angle]),
+        elbow_angles=elbow_angle,
     )
     loose = others.free > 0
     qs = np.concatenate((table.qs, others.qs[loose]))

@@ -44,10 +44,10 @@ from app.model.poses import Poses, inverse
 GENERAL_NAME = "six turning joints, by elimination"
 _EXACTLY, _ROUNDED, _NEARLY = 1e-14, 1e-10, 1e-6
 """Distance [m] at which lines meet, and sine of the angle at which they are parallel: descriptions round π."""
-_SINGULAR = 1e-6
-"""Smallest singular value so near to a singularity that rounding may cost a solution."""
 _CLEARLY = 1e-4
 """The same that shows beyond doubt that they do not."""
+_SINGULAR = 1e-6
+"""Smallest singular value so near to a singularity that rounding may cost a solution."""
 _TESTS, _MUST_PASS = 48, 46
 """Configurations of the test, and how many must be found again: a few may lie next to a singularity."""
 _NAMING = 64
@@ -85,7 +85,7 @@ class ClosedForm:
         *,
         tolerances: tuple[float, float] = (1e-9, 1e-9),
         respect_limits: bool = True,
-        elbow_angles: Array | None = None,
+        elbow_angles: Array | float | None = None,
         most: int = MOST,
     ) -> Branches:
         """All branches of each target, or the nearest to the seed.

@@ -1,5 +1,7 @@
 """Closed forms in batches: what one target gets does not depend on the others, and tasks count as they are meant."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,3 +86,5 @@ def test_analytic_gives_what_the_closed_form_gives_and_nothing_else() -> None:
         answer = inverse_kinematics(machine, chain, targets, np.zeros((1, 6)), options)
         assert answer.branches is not None
         assert (answer.branches.codes >= 0).all()
+        listed = inverse_kinematics(machine, chain, targets, np.zeros((1, 6)), replace(options, every=True))
+        assert listed.complete == [len(listed.qs) > 0]
