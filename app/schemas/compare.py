@@ -5,6 +5,7 @@ from typing import Any, Literal, TypeAlias
 from pydantic import Field
 
 from app.kinematics.compare import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES
+from app.kinematics.comparison.mistakes import Mistake
 from app.schemas.common import Answer, ChainOptions, RobotName
 from app.schemas.dh import DhTablePayload
 from app.schemas.pose import Pose, PoseFormat
@@ -60,19 +61,7 @@ class DifferenceEntry(Answer):
 class DiagnosisEntry(Answer):
     """A single mistake that explains why the table does not describe the chain."""
 
-    mistake: Literal[
-        "sign",
-        "degrees",
-        "millimetres",
-        "convention",
-        "columns",
-        "rows",
-        "joint_sense",
-        "number",
-        "joint_zero",
-        "base",
-        "tool",
-    ] = Field(
+    mistake: Mistake = Field(
         description="`sign` of a number or of a column; angles in `degrees`; lengths in `millimetres`; the other "
         "`convention`; `columns` exchanged in a row or throughout; `rows` exchanged or in reverse; a joint that turns "
         "the other way (`joint_sense`) or has its zero elsewhere (`joint_zero`); one wrong `number`; a `base` or "
