@@ -18,7 +18,7 @@ from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.ik.verdict import Question
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array, Flags, Indices
-from app.model.poses import Poses
+from app.model.poses import Poses, rotations_from_vectors
 
 _Number = TypeVar("_Number", np.float64, np.int64)
 
@@ -26,10 +26,19 @@ _PIECE = 1024
 """Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
 _APART = 1e-6
 """How far apart two solutions are that a closed form and a search have found, [rad or m]."""
-_BESIDE = 1e-9
+_BESIDE = 1e-6
 """How far beside a target its branches are counted once more, along each axis, [m]."""
-_NEWTON_STEPS, _EXACT = 20, 1e-11
-"""Of a solution that a search has found, and the error that it must come to, [m, rad]."""
+_NEIGHBOURS, _NEIGHBOURS_EACH = (1e-6, 1e-7, 1e-8), 8
+"""How far beside a doubtful target others are solved, [m, rad], and how many at each distance."""
+_NEWTON_STEPS, _CORRECTIONS, _LONGEST, _SHORTEST_SHARE = 20, 2, 0.5, 1e-3
+"""Of refining: steps, corrections after each, the longest step [rad or m], the share of one after which it ends."""
+_SINGULAR, _WEAK = 1e-15, 1e-3
+"""Shares of the largest singular value: what is none but rounding, and what leads along a valley."""
+_EXACT, _ROUNDING, _PERFECT = 1e-11, 1e-13, 1e-14
+"""Errors up to which it has come to a solution: of the arm where a form is only nearly its own, and of a form next to
+a singularity; and the error that is left alone, [m, rad]."""
+_SAME_BESIDE = 1e-4
+"""How far apart two solutions next to a singularity are, where an error of rounding moves them far, [rad or m]."""
 _FREE_SAMPLED = 24
 """Positions of a joint that a singularity leaves free."""
 _ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
@@ -150,7 +159,8 @@ def _piece(
         return [(_nothing(n, count), False)]
     anywhere = _solved(question, form, part, elbow_angle, respect_limits=False)
     table = _solved(question, form, part, elbow_angle, respect_limits=True) if question.respect_limits else anywhere
-    doubtful = _doubtful(question, form, anywhere) | _unsteady(question, form, part, elbow_angle, anywhere)
+    unsteady = _unsteady(question, form, part, elbow_angle, anywhere)
+    doubtful = unsteady | _doubtful(question, form, anywhere)
     if not (windings or anywhere.free.any() or doubtful.any() or np.diff(table.firsts).max(initial=0) > most):
         return [(table, True)]
     found: list[tuple[Branches, bool]] = []
@@ -166,6 +176,8 @@ def _piece(
             whole = False
             if not form.is_exact:
                 own = _completed(question, i, own, most)
+            elif (unsteady[k] or form.has_double_roots) and not free.any():
+                own = _from_neighbours(question, form, i, own, most)
         if windings and len(own.qs):
             own, whole = _turned(question, i, own, most, whole)
         found.append((_first(own, most), whole))
@@ -226,34 +238,67 @@ def _completed(question: Question, i: int, table: Branches, most: int) -> Branch
         most=most,
         windings=False,
     )
-    more = _refined(question, i, found.qs)
+    return _joined(question, i, table, _refined(question, i, found.qs, _EXACT), most, _APART)
+
+
+def _from_neighbours(question: Question, form: ClosedForm, i: int, table: Branches, most: int) -> Branches:
+    """The branches of one target next to a singularity, and those to which the branches of targets beside it lead.
+
+    Where two roots nearly meet, rounding may leave neither of them, or a place far from the solution.
+    """
+    target, rng = question.target(i), np.random.default_rng(0)
+    sizes = np.repeat(_NEIGHBOURS, _NEIGHBOURS_EACH)[:, None]
+    shifts, turns = sizes * rng.normal(size=(2, len(sizes), 3))
+    found = form.solve(
+        Poses(target.positions + shifts, rotations_from_vectors(turns) @ target.rotations[0]),
+        question.seed(i)[None],
+        tolerances=question.tolerances,
+        respect_limits=question.respect_limits,
+    )
+    return _joined(question, i, table, _refined(question, i, found.qs, _ROUNDING), most, _SAME_BESIDE)
+
+
+def _joined(question: Question, i: int, table: Branches, more: Array, most: int, apart: float) -> Branches:
+    """The branches of one target and other solutions, whose code is -1, nearest to the seed first."""
     qs = np.concatenate((table.qs, more))
     codes = np.concatenate((table.codes, np.full(len(more), -1, dtype=np.int64)))
     free = np.concatenate((table.free, np.zeros(len(more), dtype=np.int64)))
     # The form's come first, so that of two that are the same the named one stays.
-    order = thin_out(qs, free_variables(question.chain), _APART, most)
+    order = thin_out(qs, free_variables(question.chain), apart, most)
     order = order[np.argsort(np.square(qs[order] - question.seed(i)).sum(axis=1), kind="stable")]
     return Branches(qs[order], codes[order], free[order], _firsts_of_one(len(order)))
 
 
-def _refined(question: Question, i: int, qs: Array) -> Array:
-    """Solutions driven to rounding by Newton's method, which next to a singularity goes further than damped steps.
+def _refined(question: Question, i: int, qs: Array, least: float) -> Array:
+    """Configurations driven to rounding by Newton's method; only those that come to an error so small.
 
-    What does not come there is only within the tolerances, and left out.
+    Next to a singularity a solution lies somewhere along a narrow valley in which all equations but one hold. So after
+    each step these are met again before the errors are compared, as in `branch_kernels`.
     """
-    best, least = qs.copy(), np.full(len(qs), np.inf)
-    target, lower, upper = question.target(i), *limits_of(question.chain, question.respect_limits)
-    for _ in range(_NEWTON_STEPS if len(qs) else 0):
+    target, limits = question.target(i), limits_of(question.chain, question.respect_limits)
+
+    def stepped(qs: Array, weak: float, shares: Array) -> Array:
         es, Js = linearise(question.chain, target, qs, question.task)
-        errors = np.linalg.norm(es, axis=1)
-        better = errors < least
-        if not better.any():
+        steps = np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=weak), es)
+        shares = shares * np.minimum(1.0, _LONGEST / np.maximum(np.abs(steps).max(axis=1, initial=0.0), _LONGEST))
+        return np.asarray(np.clip(qs + shares[:, None] * steps, *limits))
+
+    def misses(qs: Array) -> Array:
+        return np.asarray(np.linalg.norm(linearise(question.chain, target, qs, question.task)[0], axis=1))
+
+    errors, shares = misses(qs), np.ones(len(qs))
+    for _ in range(_NEWTON_STEPS):
+        rows = np.flatnonzero((errors > _PERFECT) & (shares > _SHORTEST_SHARE))
+        if not len(rows):
             break
-        best[better], least[better] = qs[better], errors[better]
-        steps = np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=1e-14), es)
-        steps *= np.minimum(1.0, 0.5 / np.maximum(np.abs(steps).max(axis=1), 1e-300))[:, None]
-        qs = np.clip(np.where(better[:, None], qs + steps, qs), lower, upper)
-    return best[least <= _EXACT]
+        moved = stepped(qs[rows], _SINGULAR, shares[rows])
+        for _ in range(_CORRECTIONS):
+            moved = stepped(moved, _WEAK, np.ones(len(rows)))
+        after = misses(moved)
+        better = after < errors[rows]
+        qs[rows[better]], errors[rows[better]] = moved[better], after[better]
+        shares[rows] = np.where(better, np.minimum(2.0 * shares[rows], 1.0), 0.25 * shares[rows])
+    return qs[errors <= least]
 
 
 def _sampled(

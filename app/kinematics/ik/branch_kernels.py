@@ -34,6 +34,10 @@ _PERFECT = 1e-28
 """Squared error that is left alone, [m² + rad²]."""
 _REFINEMENTS, _SHORTEST_SHARE = 40, 1e-4
 """Steps of Newton's method, and the share of one after which a lane is given up."""
+_CORRECTIONS = 2
+"""Steps back into the valley after each along it."""
+_SINGULAR, _WEAK = 1e-15, 1e-3
+"""Shares of the largest pivot: what is none but rounding, and what leads along a valley."""
 DIRECTIONS = 6
 """Of a whole pose."""
 _EXACT = 1e-20
@@ -307,39 +311,29 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
 def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
     """Newton's method on J itself for the lanes that are not at rounding yet.
 
-    Next to a singularity the square of a small singular value is lost in JJᵀ, and damped steps stop too early.
+    Next to a singularity the square of a small singular value is lost in JJᵀ, and damped steps stop too early. There a
+    solution lies somewhere along a narrow valley in which all but one equation hold; so after each step the others are
+    met again before the errors are compared, or every step along the bent valley would seem to lead astray.
 
     Returns:
         A bit for each lane that is within the tolerances.
     """
-    state, A, share = work.state, kept.system, kept.residuals[DIRECTIONS * LANES :]
+    state, share = work.state, kept.residuals[DIRECTIONS * LANES :]
     share[:] = 1.0
     for _ in range(_REFINEMENTS):
-        if bits(load(state, _POSITION) + load(state, _ORIENTATION) > _PERFECT) == 0:
+        before = load(state, _POSITION) + load(state, _ORIENTATION)
+        if bits((load(share, 0) > _SHORTEST_SHARE) & (before > _PERFECT)) == 0:
             break
         for j in range(DIRECTIONS):
             store(work.q, j, load(work.previous, j))
-        e = linearise(flat, goal, work)
-        for k in range(DIRECTIONS):
-            store(kept.residuals, k, e[k])
-        for lane in range(LANES):
-            if state[_POSITION * LANES + lane] + state[_ORIENTATION * LANES + lane] <= _PERFECT:
-                continue
-            for k in range(DIRECTIONS):
-                for j in range(DIRECTIONS):
-                    A[k, j] = work.J[(6 * j + k) * LANES + lane]
-                A[k, DIRECTIONS] = kept.residuals[k * LANES + lane]
-            _eliminate(A, kept.order)
-            for j in range(DIRECTIONS):
-                work.q[j * LANES + lane] += share[lane] * A[j, DIRECTIONS]
+        _newton_step(flat, goal, work, kept, _SINGULAR)
+        for _ in range(_CORRECTIONS):
+            _newton_step(flat, goal, work, kept, _WEAK)
         e = linearise(flat, goal, work)
         position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
-        before = load(state, _POSITION) + load(state, _ORIENTATION)
         better = position + orientation < before
         # What has gone too far goes a quarter of the way next time.
         store(share, 0, where(better, min_lanes(2.0 * load(share, 0), 1.0), 0.25 * load(share, 0)))
-        if bits((load(share, 0) > _SHORTEST_SHARE) & (before > _PERFECT)) == 0:
-            break
         for j in range(DIRECTIONS):
             store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
         store(state, _POSITION, where(better, position, load(state, _POSITION)))
@@ -352,10 +346,30 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
 
 
 @unmanaged
-def _eliminate(A: Array, order: Indices) -> None:
+def _newton_step(flat: FlatChain, goal: Goal, work: Work, kept: _Kept, least: float) -> None:
+    """One step of the lanes that are not at rounding; pivots below a share of the largest are left out of it."""
+    A, share = kept.system, kept.residuals[DIRECTIONS * LANES :]
+    e = linearise(flat, goal, work)
+    for k in range(DIRECTIONS):
+        store(kept.residuals, k, e[k])
+    for lane in range(LANES):
+        if work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane] <= _PERFECT:
+            continue
+        for k in range(DIRECTIONS):
+            for j in range(DIRECTIONS):
+                A[k, j] = work.J[(6 * j + k) * LANES + lane]
+            A[k, DIRECTIONS] = kept.residuals[k * LANES + lane]
+        _eliminate(A, kept.order, least)
+        factor = share[lane] if least <= _SINGULAR else 1.0
+        for j in range(DIRECTIONS):
+            work.q[j * LANES + lane] += factor * A[j, DIRECTIONS]
+
+
+@unmanaged
+def _eliminate(A: Array, order: Indices, least: float) -> None:
     """Solve six linear equations by full pivoting; the last column becomes the solution, no entry larger than 0.5.
 
-    What belongs to a pivot that is nothing but rounding is left alone.
+    What belongs to a pivot of no more than a least share of the largest is left alone.
     """
     n = DIRECTIONS
     for j in range(n):
@@ -369,7 +383,7 @@ def _eliminate(A: Array, order: Indices) -> None:
         for k in range(n):
             A[k, j], A[k, column] = A[k, column], A[k, j]
         order[j], order[column] = order[column], order[j]
-        if best <= 1e-15 * largest:
+        if best <= least * largest:
             continue
         for k in range(j + 1, n):
             factor = A[k, j] / A[j, j]
@@ -381,7 +395,7 @@ def _eliminate(A: Array, order: Indices) -> None:
         total = A[j, n]
         for m in range(j + 1, n):
             total -= A[j, m] * A[m, n]
-        A[j, n] = total / A[j, j] if abs(A[j, j]) > 1e-15 * largest else 0.0
+        A[j, n] = total / A[j, j] if abs(A[j, j]) > least * largest else 0.0
         scale = max(scale, 2.0 * abs(A[j, n]))
     for j in range(n):
         A[j, 0] = A[j, n] / scale

@@ -126,6 +126,11 @@ class ClosedForm:
         return "elimination" if self.plan.kind == GENERAL else "analytic"
 
     @property
+    def has_double_roots(self) -> bool:
+        """Whether it rests on a polynomial whose double roots are known to half the digits alone."""
+        return self.plan.form in {SKEW, OBLIQUE}
+
+    @property
     def has_free_elbow(self) -> bool:
         """Whether the arm has a joint more than a pose needs, which turns the elbow about shoulder and wrist."""
         return self.plan.kind == ELBOW

@@ -48,6 +48,8 @@ _NO_ARM = 1e-10
 """A lever this short [m, or the sine of an angle] turns nothing: the joint is free."""
 _FLAT = 1e-7
 """Sine below which the middle turn of three is so small that its direction is told by its rate."""
+_OF_DOUBLE_ROOT = 1e-6
+"""A lever so short may be none but the error of a quartic's double root, [rad]: what it tells may be wrong."""
 
 _TURNS_TRIED = 16
 """Angles of a free joint at which others are looked for that go with it."""
@@ -447,11 +449,10 @@ def _by_turn(
         length, w = dot(across, across), value(level, basis)
         if length - w * w < -BEYOND * (length + w * w):
             continue
-        if off_axis >= 0.0:
-            # Axes that meet: seen from axis 1 the same side keeps its digits also where the goal is next to it.
+        side = rest_of(math.sqrt(length), w)
+        if 0.0 <= off_axis < math.sqrt(length):
+            # Seen from axis 1 it is the same side of a smaller triangle, which keeps more digits of it.
             side = rest_of(off_axis, (value(height, basis) - lean * k1) / math.sqrt(1.0 - lean * lean))
-        else:
-            side = rest_of(math.sqrt(length), w)
         for sign in range(2):
             u = plus(scaled(w, x), side if sign else -side, y)
             first[count, 1], first[count, 2] = angle_onto(h2, v, u), q3
@@ -626,9 +627,12 @@ def _in_plane(
     flat = dot(across, across) < _FLAT * _FLAT
     if flat and side != 0.0:
         b = scaled(-side, cross(h5, b))
-    if not (flat and dot(level, level) < _NO_ARM * _NO_ARM):
+    told = not flat or dot(level, level) >= _NO_ARM * _NO_ARM
+    if told:
         q6 = angle_onto(h6, g, b)
-        return _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
+        more = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
+        if more > count or side != 0.0 or dot(level, level) >= _OF_DOUBLE_ROOT * _OF_DOUBLE_ROOT:
+            return more
     for k in range(_TURNS_TRIED):
         # Joint 6 is free where it is: where the plane's joints do not reach then, the next angle that they reach.
         q6 = seed[5] + (k + 1) // 2 * (2.0 * math.pi / _TURNS_TRIED) * (1.0 if k % 2 else -1.0)
