@@ -26,7 +26,7 @@ _PIECE = 1024
 """Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
 _APART = 1e-6
 """How far apart two solutions are that a closed form and a search have found, [rad or m]."""
-_BESIDE = 1e-6
+_BESIDE, _BESIDE_DOUBLE_ROOTS = 1e-9, 1e-6
 """How far beside a target its branches are counted once more, along each axis, [m]."""
 _NEIGHBOURS, _NEIGHBOURS_EACH = (1e-6, 1e-7, 1e-8), 8
 """How far beside a doubtful target others are solved, [m, rad], and how many at each distance."""
@@ -201,8 +201,9 @@ def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: fl
     if len(question.chain) < len(DIRECTIONS):
         return np.zeros(part.stop - part.start, dtype=bool)
     targets, seeds = question.part(part)
+    shift = _BESIDE_DOUBLE_ROOTS if form.has_double_roots else _BESIDE
     beside = form.solve(
-        Poses(targets.positions + _BESIDE, targets.rotations),
+        Poses(targets.positions + shift, targets.rotations),
         seeds,
         tolerances=question.tolerances,
         respect_limits=False,
