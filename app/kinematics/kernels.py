@@ -9,8 +9,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from app.kinematics.lanes import LANES, Lanes, floor_lanes, lanes, load, rint_lanes, store, where
-from app.model.arrays import Array, compiled, inlined
+from app.kinematics.lanes import LANES, Lanes, floor_lanes, lanes, load, rint_lanes, sqrt_lanes, store, where
+from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
 from app.model.chain import FlatChain
 
 Frame: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
@@ -71,6 +71,73 @@ def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
                 for i in range(n):
                     rows[k, i] = J[(COLUMN * i + k) * LANES + lane]
     return positions, rotations, Js
+
+
+@compiled
+def chain_measures(flat: FlatChain, qs: Array, rows: Indices) -> tuple[Array, Array, Array]:
+    """T_base_tip and Yoshikawa's measure of some rows of the geometric Jacobian [Yoshikawa1985].
+
+    The measure is the product of the singular values, here of the lengths that are left of the rows (of the columns
+    where there are fewer of these) when each is made square to those before it.
+
+    Args:
+        flat: The chain.
+        qs: Configurations; shape (N, n), [rad or m].
+        rows: Which rows count, such as 0, 1, 2 for the translation; shape (k,).
+
+    Returns:
+        Positions, shape (N, 3), [m]; rotations, shape (N, 3, 3); measures, shape (N,).
+    """
+    count, n = qs.shape
+    positions, rotations, measures = np.empty((count, 3)), np.empty((count, 3, 3)), np.empty(count)
+    work, pose, measure = np.empty(max(n, 1) * LANES), np.empty(12 * LANES), np.empty(LANES)
+    columns, J = np.empty(COLUMN * len(flat.joints) * LANES), np.empty(COLUMN * n * LANES)
+    for first in range(0, count, LANES):
+        gather_rows(qs, first, work)
+        store_frame(joint_columns(flat, work, columns), pose)
+        variable_columns(flat, columns, J)
+        store(measure, 0, _measure(J, n, rows))
+        for lane in range(min(LANES, count - first)):
+            _scatter_pose(pose, lane, positions[first + lane], rotations[first + lane])
+            measures[first + lane] = measure[lane]
+    return positions, rotations, measures
+
+
+@unmanaged
+def _measure(J: Array, n: int, rows: Indices) -> Lanes:
+    """The product of what is left of each row by Gram and Schmidt; `J`'s rows that count are spent."""
+    k = len(rows)
+    few = n < k
+    count, length = (n, k) if few else (k, n)
+    product = lanes(1.0)
+    for i in range(count):
+        for j in range(i):
+            shared, square = lanes(0.0), lanes(0.0)
+            for m in range(length):
+                a, b = _entry(J, rows, i, m, few), _entry(J, rows, j, m, few)
+                shared, square = shared + a * b, square + b * b
+            factor = where(square > 0.0, shared / where(square > 0.0, square, 1.0), 0.0)
+            for m in range(length):
+                left = _entry(J, rows, i, m, few) - factor * _entry(J, rows, j, m, few)
+                store(J, _place(rows, i, m, few), left)
+        square = lanes(0.0)
+        for m in range(length):
+            a = _entry(J, rows, i, m, few)
+            square = square + a * a
+        product = product * sqrt_lanes(square)
+    return product
+
+
+@inlined
+def _place(rows: Indices, i: int, m: int, few: bool) -> int:
+    """Where entry m of the i-th row, or column if there are fewer of these, stands among rows of lanes."""
+    place: int = COLUMN * i + rows[m] if few else COLUMN * m + rows[i]
+    return place
+
+
+@inlined
+def _entry(J: Array, rows: Indices, i: int, m: int, few: bool) -> Lanes:
+    return load(J, _place(rows, i, m, few))
 
 
 @compiled

@@ -1,6 +1,7 @@
 """Array types, and the decorators for compiled functions."""
 
 import hashlib
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar, cast
@@ -15,13 +16,28 @@ Flags: TypeAlias = npt.NDArray[np.bool_]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
+_KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+_IMPORT = re.compile(rb"^\s*from app\.([\w.]+) import", re.MULTILINE)
 
-def _core_digest() -> str:
-    """What tells one state of the core's sources from another."""
-    digest = hashlib.sha256()
+
+def _kernel_digest() -> str:
+    """What tells one state of the kernels' sources from another: those with kernels, and all that these import.
+
+    The errors are left out: kernels raise none, and new ones are no reason to compile all anew.
+    """
     package = Path(__file__).parents[1]
-    for source in sorted(package.glob("[mk]*/**/*.py")):
-        digest.update(str(source.relative_to(package)).encode() + source.read_bytes())
+    texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}
+    waiting = [path for path, text in texts.items() if _KERNEL.search(text)]
+    sources: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        if path in texts and path not in sources and path.stem != "errors":
+            sources.add(path)
+            imported = (name.decode().replace(".", "/") for name in _IMPORT.findall(texts[path]))
+            waiting += [package / f"{name}.py" for name in imported]
+    digest = hashlib.sha256()
+    for path in sorted(sources):
+        digest.update(str(path.relative_to(package)).encode() + texts[path])
     return digest.hexdigest()[:16]
 
 
@@ -29,7 +45,7 @@ def _core_digest() -> str:
 # it took another function: so each state of the sources has a store of its own.
 _SETTINGS: Any = numba.config
 _STORE = Path(_SETTINGS.CACHE_DIR or Path(__file__).parents[1] / "__pycache__" / "kernels")
-_SETTINGS.CACHE_DIR = str(_STORE / _core_digest())
+_SETTINGS.CACHE_DIR = str(_STORE / _kernel_digest())
 
 _OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
 _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}

@@ -12,7 +12,7 @@ ROOT = Path(__file__).parents[2]
 WITHOUT_PINOCCHIO = [
     *(f"app.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
     *(f"app.model.{name}" for name in ("appearance", "dh_from_chain", "origins")),
-    *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "configuration")),
+    *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "configuration", "subspaces")),
     *(f"app.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
     *(f"app.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
     *(f"app.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
