@@ -79,14 +79,14 @@ def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Po
     Raises:
         CertificationFailed: The two differ by more than `TOLERANCE`.
     """
-    rows = _samples(len(qs), seed)
+    rows = sampled_rows(len(qs), seed)
     worst_distance, worst_angle = 0.0, 0.0
     for name, poses in frames.items():
         samples = poses if len(rows) == len(qs) else Poses(poses.positions[rows], poses.rotations[rows])
         judge = pinocchio_poses(robot, chain, name, qs, rows)
         distance, angle, extent = pose_errors(samples.positions, samples.rotations, judge.positions, judge.rotations)
-        worst_distance = max(worst_distance, _demand("a position", distance, extent))
-        worst_angle = max(worst_angle, _demand("an orientation", angle, 1.0))
+        worst_distance = max(worst_distance, demand("a position", distance, extent))
+        worst_angle = max(worst_angle, demand("an orientation", angle, 1.0))
     return Certificate(len(rows), worst_distance, worst_angle, seed)
 
 
@@ -116,18 +116,18 @@ def certify_jacobians(
         CertificationFailed: The two differ by more than `TOLERANCE`.
     """
     # Without joints there is no column to compare, and Pinocchio's Jacobian of a robot that has none at all crashes.
-    rows = _samples(len(qs) if len(chain) else 0, seed)
+    rows = sampled_rows(len(qs) if len(chain) else 0, seed)
     speeds = np.random.default_rng(seed).uniform(-1.0, 1.0, len(chain))
     worst, worst_rate = 0.0, 0.0
     for row in rows:
         T_base_tip, J, J_dot = _jacobian(robot, chain, qs[row], speeds, with_rate=hessians is not None)
-        worst = max(worst, _demand("the Jacobian", _largest(J - Js[row]), _largest(J)))
+        worst = max(worst, demand("the Jacobian", _largest(J - Js[row]), _largest(J)))
         if values is not None:
             error = _view_error(view, T_base_tip, J, values[row])
-            worst = max(worst, _demand("the Jacobian", error, _largest(values[row])))
+            worst = max(worst, demand("the Jacobian", error, _largest(values[row])))
         if hessians is not None:
             error = _largest(J_dot - hessians[row] @ speeds)
-            worst_rate = max(worst_rate, _demand("the Jacobian's derivative", error, _largest(J_dot)))
+            worst_rate = max(worst_rate, demand("the Jacobian's derivative", error, _largest(J_dot)))
     return JacobianCertificate(len(rows), worst, worst_rate if hessians is not None else None, seed)
 
 
@@ -191,13 +191,13 @@ def _table_certificate(ours: Poses, judge: Poses, table: DhTable, exact: bool, s
     distance, angle, extent = pose_errors(ours.positions, ours.rotations, judge.positions, judge.rotations)
     longest = max(abs(length) for row in table.joints for length in (row.a, row.d))
     scale = max(extent, longest, float(np.abs([table.base[:3, 3], table.tool[:3, 3]]).max()))
-    _demand("a position", distance, scale if exact else np.inf)
-    _demand("an orientation", angle, len(table.joints) if exact else np.inf)
+    demand("a position", distance, scale if exact else np.inf)
+    demand("an orientation", angle, len(table.joints) if exact else np.inf)
     return Certificate(len(judge), distance, angle, seed)
 
 
-def _samples(count: int, seed: int) -> Sequence[int]:
-    """The rows that are recomputed."""
+def sampled_rows(count: int, seed: int = 0) -> Sequence[int]:
+    """The rows of a batch that are recomputed: all of a small one."""
     if count <= MAX_SAMPLES:
         return range(count)
     return sorted(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False).tolist())
@@ -207,12 +207,21 @@ def _largest(difference: Array) -> float:
     return float(np.abs(difference).max(initial=0.0))
 
 
-def _demand(quantity: str, error: float, scale: float) -> float:
-    """The error, where it is no larger than rounding of numbers of that scale explains; NaN never is."""
+def demand(quantity: str, error: float, scale: float) -> float:
+    """The error, where it is no larger than rounding of numbers of that scale explains; NaN never is.
+
+    Raises:
+        CertificationFailed: It is larger.
+    """
     tolerance = TOLERANCE * max(1.0, scale)
     if not error <= tolerance:
         raise CertificationFailed(quantity, error, tolerance)
     return error
+
+
+def agreed(quantity: str, difference: Array, scale: float) -> float:
+    """The largest entry of a difference, under the same condition; raises as `demand` does."""
+    return demand(quantity, _largest(difference), scale)
 
 
 def pinocchio_poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from app.model.arrays import Array, compiled
+from app.model.arrays import Array, Indices, compiled
 from app.model.chain import Chain
 from app.model.errors import (
     InvalidArray,
@@ -74,7 +74,21 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
         raise InvalidField(
             field, f"entry {row}: the value of joint {name} must be a finite number of magnitude ≤ {MAX_MAGNITUDE:g}"
         )
+    if not _joints_within(chain.flat.drives, chain.flat.joints, rows, MAX_MAGNITUDE):
+        raise InvalidField(
+            field, f"a joint that follows another must have a value of magnitude ≤ {MAX_MAGNITUDE:g} too"
+        )
     return rows
+
+
+@compiled
+def _joints_within(drives: Array, joints: Indices, qs: Array, most: float) -> bool:
+    """The same of what each joint on the way makes of its variable."""
+    for i in range(len(joints)):
+        for row in range(qs.shape[0]):
+            if not abs(drives[i, 0] * qs[row, joints[i, 1]] + drives[i, 1]) <= most:
+                return False
+    return True
 
 
 @compiled

@@ -131,7 +131,7 @@ def _projected_gradient(
     Which of them do shows only when the others are known: a joint that the gradient itself pushes outwards may have to
     give way to the rest.
     """
-    gradients = _gradient(chain, targets, qs, objective, task)
+    gradients = objective_gradients(chain, targets, qs, objective, task)
     Js = linearise(chain, targets, qs, task)[1]
     free = np.ones(qs.shape, dtype=bool)
     projected = gradients
@@ -172,7 +172,7 @@ def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: 
     return value
 
 
-def _gradient(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
+def objective_gradients(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
     """The objective's gradient at each configuration; shape (N, n)."""
     lower, upper, inverse_ranges = _spans(chain)
     gradient: Array

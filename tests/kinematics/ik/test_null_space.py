@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from app.kinematics.ik.null_space import Objective, _gradient, _value, settle
+from app.kinematics.ik.null_space import Objective, _value, objective_gradients, settle
 from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.jacobian import jacobians
@@ -81,7 +81,7 @@ def test_values_and_gradients_are_what_they_are_said_to_be(name: str, task: Task
     goal = objective_of(objective, chain, 12)
     expected = value(objective, machine, chain, qs, task, posture)
     np.testing.assert_allclose(_value(chain, targets, qs, goal, task), expected, rtol=1e-9, atol=1e-9)
-    gradients = _gradient(chain, targets, qs, goal, task)
+    gradients = objective_gradients(chain, targets, qs, goal, task)
     count = 3 if task is POSITION else 6
     smallest = np.linalg.svd(jacobians(machine, chain, qs).values[:, :count], compute_uv=False)[:, -1]
     compared = 0
@@ -145,9 +145,9 @@ def test_at_the_end_nothing_that_is_allowed_makes_it_smaller(name: str, objectiv
     goal = objective_of(objective, chain, len(qs))
     targets = poses(machine, chain, qs)
     settled = settle(chain, targets, qs, goal, task=task)
-    gradients = _gradient(chain, targets, settled, goal, task)
+    gradients = objective_gradients(chain, targets, settled, goal, task)
     ends = np.array([steepest(machine, chain, q, task, g) for q, g in zip(settled, gradients, strict=True)])
-    first = _gradient(chain, targets, qs, goal, task)
+    first = objective_gradients(chain, targets, qs, goal, task)
     starts = np.array([steepest(machine, chain, q, task, g) for q, g in zip(qs, first, strict=True)])
     scale = np.linalg.norm(gradients, axis=1)
     assert np.median(ends / np.maximum(scale, 1e-3)) < 1e-5
@@ -165,7 +165,7 @@ def test_a_joint_beside_its_limit_does_not_end_the_descent(name: str, task: Task
     goal = objective_of("posture", chain, len(qs))
     targets = poses(machine, chain, qs)
     settled = settle(chain, targets, qs, goal, task=task)
-    gradients = _gradient(chain, targets, settled, goal, task)
+    gradients = objective_gradients(chain, targets, settled, goal, task)
     ends = np.array([steepest(machine, chain, q, task, g) for q, g in zip(settled, gradients, strict=True)])
     assert (ends > 0.05 * np.linalg.norm(gradients, axis=1)).sum() <= 3
 
