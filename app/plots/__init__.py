@@ -1,0 +1,9 @@
+"""Pictures: figures drawn by matplotlib, as SVG or PNG; nothing here knows how they travel.
+
+- `figure`: one style for all pictures, and figures turned into bytes, the same bytes for the same figure.
+- `arm`: an arm as a line through its joints.
+- `ellipsoids`: the arm with the velocity and force ellipse at its tip.
+- `workspace`: what an arm reaches, along the axes, coloured by how well.
+
+Loading matplotlib takes a third of a second, so whoever needs a picture imports these modules when it is asked for.
+"""

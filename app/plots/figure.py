@@ -1,0 +1,92 @@
+"""One style for all pictures, and figures turned into bytes.
+
+Figures are made and drawn directly, never through pyplot, whose current figure belongs to the whole process. A lock
+lets one thread draw at a time: matplotlib does not promise more, and as it holds the GIL nothing is lost.
+"""
+
+import threading
+from collections.abc import Sequence
+from io import BytesIO
+from typing import Final, Literal, TypeAlias
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+
+PictureFormat: TypeAlias = Literal["svg", "png"]
+
+INK: Final = "#1f2933"
+QUIET: Final = "#6b7580"
+RULE: Final = "#d9dee3"
+LINK: Final = "#9aa5b1"
+VELOCITY: Final = "#0072b2"
+FORCE: Final = "#d55e00"
+"""Blue and vermilion of Okabe and Ito, which no common colour blindness takes for each other."""
+
+TEXT: Final = 9.0
+TITLE: Final = 11.0
+"""The two sizes of type, [pt]."""
+LINE: Final = TEXT * 1.75 / 72.0
+"""From one line of text to the next, [inch]."""
+
+_PNG_DOTS_PER_INCH = 150
+_MOST_TEXT = 48
+_BEYOND_FONT = 0x250
+
+# Only numbers the parts of an SVG, and otherwise they would be numbered at random.
+mpl.rcParams["svg.hashsalt"] = "gelenk"
+
+_drawing = threading.Lock()
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in inches."""
+    return Figure(figsize=(width, height), facecolor="white")
+
+
+def as_bytes(figure: Figure, kind: PictureFormat) -> bytes:
+    """The figure drawn: an SVG whose letters are paths, so that it looks the same without the font, or a PNG."""
+    buffer = BytesIO()
+    with _drawing:
+        if kind == "svg":
+            FigureCanvasSVG(figure)
+            figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": "Gelenk"})
+        else:
+            FigureCanvasAgg(figure)
+            figure.savefig(buffer, format="png", dpi=_PNG_DOTS_PER_INCH, metadata={"Software": "Gelenk"})
+    return buffer.getvalue()
+
+
+def font(size: float = TEXT, *, bold: bool = False) -> FontProperties:
+    """The one typeface, which matplotlib brings along."""
+    return FontProperties(family="DejaVu Sans", size=size, weight="bold" if bold else "normal")
+
+
+def metric_axes(axes: Axes, x_label: str, y_label: str) -> None:
+    """Axes of lengths in metres: equal scales, a quiet grid below everything, labels."""
+    axes.set_aspect("equal", adjustable="box")
+    axes.set_axisbelow(True)
+    axes.grid(color=RULE, linewidth=0.6)
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in {"left", "bottom"})
+        spine.set_color(QUIET)
+        spine.set_linewidth(0.8)
+    axes.tick_params(colors=QUIET, labelsize=TEXT, length=3, width=0.8)
+    axes.set_xlabel(x_label, fontproperties=font(), color=INK)
+    axes.set_ylabel(y_label, fontproperties=font(), color=INK)
+
+
+def write(figure: Figure, x: float, y: float, lines: Sequence[str], *, size: float = TEXT, color: str = INK) -> None:
+    """Lines of text, their upper left corner at a place in fractions of the figure; never read as mathematics."""
+    figure.text(
+        x, y, "\n".join(lines), fontproperties=font(size), color=color, va="top", linespacing=1.5, parse_math=False
+    )
+
+
+def plain(name: str) -> str:
+    """A name from outside as the typeface can write it, of bounded length."""
+    shown = name if len(name) <= _MOST_TEXT else name[: _MOST_TEXT - 1] + "…"
+    return "".join(c if c == "…" or (c.isprintable() and ord(c) < _BEYOND_FONT) else "?" for c in shown)

@@ -1,0 +1,1 @@
+"""Pictures, by what is drawn and by their bytes."""

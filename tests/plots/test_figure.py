@@ -1,0 +1,64 @@
+"""What all pictures share."""
+
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from app.plots.figure import TEXT, as_bytes, font, metric_axes, new_figure, plain, write
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("panda_link0", "panda_link0"),
+        ("a$b$\\frac", "a$b$\\frac"),
+        ("机器人", "???"),
+        ("a\nb\x00", "a?b?"),
+        ("x" * 100, "x" * 47 + "…"),
+        ("größe", "größe"),
+    ],
+)
+def test_names_are_what_the_typeface_has(name: str, shown: str) -> None:
+    assert plain(name) == shown
+
+
+def test_text_is_never_mathematics() -> None:
+    figure = new_figure(2.0, 1.0)
+    write(figure, 0.1, 0.9, ["$\\notamacro{$ $x^2$"])
+    assert as_bytes(figure, "svg").startswith(b"<?xml")
+
+
+def test_threads_draw_the_same_bytes_as_one_alone() -> None:
+    def draw(scale: float) -> bytes:
+        figure = new_figure(3.0, 3.0)
+        axes = figure.add_axes((0.2, 0.2, 0.7, 0.7))
+        metric_axes(axes, "x / m", "y / m")
+        axes.plot([0.0, scale], [0.0, 1.0])
+        return as_bytes(figure, "svg")
+
+    expected = [draw(float(scale)) for scale in range(1, 5)]
+    found: dict[int, bytes] = {}
+    threads = [threading.Thread(target=lambda i=i: found.update({i: draw(float(i + 1))})) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [found[i] for i in range(4)] == expected
+
+
+def test_pyplot_is_never_loaded_and_the_service_starts_without_matplotlib() -> None:
+    code = "import sys, {}; print('matplotlib' in sys.modules, 'matplotlib.pyplot' in sys.modules)"
+    for module, expected in (("app.main", "False False"), ("app.plots.ellipsoids", "True False")):
+        answer = subprocess.run(
+            [sys.executable, "-c", code.format(module)], cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        assert answer.stdout.strip() == expected
+
+
+def test_one_type_scale() -> None:
+    assert font().get_size_in_points() == TEXT
