@@ -8,6 +8,7 @@ from starlette.responses import Response
 
 from app.api.dh import dh_route
 from app.api.isolated import Isolated
+from app.api.lagrangian import formula_content, matrix_content, motion_content
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
 from app.api.routes import DocumentedRoute, in_thread
@@ -15,7 +16,6 @@ from app.kinematics.derive.jacobian import ROW_NAMES
 from app.kinematics.derive.numeric import NumericSolution
 from app.kinematics.derive.steps import which_block
 from app.kinematics.derive.texts import ColumnText, ConditionText, Entry, Singularities, SolutionText
-from app.kinematics.derive.typeset import MatrixText, Text
 from app.kinematics.derive.worked import WorkedSolution, worked_solution
 from app.model.errors import InvalidField
 from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
@@ -38,6 +38,10 @@ def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) ->
         Each formula has been compared with the numbers of the table at random configurations, and the numbers at the
         given ones with Pinocchio's. Of a large arm the formulas that nobody would read are left out: `notes` says
         which, and the numbers remain.
+
+        With `dynamics` a planar arm of up to three joints also gets its equations of motion by the Lagrangian:
+        energies, mass matrix, Christoffel symbols, Coriolis and gravity terms, compared with Pinocchio at random
+        states. A mass, centre of mass or inertia that is left out stays a symbol.
         """
         raise NotImplementedError
 
@@ -72,6 +76,7 @@ def _solved(call: DeriveRequest, isolated: Isolated, deadline: float) -> WorkedS
         call.joint_positions,
         call.notation,
         keeps_symbols=call.symbolic,
+        dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
         run=isolated.run,
         deadline=deadline,
     )
@@ -87,14 +92,15 @@ def _answer(call: DeriveRequest, solution: WorkedSolution) -> dict[str, Any]:
         "notation": call.notation,
         "symbolic": call.symbolic,
         "legend": _legend(solution),
-        "A": [_matrix(f"A_{i}", matrix) for i, matrix in enumerate(rows, start=1)],
-        "T_0": [_matrix(f"T_0_{i}", matrix) for i, matrix in enumerate(frames, start=1)],
-        "T_base_tool": _matrix("T_base_tool", found.tip) if found and has_tip else None,
-        "position": _matrix("p", found.position) if found and has_tip else None,
-        "rotation": _matrix("R", found.rotation) if found and has_tip else None,
+        "A": [matrix_content(f"A_{i}", matrix) for i, matrix in enumerate(rows, start=1)],
+        "T_0": [matrix_content(f"T_0_{i}", matrix) for i, matrix in enumerate(frames, start=1)],
+        "T_base_tool": matrix_content("T_base_tool", found.tip) if found and has_tip else None,
+        "position": matrix_content("p", found.position) if found and has_tip else None,
+        "rotation": matrix_content("R", found.rotation) if found and has_tip else None,
         "jacobian": _jacobian(solution),
         "determinant": None if singular is None else _determinant(singular),
         "singularities": _singularities(solution),
+        "dynamics": None if solution.motion is None else motion_content(solution.motion, solution.joint_names),
         "numeric": [
             _numbers(one, determinant) for one, determinant in zip(solution.numeric, solution.determinants, strict=True)
         ],
@@ -105,23 +111,14 @@ def _answer(call: DeriveRequest, solution: WorkedSolution) -> dict[str, Any]:
     }
 
 
-def _matrix(name: str, matrix: MatrixText | None) -> dict[str, Any]:
-    if matrix is None:
-        return {"name": name, "latex": None, "plain": None}
-    return {"name": name, "latex": matrix.latex, "plain": matrix.plain}
-
-
-def _formula(text: Text) -> dict[str, str]:
-    return {"latex": text.latex, "plain": text.plain}
-
-
 def _legend(solution: WorkedSolution) -> list[dict[str, Any]]:
     entries: dict[str, Entry] = {}
-    for part in (solution.formulas, solution.singularities):
+    motion = solution.motion.texts if solution.motion is not None else None
+    for part in (solution.formulas, solution.singularities, motion):
         for entry in part.legend if part else ():
             entries.setdefault(entry.symbol.plain, entry)
     return [
-        {**_formula(entry.symbol), "meaning_latex": entry.meaning.latex, "meaning": entry.meaning.plain}
+        {**formula_content(entry.symbol), "meaning_latex": entry.meaning.latex, "meaning": entry.meaning.plain}
         | {"value": entry.value}
         for entry in entries.values()
     ]
@@ -135,16 +132,16 @@ def _jacobian(solution: WorkedSolution) -> dict[str, Any] | None:
         _column(name, i, column)
         for i, (name, column) in enumerate(zip(solution.joint_names, found.columns, strict=True), start=1)
     ]
-    return {"matrix": _matrix("J", found.jacobian), "columns": columns}
+    return {"matrix": matrix_content("J", found.jacobian), "columns": columns}
 
 
 def _column(joint: str, i: int, column: ColumnText) -> dict[str, Any]:
     return {
         "joint": joint,
-        "axis": _matrix("z", column.axis),
-        "arm": None if column.arm is None else _matrix("p", column.arm),
-        "linear": _matrix(f"J_v_{i}", column.linear),
-        "angular": _matrix(f"J_omega_{i}", column.angular),
+        "axis": matrix_content("z", column.axis),
+        "arm": None if column.arm is None else matrix_content("p", column.arm),
+        "linear": matrix_content(f"J_v_{i}", column.linear),
+        "angular": matrix_content(f"J_omega_{i}", column.angular),
     }
 
 
@@ -159,7 +156,7 @@ def _determinant(singular: Singularities) -> dict[str, Any] | None:
         "why": which_block(singular),
         "latex": None if formula is None else formula.latex,
         "plain": None if formula is None else formula.plain,
-        "factors": [_formula(factor) for factor in singular.factors],
+        "factors": [formula_content(factor) for factor in singular.factors],
     }
 
 
@@ -181,8 +178,8 @@ def _singular_value(one: SolutionText, names: tuple[str, ...]) -> dict[str, Any]
     return {
         "joints": [names[abs(i) - 1] for i in one.variables],
         "signs": [1 if i > 0 else -1 for i in one.variables],
-        "variable": _formula(one.variable),
-        "formula": _formula(one.formula),
+        "variable": formula_content(one.variable),
+        "formula": formula_content(one.formula),
         "value": one.value,
     }
 

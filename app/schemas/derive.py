@@ -6,11 +6,9 @@ from pydantic import Field
 
 from app.schemas.common import Answer, Payload
 from app.schemas.dh import DhTablePayload
+from app.schemas.formulas import FormulaInfo, Grid, MatrixInfo
 from app.schemas.kinematics import Configuration
-
-MAX_CONFIGURATIONS = 100
-
-Grid = list[list[float]]
+from app.schemas.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload
 
 
 class DeriveRequest(Payload):
@@ -32,21 +30,12 @@ class DeriveRequest(Payload):
         True,
         description="Whether lengths and angles of the table stay symbols; else their values stand in the formulas.",
     )
-
-
-class FormulaInfo(Answer):
-    """A formula in both notations."""
-
-    latex: str = Field(description="For KaTeX or LaTeX with amsmath.")
-    plain: str = Field(description="An expression of Python and of most computer algebra systems.")
-
-
-class MatrixInfo(Answer):
-    """A matrix; null where an entry has too many terms to be written out."""
-
-    name: str
-    latex: str | None = Field(description="The whole matrix, for KaTeX or LaTeX with amsmath.")
-    plain: list[list[str]] | None = Field(description="Entry by entry, row by row.")
+    dynamics: DynamicsPayload | None = Field(
+        None,
+        description="For a planar arm of up to three joints: its equations of motion by the Lagrangian too. `{}` asks "
+        "for them in symbols throughout.",
+        examples=[EXAMPLE_MOTION["dynamics"]],
+    )
 
 
 class LegendEntry(Answer):
@@ -102,7 +91,7 @@ class SingularValueInfo(Answer):
     value: float = Field(description="[rad] in (-π, π], or [m].")
 
 
-class SingularityInfo(Answer):
+class SingularConditionInfo(Answer):
     """A factor of the determinant that some configurations make vanish."""
 
     kind: Literal["solved", "equation", "never"] = Field(
@@ -184,8 +173,11 @@ class DeriveAnswer(Answer):
     rotation: MatrixInfo | None = Field(description="Of the tool in the base.")
     jacobian: JacobianInfo | None
     determinant: DeterminantInfo | None = Field(description="Null where no block is square, or without time.")
-    singularities: list[SingularityInfo] = Field(
+    singularities: list[SingularConditionInfo] = Field(
         description="One each factor of the determinant that depends on a joint."
+    )
+    dynamics: DynamicsInfo | None = Field(
+        description="The equations of motion; null where they were not asked for, or `notes` say why there are none."
     )
     numeric: list[NumericInfo] = Field(description="One entry a configuration.")
     steps: list[StepInfo] = Field(description="The same told in the order of a lecture.")

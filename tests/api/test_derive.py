@@ -1,5 +1,6 @@
 """The worked solution over HTTP."""
 
+import json
 import time
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from starlette.testclient import TestClient
 from app.api import derive
 from app.main import create_app
 from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
+from app.schemas.lagrangian import EXAMPLE_MOTION
 from app.settings import Settings
 from tests.oracles import catalogue, dh_columns, expressions
 
@@ -100,6 +102,113 @@ def test_bad_input_is_told_where_it_is(
     assert answer.status_code == status, answer.text
     if pointer:
         assert answer.json()["pointer"] == pointer
+
+
+def test_the_equations_of_motion_of_the_planar_arm(client: TestClient) -> None:
+    answer = posted(client, EXAMPLE_MOTION)
+    found = answer["dynamics"]
+    assert found["mass_matrix"]["plain"][0][0] == "m1*lc1**2 + m2*(a1**2 + lc2**2 + 2*a1*lc2*c2) + I1 + I2"
+    assert found["coriolis"]["plain"][1] == ["m2*a1*lc2*s2*qd1", "0"]
+    assert found["gravity"]["plain"] == [["0"], ["-g0"], ["0"]]
+    assert found["links"][1]["center_of_mass"]["plain"][0] == ["a1*c1 + lc2*c12"]
+    assert found["christoffel"][0] == {
+        "i": 1,
+        "j": 1,
+        "k": 2,
+        "latex": "-m_{2} a_{1} l_{c2} s_{2}",
+        "plain": "-m2*a1*lc2*s2",
+    }
+    assert found["equations_of_motion"][1]["latex"].endswith(r"= \tau_{2}")
+    (numbers,) = found["numeric"]
+    names = expressions.namespace(
+        [entry for entry in answer["legend"] if not entry["plain"].startswith(("qd", "tau"))], [0.3, 0.8]
+    ) | {"qd1": 0.5, "qd2": -0.4}
+    for field, quantity in (("mass_matrix", "mass_matrix"), ("coriolis", "coriolis")):
+        values = [[expressions.value(entry, names) for entry in row] for row in found[quantity]["plain"]]
+        np.testing.assert_allclose(numbers[field], values, atol=1e-12)
+    weights = [expressions.value(row[0], names) for row in found["gravity_vector"]["plain"]]
+    np.testing.assert_allclose(numbers["gravity_vector"], weights, atol=1e-12)
+    assert found["certificate"]["samples"] == 20
+    assert found["certificate"]["max_mass_matrix_error"] < 1e-13
+    assert found["numeric_certificate"]["max_gravity_error"] < 1e-13
+    assert answer["steps"][-1]["title"] == "Equations of motion"
+
+
+def test_all_of_the_masses_may_be_left_out_and_gravity_be_a_direction(client: TestClient) -> None:
+    dh = EXAMPLE_MOTION["dh"]
+    horizontal = posted(client, {"dh": dh, "dynamics": {}})
+    assert horizontal["dynamics"]["gravity_vector"]["plain"] == [["0"], ["0"]]
+    assert "plane of motion" in horizontal["notes"][-1]
+    upright = posted(client, {"dh": dh, "dynamics": {"links": [{}, {}], "gravity": {"direction": [0, -2, 0]}}})
+    assert upright["dynamics"]["gravity_vector"]["plain"][1] == ["m2*g0*lc2*c12"]
+    assert {entry["plain"]: entry["value"] for entry in upright["legend"]}["g0"] == 9.81
+    assert upright["dynamics"]["numeric"] == []
+    point = {"dynamics": {"links": [{"center_of_mass": [-0.1, 0, 0]}, {"center_of_mass": 0}]}}
+    assert posted(client, {"dh": dh, **point})["dynamics"]["mass_matrix"]["plain"][0][0] == (
+        "m1*(a1 + xc1)**2 + m2*a1**2 + I1 + I2"
+    )
+
+
+def test_without_velocities_there_is_no_coriolis_matrix_in_numbers(client: TestClient) -> None:
+    dynamics = {key: value for key, value in EXAMPLE_MOTION["dynamics"].items() if key != "joint_velocities"}
+    (numbers,) = posted(client, {**EXAMPLE_MOTION, "dynamics": dynamics})["dynamics"]["numeric"]
+    assert numbers["coriolis"] is None
+    assert numbers["coriolis_vector"] is None
+    assert numbers["mass_matrix"][1][1] == pytest.approx(1.2 * 0.35**2 + 0.06)
+
+
+def test_a_spatial_arm_has_no_equations_of_motion_and_all_else(client: TestClient) -> None:
+    without = posted(client, EXAMPLE_ANTHROPOMORPHIC)
+    answer = posted(client, {**EXAMPLE_ANTHROPOMORPHIC, "dynamics": {}})
+    assert answer["dynamics"] is None
+    assert "planar" in answer["notes"][-1]
+    assert {**answer, "notes": []} == without
+    panda = posted(client, {"dh": PANDA, "dynamics": {}})
+    assert panda["dynamics"] is None
+    assert "up to 3 joints" in panda["notes"][-1]
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer"),
+    [
+        ({"links": [{"mass": -1.0}, {}]}, "#/dynamics/links/0/mass"),
+        ({"links": [{}, {"inertia": -1e-3}]}, "#/dynamics/links/1/inertia"),
+        ({"links": [{"mass": 1e300}, {}]}, "#/dynamics/links/0/mass"),
+        ({"links": [{"center_of_mass": 1e300}, {}]}, "#/dynamics/links/0/center_of_mass"),
+        ({"links": [{"center_of_mass": [0.1, 0.2]}, {}]}, "#/dynamics/links/0/center_of_mass"),
+        ({"links": [{"center_of_mass": "far"}, {}]}, "#/dynamics/links/0/center_of_mass"),
+        ({"links": [{"weight": 1.0}, {}]}, "#/dynamics/links/0/weight"),
+        ({"links": [{}] * 3}, "#/dynamics/links"),
+        ({"links": [{}]}, "#/dynamics/links"),
+        ({"links": [{}] * 65}, "#/dynamics/links"),
+        ({"gravity": [0.0, 0.0]}, "#/dynamics/gravity"),
+        ({"gravity": [0.0, 0.0, 1e300]}, "#/dynamics/gravity/2"),
+        ({"gravity": 9.81}, "#/dynamics/gravity"),
+        ({"gravity": {"direction": [0, 0, 0]}}, "#/dynamics/gravity/direction"),
+        ({"gravity": {"magnitude": -9.81, "direction": [0, 0, 1]}}, "#/dynamics/gravity/magnitude"),
+        ({"joint_velocities": []}, "#/dynamics/joint_velocities"),
+        ({"joint_velocities": [[0.1]]}, "#/dynamics/joint_velocities/0"),
+        ({"joint_velocities": [{"joint_1": 0.1}]}, "#/dynamics/joint_velocities/0"),
+        ({"joint_velocities": [{"joint_1": 0.1, "hand": 0.1}]}, "#/dynamics/joint_velocities/0"),
+        ({"joint_velocities": [[0.1, 1e9]]}, "#/dynamics/joint_velocities"),
+        ({"masses": [1.0, 1.0]}, "#/dynamics/masses"),
+    ],
+    ids=str,
+)
+def test_masses_that_cannot_be_are_told_where_they_are(client: TestClient, change: Any, pointer: str) -> None:
+    started = time.monotonic()
+    answer = client.post(PATH, json={**EXAMPLE_MOTION, "dynamics": {**EXAMPLE_MOTION["dynamics"], **change}})
+    assert time.monotonic() - started < 1
+    assert answer.status_code == 422, answer.text
+    problem = answer.json()
+    assert problem.get("pointer", problem.get("errors", [{}])[0].get("pointer")) == pointer
+
+
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "1e400"])
+def test_masses_that_are_no_numbers_are_refused(client: TestClient, number: str) -> None:
+    body = json.dumps(EXAMPLE_MOTION).replace('"mass": 2.0', f'"mass": {number}')
+    answer = client.post(PATH, content=body, headers={"content-type": "application/json"})
+    assert answer.status_code in {400, 422}
 
 
 def test_a_row_that_follows_another_joint_is_refused(client: TestClient) -> None:

@@ -6,6 +6,7 @@
 - `jacobian`: the columns z × p, and the square block that has a determinant.
 - `factors`: a determinant as the product that a textbook prints.
 - `singular`: the configurations at which a factor vanishes.
+- `lagrangian`: the equations of motion of a planar arm.
 - `typeset`: LaTeX and plain text.
 - `legend`: what the symbols stand for.
 - `texts`: what goes into the symbolic part and comes out of it, as plain data.

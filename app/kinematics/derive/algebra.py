@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 Angle: TypeAlias = tuple[int, ...]
 
-ROOT, LENGTH, VARIABLE, CONSTANT, TRIGONOMETRIC = range(5)
+ROOT, MASS, GRAVITY, LENGTH, VARIABLE, CONSTANT, TRIGONOMETRIC, RATE = range(8)
 """Kinds of atoms, in the order in which a product is written."""
 
 MAX_TERMS = 4000
@@ -27,7 +27,7 @@ class TooManyTerms(Exception):
 
 
 class Atom(NamedTuple):
-    """An indivisible factor: √2, a length a_2, a prismatic variable q_3, a constant cos α_3, or c_{23}.
+    """An indivisible factor: √2, a mass m_1, g_0, a length a_2, a variable q_3, a constant cos α_3, c_{23}, or q̇_1.
 
     Attributes:
         kind: One of the kinds above.

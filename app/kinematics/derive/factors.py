@@ -6,7 +6,7 @@ which the sum of two squares is no longer in the way. Each product is multiplied
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import combinations
@@ -137,21 +137,32 @@ def _separated(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
     slots = sorted({slot for atom in polynomial.atoms if (slot := _slot(atom, group))})
     for count in range(1, len(slots) + 1):
         for chosen in combinations(slots, count):
-            table: dict[Monomial, dict[Monomial, Fraction]] = {}
-            for monomial, factor in polynomial:
-                inside = tuple(item for item in monomial if _slot(item[0], group) in chosen)
-                outside = tuple(item for item in monomial if _slot(item[0], group) not in chosen)
-                table.setdefault(outside, {})[inside] = factor
-            first = next(iter(table.values()))
-            if len(table) < 2 or len(first) < 2:
-                continue
-            pivot = next(iter(first))
-            ratios = {outside: row.get(pivot, Fraction(0)) / first[pivot] for outside, row in table.items()}
-            if all(
-                row == {inside: value * ratios[outside] for inside, value in first.items()}
-                for outside, row in table.items()
-            ):
-                return [Polynomial(first), Polynomial(ratios)]
+            inside = {atom for atom in polynomial.atoms if _slot(atom, group) in chosen}
+            parts = separated(polynomial, inside.__contains__)
+            if parts is not None:
+                return parts
+    return None
+
+
+def separated(polynomial: Polynomial, is_inside: Callable[[Atom], bool]) -> list[Polynomial] | None:
+    """Two factors, one with some of the atoms and one with the others; None where there are none.
+
+    The table of coefficients, a row each product of the others, has rank one then.
+    """
+    table: dict[Monomial, dict[Monomial, Fraction]] = {}
+    for monomial, factor in polynomial:
+        inside = tuple(item for item in monomial if is_inside(item[0]))
+        outside = tuple(item for item in monomial if not is_inside(item[0]))
+        table.setdefault(outside, {})[inside] = factor
+    first = next(iter(table.values()))
+    if len(table) < 2 or len(first) < 2:
+        return None
+    pivot = next(iter(first))
+    ratios = {outside: row.get(pivot, Fraction(0)) / first[pivot] for outside, row in table.items()}
+    if all(
+        row == {inside: value * ratios[outside] for inside, value in first.items()} for outside, row in table.items()
+    ):
+        return [Polynomial(first), Polynomial(ratios)]
     return None
 
 

@@ -29,6 +29,22 @@ from app.kinematics.derive.algebra import (
 
 Style: TypeAlias = Literal["short", "full"]
 
+_MOVING = {
+    "m": ("m_{{{}}}", "m{}"),
+    "I": ("I_{{{}}}", "I{}"),
+    "g": ("g_{{{}}}", "g{}"),
+    "lc": ("l_{{c{}}}", "lc{}"),
+    "xc": ("x_{{c{}}}", "xc{}"),
+    "yc": ("y_{{c{}}}", "yc{}"),
+    "zc": ("z_{{c{}}}", "zc{}"),
+    "gammax": (r"\gamma_{{x}}", "gammax"),
+    "gammay": (r"\gamma_{{y}}", "gammay"),
+    "gammaz": (r"\gamma_{{z}}", "gammaz"),
+    "qd": (r"\dot{{q}}_{{{}}}", "qd{}"),
+    "qdd": (r"\ddot{{q}}_{{{}}}", "qdd{}"),
+}
+"""Symbols of the equations of motion, by the names of their atoms."""
+
 
 class Text(NamedTuple):
     """The same in both notations."""
@@ -64,11 +80,11 @@ class Notation:
 
     def text(self, polynomial: Polynomial) -> Text:
         """A polynomial."""
-        return self._product((), Fraction(1), self._numbered(polynomial))
+        return self._product((), Fraction(1), self.numbered(polynomial))
 
     def bracketed(self, polynomial: Polynomial) -> Text:
         """A polynomial as a factor of a product: a sum stands in brackets, and without a sign before it."""
-        polynomial = self._numbered(polynomial)
+        polynomial = self.numbered(polynomial)
         text = self._product((), Fraction(1), polynomial)
         if len(polynomial) == 1 and not text.plain.startswith("-"):
             return text
@@ -89,7 +105,7 @@ class Notation:
 
         Roots of numbers are gathered here: in factors apart they would not meet.
         """
-        counts = Counter(self._numbered(part) for part in factors)
+        counts = Counter(self.numbered(part) for part in factors)
         single, sums = number(factor), list[Text]()
         for part, power in counts.items():
             if len(part) == 1:
@@ -127,6 +143,8 @@ class Notation:
             return Text(f"q_{{{index}}}", f"q{index}")
         if atom.name in {"ca", "sa"}:
             return self._constant(atom, index)
+        if atom.name in _MOVING:
+            return Text(*(form.format(index) for form in _MOVING[atom.name]))
         letter = atom.name[-1]
         if atom.kind == LENGTH and len(atom.name) == 1:
             return Text(f"{letter}_{{{index}}}", f"{letter}{index}")
@@ -166,7 +184,8 @@ class Notation:
         plain = separators[1].join(str(index).replace("-", "m") for index in atom.indices)
         return Text(f"{atom.name}_{{{latex}}}", f"{atom.name}{plain}")
 
-    def _numbered(self, polynomial: Polynomial) -> Polynomial:
+    def numbered(self, polynomial: Polynomial) -> Polynomial:
+        """The same with values in place of symbols, where these are wanted."""
         if not self.numbers:
             return polynomial
         terms = []
@@ -185,13 +204,13 @@ class Notation:
         content, shared, rest = _taken_out(polynomial, exact=not self.numbers)
         factor, before = factor * content, monomial_product(before, shared)
         if len(rest) == 1:
-            return self._monomial(factor, before)
+            return self.monomial(factor, before)
         if not before and abs(factor) == 1:
             return self._sum(rest if factor > 0 else -rest)
         inner = self._sum(rest)
         if inner.plain.startswith("-"):
             factor, inner = -factor, self._sum(-rest)
-        text = self._monomial(factor, before)
+        text = self.monomial(factor, before)
         return Text(rf"{text.latex} \left({inner.latex}\right)", f"{text.plain}*({inner.plain})")
 
     def _sum(self, polynomial: Polynomial) -> Text:
@@ -229,7 +248,8 @@ class Notation:
     def _is_of(self, atom: Atom, group: int) -> bool:
         return atom.kind == TRIGONOMETRIC and self.group(abs(atom.indices[0])) == group
 
-    def _monomial(self, factor: Fraction, monomial: Monomial) -> Text:
+    def monomial(self, factor: Fraction, monomial: Monomial) -> Text:
+        """A number times powers of atoms."""
         sign, size = "-" if factor < 0 else "", abs(factor)
         powers = [(self.atom(atom), power) for atom, power in monomial]
         latex = [text.latex if power == 1 else _power(text.latex, power) for text, power in powers]

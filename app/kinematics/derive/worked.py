@@ -20,6 +20,15 @@ from app.kinematics.derive.check import (
     example_singular_values,
     formulas_error,
 )
+from app.kinematics.derive.lagrangian.solution import (
+    Dynamics,
+    MotionSolution,
+    checked_dynamics,
+    motion_question,
+    motion_solution,
+)
+from app.kinematics.derive.lagrangian.symbolic import motion
+from app.kinematics.derive.lagrangian.texts import MotionTexts, NoMotion
 from app.kinematics.derive.numeric import NumericSolution, numeric_solution
 from app.kinematics.derive.steps import Step, steps
 from app.kinematics.derive.symbolic import formulas, singularities
@@ -37,18 +46,19 @@ from app.model.urdf import read_urdf, write_urdf
 
 SAMPLES = 20
 SEED = 0
+_Question = TypeVar("_Question")
 _Result = TypeVar("_Result")
 
 
 class Runner(Protocol):
     """Runs a function of plain data somewhere, for so many seconds at most; TimeoutError if it takes longer."""
 
-    def __call__(self, function: Callable[[Question], _Result], question: Question, seconds: float, /) -> _Result:
+    def __call__(self, function: Callable[[_Question], _Result], question: _Question, seconds: float, /) -> _Result:
         """The function's result."""
         raise NotImplementedError
 
 
-def directly(function: Callable[[Question], _Result], question: Question, seconds: float) -> _Result:  # noqa: ARG001
+def directly(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:  # noqa: ARG001
     """Run a function here and now, however long it takes."""
     return function(question)
 
@@ -61,6 +71,7 @@ class WorkedSolution:
         joint_names: The order of a configuration.
         formulas: Transforms and Jacobian; None where there was no time.
         singularities: Determinant and where it vanishes; None where there was no time.
+        motion: The equations of motion; None where they were not asked for, or the notes say why there are none.
         examples: Smallest singular value of the block at each condition's example; None where there is none.
         numeric: One each given configuration.
         determinants: Of the block at each of these; None where no block is square.
@@ -74,6 +85,7 @@ class WorkedSolution:
     joint_names: tuple[str, ...]
     formulas: Formulas | None
     singularities: Singularities | None
+    motion: MotionSolution | None
     examples: list[float | None]
     numeric: list[NumericSolution]
     determinants: list[float | None]
@@ -90,6 +102,7 @@ def worked_solution(
     style: Style = "short",
     *,
     keeps_symbols: bool = True,
+    dynamics: Dynamics | None = None,
     run: Runner = directly,
     deadline: float | None = None,
 ) -> WorkedSolution:
@@ -100,12 +113,14 @@ def worked_solution(
         values: Configurations at which the numbers are wanted too, in order or by name, [rad or m].
         style: `short` writes c_{12}, `full` writes cos(q_1 + q_2).
         keeps_symbols: Whether lengths stay symbols; else their values stand in the formulas.
+        dynamics: Masses and gravity, where the equations of motion are wanted.
         run: Where the symbolic part runs.
         deadline: When the symbolic part must be over, on the monotonic clock; never if left out.
 
     Raises:
         InvalidDhTable: A row follows another joint.
-        WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration is none of the table.
+        WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration is none of the table, or the
+            dynamics are not.
         CertificationFailed: Formulas and numbers, or numbers and Pinocchio's, differ.
     """
     for i, row in enumerate(table.joints):
@@ -113,30 +128,42 @@ def worked_solution(
             raise InvalidDhTable("a worked solution needs rows that follow no other joint", i, "mimic")
     robot = Robot(read_urdf(write_urdf(describe_dh("table", table))), (BASE_FRAME, TOOL_FRAME))
     qs = configurations(robot.chain(None, None), values)
+    bodies = None if dynamics is None else checked_dynamics(table, robot.chain(None, None), dynamics, len(qs))
     numeric = [numeric_solution(table, q) for q in qs]
     samples = _samples(table)
     question = Question(_numbers(table), style, keeps_symbols, tuple(tuple(q) for q in samples.tolist()))
     notes: list[str] = []
     found = _timed(run, formulas, question, deadline, 0.5, notes, "the transforms and the Jacobian")
+    asked = None if bodies is None or found is None else motion_question(question, table, bodies[0], SEED)
+    what = "the equations of motion", "they are left out"
+    moving = _timed(run, motion, asked, deadline, 0.5, notes, *what) if asked else None
     singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
-    error, examples = 0.0, list[float | None]()
+    error, examples, solved = 0.0, list[float | None](), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
         as_read = _read_back(table, found.as_read)
+        if asked is not None and bodies is not None and isinstance(moving, MotionTexts):
+            solved = motion_solution(moving, asked, table, as_read, *bodies, qs, SEED)
         solutions = [numeric_solution(as_read, q) for q in samples]
         error = formulas_error(found.values, solutions)
         if singular is not None:
             error = max(error, determinants_error(singular, solutions))
             examples = example_singular_values(singular, as_read)
+    if isinstance(moving, NoMotion):
+        notes.append(moving.reason)
+    elif bodies is not None and found is None:
+        notes.append("without the transforms in symbols the equations of motion are left out too")
+    told = steps(table.convention, found, singular) if found is not None else []
     return WorkedSolution(
         tuple(row.name for row in table.joints),
         found,
         singular,
+        solved,
         examples,
         numeric,
         [_determinant(singular, solution) for solution in numeric],
-        steps(table.convention, found, singular) if found is not None else [],
-        notes,
+        [*told, *(solved.steps if solved is not None else ())],
+        [*notes, *(solved.notes if solved is not None else ())],
         None if found is None else FormulaCertificate(len(samples), error, SEED),
         *_certified(robot, qs, numeric),
     )
@@ -144,19 +171,20 @@ def worked_solution(
 
 def _timed(
     run: Runner,
-    function: Callable[[Question], _Result],
-    question: Question,
+    function: Callable[[_Question], _Result],
+    question: _Question,
     deadline: float | None,
     share: float,
     notes: list[str],
     what: str,
+    instead: str = "only numbers are given",
 ) -> _Result | None:
     """The result of a symbolic part within its share of the time that is left; else None and a note."""
     seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
     try:
         return run(function, question, seconds)
     except (TimeoutError, ChildProcessError):
-        notes.append(f"{what} could not be worked out in symbols in the time allowed: only numbers are given")
+        notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
         return None
 
 
