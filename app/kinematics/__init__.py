@@ -4,6 +4,16 @@
 - `kernels`: compiled batches of poses, Jacobians and Hessians on flat arrays; never Pinocchio.
 - `forward`: poses of tips and frames.
 - `jacobian`: Jacobians in every reference and representation, with derivatives.
+- `subspaces`: range and kernel of a Jacobian and of its transpose; `task_space`: the rows of it that a task counts.
+- `velocity`: twist, acceleration, jerk and snap of the tip; `certify_motion`: the same through Pinocchio.
+- `inverse_velocity`: joint rates behind those, on `linear_inverse`: exact, pseudo- and damped inverses.
+- `singularity`: what is lost where, and which joints make it so; `singularity_kinds` names it, `singularity_distance`
+  finds the nearest, `singularity_path` those between the configurations of a path.
+- `manipulability`: ellipsoids and measures; `polytope` and `limited_motion`: the same within the limits of the joints.
+- `wrenches`, `statics`: torques at rest. `dynamics`: equations of motion, on `mechanism` (Pinocchio's algorithms, for
+  the variables of a chain) and judged by `lagrangian` on `bodies` (sums over bodies from our own Jacobians).
+- `workspace`: where a tip gets to, by a million samples; `sampling`, `tip_motion`, `voxels`, `survey`
+  and `dexterity` are its parts.
 - `ik`: from poses to configurations, or to the reason why there is none.
 - `compare`: does a DH table describe a chain, and if not, where is it wrong; `comparison` holds its parts.
 - `derive`: the worked solution of a DH table, in symbols and in numbers.

@@ -9,6 +9,7 @@ from app.kinematics.forward import forward_kinematics
 from app.kinematics.ik.search import mid_range, start_of
 from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.jacobian import jacobians
+from app.kinematics.kernels import chain_measures
 from app.model.convert import describe_dh
 from app.model.dh import DhJoint, DhTable
 from app.model.poses import (
@@ -36,6 +37,7 @@ def warm_up() -> None:
         inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(every=every))
     inverse_kinematics(robot, chain, targets, mid_range(chain)[None], Options(trace=True, max_iterations=1))
     _closed_forms()
+    chain_measures(chain.flat, qs, np.arange(3))
     start_of(chain, mid_range(chain), True, 0, 1)
     rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
     rotations_from_vectors(vectors_from_rotations(Rs))

@@ -1,0 +1,118 @@
+"""Where a chain's tip moves at all: the line, plane or space of its velocities, and how far it can get."""
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+from app.kinematics.kernels import chain_jacobians, chain_poses
+from app.kinematics.sampling import Ranges, Sampling
+from app.model.arrays import Array
+from app.model.chain import Chain, FlatChain
+
+_PROBES = 4096
+"""Samples that say how large the workspace is before it is cut into cells."""
+_DIRECTIONS = 64
+"""Configurations that say in which directions the tip moves at all."""
+_STRUCTURAL = 1e-9
+"""Share of the largest velocity below which a direction is one in which the tip never moves."""
+
+
+class Motion:
+    """Where the tip moves at all: along which directions, and how far, at some configurations.
+
+    Args:
+        chain: The chain.
+        sampling: Its configurations.
+    """
+
+    def __init__(self, chain: Chain, sampling: Sampling) -> None:
+        qs = sampling.configurations(0, min(_PROBES, sampling.count))
+        # Directions are a matter of structure, and a few samples of their own tell them even where one is asked for.
+        probes = replace(sampling, sequence="random", seed=0).configurations(0, _DIRECTIONS)
+        self.positions = chain_poses(chain.flat, qs)[0]
+        self._velocities = chain_jacobians(chain.flat, probes)[2].transpose(1, 0, 2).reshape(6, -1)
+        self.farthest = _farthest(chain, sampling.ranges)
+
+    @cached_property
+    def _decomposition(self) -> tuple[Array, int]:
+        return _span(self._velocities[:3])
+
+    @property
+    def dimensions(self) -> int:
+        """Of the smallest line, plane or space that holds all velocities of the tip."""
+        return self._decomposition[1]
+
+    @cached_property
+    def axes(self) -> Array:
+        """Unit vectors as columns, right-handed, the directions that the tip moves in first; shape (3, 3)."""
+        left, rank = self._decomposition
+        if rank == 2:
+            return plane_axes(left[:, 2])
+        return np.roll(plane_axes(left[:, 0]), 1, axis=1) if rank == 1 else np.eye(3)
+
+    @cached_property
+    def rows(self) -> list[int] | None:
+        """The base's axes that these directions are; None where they lie askew to them."""
+        still = np.abs(self._velocities[:3]).max(axis=1, initial=0.0)
+        moving = np.flatnonzero(still > _STRUCTURAL * max(float(still.max()), np.finfo(float).tiny))
+        return moving.tolist() if len(moving) == self.dimensions else None
+
+    def notes(self) -> list[str]:
+        """What is special about where the tip gets."""
+        if self.dimensions == 0:
+            return ["the tip does not move"]
+        velocities = self._velocities[:3].reshape(3, _DIRECTIONS, -1).transpose(1, 0, 2)
+        local = int(np.linalg.matrix_rank(velocities, tol=_STRUCTURAL * float(np.abs(velocities).max())).max())
+        if local == self.dimensions:
+            return []
+        what = "surface" if local == 2 else "curve"
+        note = (
+            f"the tip keeps to a {what}: the voxels that it meets have a volume that shrinks with their size, and the "
+            f"measure of more than {local} directions vanishes everywhere"
+        )
+        return [note]
+
+    @cached_property
+    def turning(self) -> tuple[Array, int]:
+        """Unit vectors as columns, those that the tip turns about first, and how many these are."""
+        return _span(self._velocities[3:])
+
+
+def _span(vectors: Array) -> tuple[Array, int]:
+    """Orthonormal columns, those that span the vectors first, shape (3, 3), and how many these are."""
+    left, sigmas, _ = np.linalg.svd(np.hstack((vectors, np.zeros((3, 3)))), full_matrices=False)
+    return left, int(np.sum(sigmas > _STRUCTURAL * max(float(sigmas[0]), np.finfo(float).tiny)))
+
+
+def plane_axes(normal: Array) -> Array:
+    """Two unit vectors in a plane and its normal, as columns; right-handed, along the base's axes where these fit.
+
+    The second looks upwards: for the plane x z it is z, and the normal changes its sign for that.
+    """
+    smallest = int(np.argmin(np.abs(normal)))
+    u = np.eye(3)[smallest] - normal[smallest] * normal
+    u /= np.linalg.norm(u)
+    v = np.cross(normal, u)
+    sign = 1.0 if v[int(np.argmax(np.abs(v)))] > 0.0 else -1.0
+    # Sums with zero leave no negative zeros.
+    return np.column_stack((u, sign * v, sign * normal)) + 0.0
+
+
+def turned(flat: FlatChain, axes: Array) -> FlatChain:
+    """The same chain with a base whose axes are the given ones, as columns."""
+    first = flat.placements[0]
+    rotation, position = axes.T @ first[:9].reshape(3, 3), axes.T @ first[9:]
+    placements = flat.placements.copy()
+    placements[0] = np.concatenate((rotation.ravel(), position))
+    return flat._replace(placements=placements)
+
+
+def _farthest(chain: Chain, ranges: Ranges) -> float:
+    """No position of the tip is further from the base's origin, [m]: all lengths in a row."""
+    total = float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum())
+    for (prismatic, variable), (multiplier, offset) in zip(chain.flat.joints, chain.flat.drives, strict=True):
+        if prismatic:
+            largest = max(abs(ranges.lower[variable]), abs(ranges.upper[variable]))
+            total += abs(multiplier) * float(largest) + abs(offset)
+    return total

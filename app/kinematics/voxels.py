@@ -1,0 +1,131 @@
+"""Cells of equal size that samples fall into: how often, how soon, and how manipulable the best of them is.
+
+A table holds the cells that were met, and no others, so that its size is that of the workspace and not of a box around
+it. Tables of parts of the samples merge into the table of all of them, whatever the order of the parts.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.model.arrays import Array, Flags, Indices
+from app.model.errors import TooLarge
+
+MAX_VOXELS = 2_000_000
+"""Cells of one table: 64 MB."""
+MOST_ALONG_AXIS = 1 << 20
+"""Cells to either side of the origin that a key of 21 bits an axis tells apart."""
+
+_BITS = 21
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Cells about the points origin + axes · (i, j, k) · size; along the last 3 - dimensions axes there is but one.
+
+    Attributes:
+        origin: Centre of cell (0, 0, 0); shape (3,), [m].
+        axes: Unit vectors along the cells' edges, as columns; shape (3, 3).
+        dimensions: Along how many of the axes the cells count: 3 in space, 2 in a plane.
+        size: Edge of a cell, [m].
+    """
+
+    origin: Array
+    axes: Array
+    dimensions: int
+    size: float
+
+    def keys(self, positions: Array) -> Indices:
+        """The cell of each position, as one number; shape (N, 3) → (N,)."""
+        places = (positions - self.origin) @ self.axes[:, : self.dimensions]
+        indices = np.rint(places / self.size).astype(np.int64) + MOST_ALONG_AXIS
+        keys = np.zeros(len(positions), dtype=np.int64)
+        for axis in range(self.dimensions):
+            keys |= indices[:, axis] << (_BITS * axis)
+        return keys
+
+    def centres(self, keys: Indices) -> Array:
+        """The middle of each cell; shape (M,) → (M, 3), [m]."""
+        mask = (1 << _BITS) - 1
+        shifts = _BITS * np.arange(self.dimensions)
+        indices = ((keys[:, None] >> shifts) & mask) - MOST_ALONG_AXIS
+        centres: Array = self.origin + (indices * self.size) @ self.axes[:, : self.dimensions].T
+        return centres
+
+    def inner(self, keys: Indices) -> Flags:
+        """Which of the cells have a neighbour on every side; `keys` ascending, shape (M,)."""
+        inside = np.ones(len(keys), dtype=np.bool_)
+        for axis in range(self.dimensions):
+            step = 1 << (_BITS * axis)
+            for neighbours in (keys - step, keys + step):
+                places = np.minimum(np.searchsorted(keys, neighbours), max(len(keys) - 1, 0))
+                inside &= keys[places] == neighbours
+        return inside
+
+
+@dataclass(frozen=True, slots=True)
+class VoxelTable:
+    """The cells that samples have met, by ascending key.
+
+    Attributes:
+        keys: See `Grid.keys`; shape (M,).
+        counts: How many samples each holds; shape (M,).
+        best: The largest measure of these; shape (M,).
+        first: The number of the first of them; shape (M,).
+    """
+
+    keys: Indices
+    counts: Indices
+    best: Array
+    first: Indices
+
+    def __len__(self) -> int:
+        return len(self.keys)
+
+
+_NONE = np.empty(0, dtype=np.int64)
+NO_VOXELS = VoxelTable(_NONE, _NONE, np.empty(0), _NONE)
+
+
+def voxel_table(keys: Indices, measures: Array, numbers: Indices) -> VoxelTable:
+    """The cells of some samples.
+
+    Args:
+        keys: The cell of each; shape (N,).
+        measures: Of each; shape (N,).
+        numbers: Which sample each is; shape (N,).
+    """
+    return _reduced(keys, np.ones(len(keys), dtype=np.int64), measures, numbers)
+
+
+def merged(tables: Sequence[VoxelTable]) -> VoxelTable:
+    """The cells of all samples of several tables.
+
+    Raises:
+        TooLarge: More than `MAX_VOXELS`.
+    """
+    table = _reduced(
+        np.concatenate([table.keys for table in tables]),
+        np.concatenate([table.counts for table in tables]),
+        np.concatenate([table.best for table in tables]),
+        np.concatenate([table.first for table in tables]),
+    )
+    if len(table) > MAX_VOXELS:
+        raise TooLarge("voxels that samples fall into", len(table), MAX_VOXELS)
+    return table
+
+
+def _reduced(keys: Indices, counts: Indices, best: Array, first: Indices) -> VoxelTable:
+    """One row a key: counts summed, the largest measure, the smallest number."""
+    if len(keys) == 0:
+        return NO_VOXELS
+    order = np.argsort(keys)
+    ordered = keys[order]
+    starts = np.flatnonzero(np.concatenate(([True], ordered[1:] != ordered[:-1])))
+    return VoxelTable(
+        ordered[starts],
+        np.add.reduceat(counts[order], starts),
+        np.maximum.reduceat(best[order], starts),
+        np.minimum.reduceat(first[order], starts),
+    )
