@@ -37,6 +37,7 @@ ENV PATH=/opt/venv/bin:$PATH \
     PYTHONDONTWRITEBYTECODE=1 \
     PYTHONUNBUFFERED=1 \
     NUMBA_CACHE_DIR=/tmp/kernels \
+    MPLCONFIGDIR=/tmp/matplotlib \
     GELENK_DATA_DIR=/data
 VOLUME /data
 EXPOSE 8000

@@ -9,20 +9,33 @@ from fastapi import FastAPI
 
 from app.api import documentation, openapi, problems
 from app.api.compare import compare_route
+from app.api.course_components import component_routes
+from app.api.course_mobility import mobility_route
+from app.api.course_orientation import orientation_route
 from app.api.derive import derive_route
 from app.api.dh import dh_routes
+from app.api.dynamics import dynamics_operation
 from app.api.inverse import inverse_operation
 from app.api.isolated import Isolated
+from app.api.jobs import jobs_router
 from app.api.kinematics import kinematics_operations
+from app.api.manipulability import manipulability_operation
 from app.api.robots import robots_router, upload_routes
 from app.api.routes import Application
 from app.api.service import Readiness, service_router
+from app.api.singularity import singularity_operation
+from app.api.statics import statics_operation
+from app.api.velocity import velocity_operation
+from app.api.workspace import SampleLimits, workspace_route
+from app.jobs.runner import Runner
+from app.jobs.shelf import Limits, Shelf
 from app.settings import Settings
 from app.store.library import Library
 
 DESCRIPTION = """
-A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics and
-Jacobians come out, each answer recomputed through Pinocchio before it is sent (a sample of a large batch).
+A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics, velocities,
+forces, singularities, dynamics and workspaces come out, each answer recomputed before it is sent (a sample of a large
+batch), and the course's calculators stand beside them.
 
 Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A pose `T_a_b` is that of b in a; a
 quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the
@@ -40,13 +53,18 @@ def create_app(settings: Settings) -> FastAPI:
     executor = ThreadPoolExecutor(settings.threads, thread_name_prefix="work")
     uploads = ThreadPoolExecutor(2, thread_name_prefix="upload")
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
+    kept = Limits(settings.kept_jobs, settings.kept_job_bytes, settings.unfinished_jobs)
+    shelf = Shelf(settings.data_dir / "jobs", kept)
+    runner = Runner(shelf, settings.job_processes, settings.running_jobs, settings.job_seconds)
     readiness = Readiness()
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         library.prepare()
+        shelf.prepare()
         readiness.begin()
         yield
+        runner.close()
         isolated.close()
         derivations.shutdown()
         executor.shutdown()
@@ -67,6 +85,8 @@ def create_app(settings: Settings) -> FastAPI:
             {"name": "Robots", "description": "The catalogue, and robots of your own."},
             {"name": "DH tables", "description": "Denavit-Hartenberg tables: to and from URDF, compared, derived."},
             {"name": "Kinematics", "description": "Questions to a robot."},
+            {"name": "Jobs", "description": "Long work: how far it is, and what came out."},
+            {"name": "Course", "description": "The course's calculators, which keep nothing."},
             {"name": "Service", "description": "About the service itself."},
         ],
     )
@@ -76,11 +96,25 @@ def create_app(settings: Settings) -> FastAPI:
     app.router.routes.extend(dh_routes(library, executor, settings.max_body_bytes))
     app.router.routes.append(compare_route(library, executor, settings.max_body_bytes))
     app.router.routes.append(derive_route(isolated, derivations, settings.max_body_bytes))
+    app.router.routes.extend(component_routes(executor, settings.max_body_bytes))
+    app.router.routes.append(mobility_route(library, executor, settings.max_body_bytes))
+    app.router.routes.append(orientation_route(executor, settings.max_body_bytes))
     most = settings.max_answer_numbers
-    for operation in (*kinematics_operations(most), inverse_operation(most)):
+    for operation in (
+        *kinematics_operations(most),
+        inverse_operation(most),
+        statics_operation(most),
+        dynamics_operation(most),
+        manipulability_operation(most),
+        velocity_operation(most),
+        singularity_operation(most),
+    ):
         handler = operation.computation.handler(library, executor)
         app.operations[operation.name] = handler
         app.router.routes.append(operation.route(handler, settings.max_body_bytes))
+    samples = SampleLimits(settings.max_job_samples, most)
+    app.router.routes.append(workspace_route(library, runner, executor, samples, settings.max_body_bytes))
+    app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness))
     documentation.install(app)
     openapi.describe(app)

@@ -19,12 +19,20 @@ class Settings:
     """Defaults are safe on a laptop.
 
     Attributes:
-        data_dir: Uploaded robots are kept below it (`GELENK_DATA_DIR`).
+        data_dir: Uploaded robots and jobs are kept below it (`GELENK_DATA_DIR`).
         catalogue_dir: The robots that come with the project (`GELENK_CATALOGUE_DIR`).
         root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
         max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
         threads: Threads for batches in each worker process (`GELENK_THREADS`).
+        job_processes: Processes that the jobs of each worker process share, started when first needed
+            (`GELENK_JOB_PROCESSES`).
+        running_jobs: Jobs of each worker process that run at a time (`GELENK_RUNNING_JOBS`).
+        unfinished_jobs: Jobs of all worker processes that wait or run; more are refused (`GELENK_UNFINISHED_JOBS`).
+        kept_jobs: Jobs that are kept, the oldest finished ones go first (`GELENK_KEPT_JOBS`).
+        kept_job_bytes: Bytes of these (`GELENK_KEPT_JOB_BYTES`).
+        job_seconds: How long a job may run, [s] (`GELENK_JOB_SECONDS`).
+        max_job_samples: Most configurations of a workspace (`GELENK_MAX_JOB_SAMPLES`).
     """
 
     data_dir: Path = field(default_factory=lambda: user_data_path("gelenk", appauthor=False))
@@ -33,6 +41,13 @@ class Settings:
     max_body_bytes: int = 64 * 1024 * 1024
     max_answer_numbers: int = 20_000_000
     threads: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))
+    job_processes: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))
+    running_jobs: int = 2
+    unfinished_jobs: int = 16
+    kept_jobs: int = 100
+    kept_job_bytes: int = 2 * 1024**3
+    job_seconds: int = 600
+    max_job_samples: int = 10_000_000
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":

@@ -4,5 +4,8 @@
 - `payloads`: bodies in: JSON and NumPy's npy, strictly.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
 - `isolated`: a process of its own, with a deadline, for work that holds the GIL.
-- `robots`, `dh`, `compare`, `derive`, `kinematics`, `inverse`, `service`, `documentation`: the resources.
+- `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
+- `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to
+  a robot; `loads` and `velocity_call` read what several of their fields share.
+- `course_…`: the calculators of the course, on `course`; `jobs`: long work.
 """

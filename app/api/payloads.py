@@ -1,8 +1,9 @@
-"""Bodies in, answers out: JSON and NumPy's npy, strictly."""
+"""Bodies in, answers out: JSON and NumPy's npy, strictly; and in which of its shapes an answer is wanted."""
 
 import math
+import re
 import tokenize
-from collections.abc import AsyncGenerator
+from collections.abc import AsyncGenerator, Sequence
 from io import BytesIO
 from typing import Any, TypeVar
 
@@ -27,6 +28,11 @@ MAX_PARAMETERS = 1000
 
 JSON = "application/json"
 NPY = "application/x-npy"
+SVG = "image/svg+xml"
+PNG = "image/png"
+
+_WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
+_ANYTHING = frozenset({b"", b"*/*", b"application/json"})
 
 _Model = TypeVar("_Model", bound=Payload)
 
@@ -48,10 +54,11 @@ class BoundedRequest(Request):
         """The media type of the body, lower case, without parameters; "" where none is given."""
         return self._fields.get(b"content-type", b"").partition(b";")[0].strip().lower().decode("latin-1")
 
-    @property
-    def wants_npy(self) -> bool:
-        """Whether the caller asks for the answer as npy."""
-        return NPY.encode() in self._fields.get(b"accept", b"").lower()
+    def preferred(self, offered: Sequence[str]) -> str:
+        """The media type in which the caller wants the answer, of those offered; see `preferred_type`."""
+        accept = self._fields.get(b"accept", b"")
+        # What nearly every client sends names none but the first.
+        return offered[0] if accept in _ANYTHING else preferred_type(accept.decode("latin-1"), offered)
 
     async def body(self) -> bytes:
         """The whole body.
@@ -92,6 +99,38 @@ class BoundedRequest(Request):
     def _check(self, count: int) -> None:
         if count > self._max_bytes:
             raise TooLarge("bytes in the body", count, self._max_bytes)
+
+
+def preferred_type(accept: str, offered: Sequence[str]) -> str:
+    """The media type of an answer by the caller's `Accept` (RFC 9110, 12.5.1).
+
+    Of equal weights the more specific range wins, then what is offered first. That is also the answer where nothing
+    offered is accepted: an answer that can be read is better than none.
+
+    Args:
+        accept: The header.
+        offered: Media types, the default one first.
+    """
+    ranges = [_weighted(part) for part in accept.lower().split(",")[:MAX_PARAMETERS]]
+    best, best_rank = offered[0], (0.0, 0)
+    for media_type in offered:
+        group = media_type.partition("/")[0] + "/*"
+        found = [(name.count("*"), weight) for name, weight in ranges if name in {media_type, group, "*/*"}]
+        # A range of its own settles a type's weight, be it zero, whatever wider ranges say.
+        stars, weight = min(found, default=(2, 0.0))
+        if (weight, -stars) > best_rank and weight > 0.0:
+            best, best_rank = media_type, (weight, -stars)
+    return best
+
+
+def _weighted(part: str) -> tuple[str, float]:
+    """A media range of `Accept` and its weight, between 0 and 1; one that cannot be read counts for nothing."""
+    name, *parameters = (word.strip() for word in part.split(";"))
+    weight = 1.0
+    for parameter in parameters:
+        if parameter.startswith("q="):
+            weight = float(parameter[2:]) if _WEIGHT.fullmatch(parameter[2:]) else 0.0
+    return name, weight
 
 
 def json_response(content: Any, status: int = 200, headers: dict[str, str] | None = None) -> Response:

@@ -29,6 +29,12 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
     errors.StorageFailed: HTTPStatus.SERVICE_UNAVAILABLE,
     errors.StorageFull: HTTPStatus.INSUFFICIENT_STORAGE,
+    errors.JobExists: HTTPStatus.CONFLICT,
+    errors.JobNotFinished: HTTPStatus.CONFLICT,
+    errors.JobCancelled: HTTPStatus.CONFLICT,
+    errors.JobFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.JobTookTooLong: HTTPStatus.UNPROCESSABLE_ENTITY,
+    errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
 }
 """A class not listed has its nearest ancestor's status."""
@@ -120,7 +126,10 @@ def _kinematics(request: Request, error: Exception) -> Response:
     facts = error.facts()
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
-    return problem(request, status_of(type(error)), kind_of(type(error)), error.detail, facts)
+    response = problem(request, status_of(type(error)), kind_of(type(error)), error.detail, facts)
+    if isinstance(error, errors.TooManyJobs):
+        response.headers["Retry-After"] = str(error.retry_after)
+    return response
 
 
 def _payload(request: Request, error: Exception) -> Response:

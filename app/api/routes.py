@@ -12,7 +12,7 @@ import re
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar, cast
+from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
@@ -21,10 +21,12 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from app.api import problems
-from app.api.openapi import RobotPath, json_example, npy_content, problem_responses
+from app.api.openapi import RobotPath, json_example, npy_content, picture_content, problem_responses
 from app.api.payloads import (
     JSON,
     NPY,
+    PNG,
+    SVG,
     BoundedRequest,
     json_response,
     npy_response,
@@ -45,7 +47,10 @@ INLINE_BYTES = 4096
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
 Handler = Callable[[BoundedRequest], Awaitable[Response]]
+PictureFormat: TypeAlias = Literal["svg", "png"]
 _Request = TypeVar("_Request", bound=Payload)
+
+_PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
 
 
 class DocumentedRoute(APIRoute):
@@ -111,16 +116,18 @@ async def in_thread(executor: Executor, work: Callable[[], Response]) -> Respons
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The result of a computation in the two shapes it can travel in; each is made when asked for.
+    """The result of a computation in the shapes it can travel in; each is made when asked for.
 
     Attributes:
         content: For JSON.
         array: For npy, with headers that say what the array cannot; None where the call asked for something that one
             array cannot hold.
+        picture: For an image, as `svg` or `png`.
     """
 
     content: Callable[[], Any]
     array: Callable[[], tuple[Array, dict[str, str]]] | None
+    picture: Callable[[PictureFormat], bytes] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,6 +141,7 @@ class Computation(Generic[_Request]):
         array_field: The field that such an array stands for.
         is_heavy: Whether a request of few bytes can still be much work.
         attempt: The operation where it is quick; None when called if it is not.
+        picture: What an image of the answer shows, where there is one; it is drawn in a thread.
     """
 
     run: Callable[[LoadedRobot, _Request], Outcome]
@@ -142,28 +150,30 @@ class Computation(Generic[_Request]):
     array_field: str
     is_heavy: Callable[[_Request], bool]
     attempt: Callable[[LoadedRobot, _Request], Outcome | None] | None = None
+    picture: str | None = None
 
     def handler(self, library: Library, executor: Executor) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
+        offered = (JSON, NPY) if self.picture is None else (JSON, NPY, SVG, PNG)
 
         async def handle(request: BoundedRequest) -> Response:
-            npy_in, npy_out = _is_npy(request), request.wants_npy
+            npy_in, wanted = _is_npy(request), request.preferred(offered)
             body = await request.body()
             name: str = request.path_params["robot"]
 
             def compute(loaded: LoadedRobot, call: _Request) -> Response:
-                return _response(self.run(loaded, call), npy_out)
+                return _response(self.run(loaded, call), wanted)
 
             if len(body) > INLINE_BYTES:
                 return await in_thread(executor, lambda: compute(library.get(name), self._parse(request, body, npy_in)))
             call = self._parse(request, body, npy_in)
             loaded = library.loaded(name)
-            if loaded is None or self.is_heavy(call):
+            if loaded is None or wanted in _PICTURES or self.is_heavy(call):
                 return await in_thread(executor, lambda: compute(library.get(name), call))
             outcome = (self.attempt or self.run)(loaded, call)
             if outcome is None:
                 return await in_thread(executor, lambda: compute(loaded, call))
-            return _response(outcome, npy_out)
+            return _response(outcome, wanted)
 
         return handle
 
@@ -217,7 +227,10 @@ class Operation:
             summary=self.summary,
             description=inspect.getdoc(self.computation.run),
             tags=["Kinematics"],
-            responses={200: {"content": npy_content(self.npy_answer)}, **problem_responses(400, 404, 413, 415, 422)},
+            responses={
+                200: {"content": {**npy_content(self.npy_answer), **picture_content(self.computation.picture)}},
+                **problem_responses(400, 404, 413, 415, 422),
+            },
             openapi_extra={"requestBody": {"content": {**json_example(self.example), **npy_content(self.npy_body)}}},
         )
 
@@ -229,9 +242,13 @@ def _is_npy(request: BoundedRequest) -> bool:
     return given == NPY
 
 
-def _response(outcome: Outcome, npy: bool) -> Response:
-    if not npy:
+def _response(outcome: Outcome, wanted: str) -> Response:
+    if wanted == JSON:
         return json_response(outcome.content())
+    if wanted in _PICTURES:
+        if outcome.picture is None:
+            raise InvalidField("Accept", "what this call asks for cannot be drawn: leave the header out for JSON")
+        return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
     if outcome.array is None:
         raise InvalidArray("what this call asks for does not fit into one array: leave `Accept` out for JSON")
     return npy_response(*outcome.array())

@@ -20,12 +20,19 @@
     ├── NotFound
     │   ├── UnknownRobot
     │   ├── UnknownFrame
-    │   └── UnknownMesh
+    │   ├── UnknownMesh
+    │   └── UnknownJob
     ├── TooLarge                     more than the service is set up to take
     ├── RobotExists                  the name stands for something else
     ├── ReadOnlyRobot                a robot of the catalogue
     ├── StorageFailed                the disk cannot be written to
     │   └── StorageFull              the disk is full
+    ├── JobExists                    the name stands for another job
+    ├── JobNotFinished               a job that has no result yet
+    ├── JobCancelled                 a job that will have none
+    ├── JobFailed                    something went wrong in a job
+    ├── JobTookTooLong               a job that was ended
+    ├── TooManyJobs                  so many wait that another one has to be asked for later
     └── CertificationFailed          two computations of the same number disagree: never sent
 
 Not converging, or a target out of reach, is a result with a reason and no error.
@@ -371,6 +378,18 @@ class UnknownMesh(NotFound):
 
 
 @dataclass(eq=False)
+class UnknownJob(NotFound):
+    """No job of this name, or none any more."""
+
+    job: str
+
+    @property
+    def detail(self) -> str:
+        """The name, and why it may be gone."""
+        return f"there is no job {quoted(self.job)}; old ones are removed when there are many"
+
+
+@dataclass(eq=False)
 class TooLarge(KinematicsError):
     """More than the service is set up to take in one call."""
 
@@ -425,6 +444,85 @@ class StorageFailed(KinematicsError):
 
 class StorageFull(StorageFailed):
     """There is no room on the disk."""
+
+
+@dataclass(eq=False)
+class JobExists(KinematicsError):
+    """The name stands for a job with another request."""
+
+    job: str
+
+    @property
+    def detail(self) -> str:
+        """The name, and the ways out."""
+        return (
+            f"the name {quoted(self.job)} stands for a job with another request: choose another name, "
+            "leave it out, or DELETE that job"
+        )
+
+
+@dataclass(eq=False)
+class JobNotFinished(KinematicsError):
+    """A job whose result is asked for has none yet."""
+
+    job: str
+    state: str
+    progress: float
+
+    @property
+    def detail(self) -> str:
+        """How far it is."""
+        return f"job {quoted(self.job)} is {self.state!a}, at {self.progress:.0%}: its result comes when it is done"
+
+
+@dataclass(eq=False)
+class JobCancelled(KinematicsError):
+    """A job whose result is asked for was cancelled."""
+
+    job: str
+
+    @property
+    def detail(self) -> str:
+        """The name."""
+        return f"job {quoted(self.job)} was cancelled and has no result"
+
+
+@dataclass(eq=False)
+class JobFailed(KinematicsError):
+    """Something went wrong in a job that is no fault of the request."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """The reason."""
+        return self.reason
+
+
+@dataclass(eq=False)
+class JobTookTooLong(KinematicsError):
+    """A job was ended because it took longer than the service is set up to allow."""
+
+    allowed: float
+
+    @property
+    def detail(self) -> str:
+        """How long it may take."""
+        return f"the job took longer than the {self.allowed:g} s allowed: ask for less at once"
+
+
+@dataclass(eq=False)
+class TooManyJobs(KinematicsError):
+    """So many jobs wait that another one has to be asked for later."""
+
+    unfinished: int
+    allowed: int
+    retry_after: int
+
+    @property
+    def detail(self) -> str:
+        """How many there are."""
+        return f"{self.unfinished} jobs wait or run, of {self.allowed} allowed: ask again in {self.retry_after} s"
 
 
 @dataclass(eq=False)

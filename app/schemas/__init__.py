@@ -7,5 +7,7 @@
 - `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.
 - `kinematics`: requests and answers of forward kinematics and the Jacobian.
 - `ik`: requests and answers of inverse kinematics.
+- `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: the other questions to a robot.
+- `course_…`: the calculators of the course. `jobs`: long work.
 - `problem`: an error.
 """

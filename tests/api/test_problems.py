@@ -4,6 +4,7 @@ import errno
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -11,6 +12,9 @@ from starlette.testclient import TestClient
 
 from app.api.payloads import read_npy
 from app.api.problems import kind_of, status_of
+from app.jobs.job import Failure
+from app.jobs.runner import Runner
+from app.jobs.shelf import Limits, Shelf
 from app.kinematics.certify import certify_poses
 from app.model import errors
 from app.model.chain import build_chain
@@ -80,6 +84,7 @@ EXAMPLES: dict[type[errors.KinematicsError], tuple[str, str, object]] = {
     errors.TooLarge: ("POST", "/v1/robots/panda/fk", {"joint_positions": [[0] * 7] * 200_000, "frames": "all"}),
     errors.RobotExists: ("POST", "/v1/robots", {"name": "panda", "urdf": '<robot name="r"><link name="l"/></robot>'}),
     errors.ReadOnlyRobot: ("DELETE", "/v1/robots/panda", None),
+    errors.UnknownJob: ("GET", "/v1/jobs/nobody", None),
 }
 OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidArray: lambda: read_npy(b"no array"),
@@ -88,9 +93,36 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidRobotFolder: lambda: read_record(Path("x\0"), "uploaded"),
     errors.UnsupportedJoint: lambda: build_chain(read_urdf(SHIP), "sea", "crane"),
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
+    errors.JobExists: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", digest, "one") for digest in "ab"]),
+    errors.JobNotFinished: lambda: result_of({}),
+    errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
+    errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
+    errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
+    errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "") for _ in range(3)]),
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }
 """What needs more than a request, or a state that no request can bring about."""
+
+
+def on_a_shelf(do: Callable[[Shelf], object]) -> None:
+    """Something with jobs of which no more than two may wait."""
+    with TemporaryDirectory() as folder:
+        shelf = Shelf(Path(folder), Limits(unfinished=2))
+        try:
+            do(shelf)
+        finally:
+            shelf.close()
+
+
+def result_of(state: dict[str, object]) -> None:
+    """The result of a job that is in a state, if it ever began."""
+
+    def ask(shelf: Shelf) -> None:
+        job, _ = shelf.add("workspace", "")
+        shelf.change(job.id, **state)
+        Runner(shelf, workers=1, running=1, seconds=1.0).result(job.id, "result.json")
+
+    on_a_shelf(ask)
 
 
 def refused_by_the_system(number: int) -> None:

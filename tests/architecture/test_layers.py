@@ -12,14 +12,16 @@ ROOT = Path(__file__).parents[2]
 WITHOUT_PINOCCHIO = [
     *(f"app.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
     *(f"app.model.{name}" for name in ("appearance", "dh_from_chain", "origins")),
-    *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "configuration", "subspaces")),
+    *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "bodies", "configuration", "subspaces")),
+    *(f"app.kinematics.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
     *(f"app.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
     *(f"app.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
     *(f"app.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
+    *(f"app.course.{path.stem}" for path in sorted((ROOT / "app" / "course").glob("[a-z]*.py"))),
 ]
 CORE = [
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
-    for package in ("model", "kinematics")
+    for package in ("model", "kinematics", "course", "plots")
     for path in sorted((ROOT / "app" / package).rglob("*.py"))
     if path.stem != "__init__"
 ]

@@ -1,0 +1,108 @@
+"""POST /v1/course/workspace: the two workspaces of a planar arm."""
+
+import math
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import asdict
+from typing import Any
+
+from starlette.responses import Response
+
+from app.api.course import TAG
+from app.api.openapi import json_example, picture_content, problem_responses
+from app.api.payloads import JSON, PNG, SVG, BoundedRequest, json_response, read_json
+from app.api.problems import UnsupportedMediaType
+from app.api.routes import INLINE_BYTES, DocumentedRoute, Handler, in_thread
+from app.course import planar
+from app.model.errors import InvalidField
+from app.schemas.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer, PlanarWorkspaceRequest
+
+
+def workspace_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+    """The calculator of planar workspaces."""
+
+    def planar_workspace(call: PlanarWorkspaceRequest) -> PlanarWorkspaceAnswer:
+        """Primary and secondary workspace of a planar arm of two or three revolute joints, exactly.
+
+        WS₁ are the points that are reached with at least one orientation, WS₂ those that are reached with all. Both
+        are rings around the base, given as intervals of the distance r. With three links WS₂ is where the circle of
+        the wrist, of radius l_3, lies within the ring of the first two: r + l_3 ≤ l_1 + l_2, and r ≥ l_3 + |l_1 - l_2|
+        or r ≤ l_3 - |l_1 - l_2|: up to two pieces. Known solutions of this exercise give the outer ring alone, from
+        l_1 - l_2 + l_3 to l_1 + l_2 - l_3; they miss the disc around the base that the second condition adds.
+        With two links WS₂ is empty, or the base alone where both are of the same length.
+
+        For a `point`: where it lies relative to both, and with which orientations it is reached. The joints turn
+        without limits; with limits the boundaries are others, and the workspace of a robot has to be sampled. As a
+        picture with `Accept: image/svg+xml` or `image/png`.
+        """
+        raise NotImplementedError
+
+    return DocumentedRoute(
+        "/v1/course/workspace",
+        planar_workspace,
+        _handler(executor),
+        max_body_bytes,
+        methods=["POST"],
+        operation_id="planar_workspace",
+        summary="Workspaces of a planar arm",
+        tags=[TAG],
+        responses={
+            200: {"content": picture_content("Both workspaces, and the arm with its tip at `point`.")},
+            **problem_responses(400, 413, 415, 422),
+        },
+        openapi_extra={"requestBody": {"content": json_example(EXAMPLE_WORKSPACE)}},
+    )
+
+
+def _handler(executor: Executor) -> Handler:
+    """What answers a request: with JSON at once, with a picture in a thread."""
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        wanted, body = request.preferred((JSON, SVG, PNG)), await request.body()
+        if wanted != JSON or len(body) > INLINE_BYTES:
+            return await in_thread(executor, lambda: _answer(read_json(PlanarWorkspaceRequest, body), wanted))
+        return _answer(read_json(PlanarWorkspaceRequest, body), wanted)
+
+    return handle
+
+
+def _answer(call: PlanarWorkspaceRequest, wanted: str) -> Response:
+    if wanted == JSON:
+        return json_response(_workspace(call))
+    # Matplotlib takes a third of a second to load.
+    from app.plots.planar_workspace import planar_workspace_picture  # noqa: PLC0415
+
+    arm = planar.planar_workspace(call.links)
+    planar.tried(arm)
+    picture = planar_workspace_picture(arm, call.point, "svg" if wanted == SVG else "png")
+    return Response(picture, media_type=wanted)
+
+
+def _workspace(call: PlanarWorkspaceRequest) -> dict[str, Any]:
+    arm = planar.planar_workspace(call.links)
+    return {
+        "primary": _region(arm.primary),
+        "secondary": _region(arm.secondary),
+        "point": None if call.point is None else _point(arm, call.point, call.tolerance),
+        "steps": [asdict(step) for step in planar.workspace_steps(arm)],
+        "certificate": asdict(planar.tried(arm)),
+    }
+
+
+def _region(rings: Sequence[planar.Interval]) -> dict[str, Any]:
+    return {"intervals": rings, "area": planar.area(rings)}
+
+
+def _point(arm: planar.PlanarWorkspace, point: Sequence[float], tolerance: float) -> dict[str, Any]:
+    radius, found = math.hypot(*point), planar.orientations(arm, *point)
+    return {
+        "radius": radius,
+        "primary": asdict(planar.place(arm.primary, radius, tolerance)),
+        "secondary": asdict(planar.place(arm.secondary, radius, tolerance)),
+        "orientations": found,
+        "orientation_share": planar.share(found),
+    }

@@ -1,0 +1,189 @@
+"""Dynamics of a robot."""
+
+from typing import Any
+
+import numpy as np
+
+from app.api.loads import gravity_of, load_of, weight_notes, wrench_frame, wrench_rows
+from app.api.routes import Computation, Operation, Outcome
+from app.kinematics.bodies import Load
+from app.kinematics.configuration import check_limits, configurations
+from app.kinematics.dynamics import Dynamics, dynamics
+from app.kinematics.ik.task import DIRECTIONS
+from app.kinematics.lagrangian import State
+from app.kinematics.mechanism import known_mechanism, mechanism
+from app.kinematics.statics import certify_statics, overloaded_joints, statics
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import InvalidField, TooLarge
+from app.model.robot import Robot
+from app.schemas.dynamics import DynamicsAnswer, DynamicsOptions, DynamicsRequest
+from app.store.records import LoadedRobot
+
+_QUICK_CONFIGURATIONS = 1
+_QUICK_BODIES = 8
+"""What takes the event loop less than about a millisecond; more goes to a thread."""
+_FIELDS = {
+    "mass_matrix": "mass_matrices",
+    "coriolis_matrix": "coriolis_matrices",
+    "coriolis_torques": "coriolis_torques",
+    "gravity_torques": "gravity_torques",
+}
+"""Where the answer has a term."""
+
+
+def dynamics_operation(max_answer_numbers: int) -> Operation:
+    """The operation `dynamics`, none of whose answers holds more numbers than given."""
+
+    def run(loaded: LoadedRobot, call: DynamicsRequest) -> Outcome:
+        """Mass matrix, Coriolis and gravity terms, energies, inverse and forward dynamics.
+
+        M(q) q̈ + C(q, q̇) q̇ + g(q) + Jᵀγ = τ, which Lagrange's equations make of T = ½ q̇ᵀM q̇ and U: τ are the torques
+        of the motors, γ the wrench that the tip exerts on its surroundings (these act on the tip with -γ; as in
+        `statics` they are at rest in `base_frame`). `joint_accelerations` ask for the torques (recursive Newton-Euler),
+        `torques` for the accelerations (articulated bodies; M⁻¹ where mimic joints follow).
+
+        The robot's root link stands still. Joints that the chain does not have are locked at zero, and their links
+        count where the chain's joints carry them. A mimic joint moves with its leader and adds to its inertia. Friction
+        and damping that a description gives are not applied, and rotors have no inertia.
+
+        Terms come from Pinocchio; `certificate` says how far sums over the bodies with Jacobians of our own are apart.
+        """
+        return _outcome(loaded.robot, call, max_answer_numbers)
+
+    def attempt(loaded: LoadedRobot, call: DynamicsRequest) -> Outcome | None:
+        """The same where all is at hand; None where it has to be made ready first, or is large."""
+        known = known_mechanism(loaded.robot, loaded.robot.chain(call.base_frame, call.tip_frame))
+        return None if known is None or len(known.bodies) > _QUICK_BODIES else run(loaded, call)
+
+    return Operation(
+        name="dynamics",
+        operation_id="dynamics",
+        summary="Dynamics: M, C, g, inverse and forward",
+        computation=Computation(
+            run=run,
+            request=DynamicsRequest,
+            options=DynamicsOptions,
+            array_field="joint_positions",
+            is_heavy=lambda call: len(call.joint_positions) > _QUICK_CONFIGURATIONS or call.wrenches is not None,
+            attempt=attempt,
+        ),
+        answer=DynamicsAnswer,
+        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_answer="The torques or accelerations that were asked for as one array of shape (N, n), else the first of "
+        "`terms`: a matrix (N, n, n), torques (N, n), or both energies (N, 2).",
+        example={
+            "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
+            "joint_velocities": [[0.1, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0]],
+            "joint_accelerations": [[0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]],
+            "payload": {"mass": 0.5, "center_of_mass": [0.0, 0.0, 0.05]},
+        },
+    )
+
+
+def _outcome(robot: Robot, call: DynamicsRequest, most: int) -> Outcome:
+    if call.joint_accelerations is not None and call.torques is not None:
+        raise InvalidField(
+            "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
+        )
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    load, gravity = load_of(call.payload), gravity_of(call.gravity)
+    qs = configurations(chain, call.joint_positions)
+    if call.respect_limits:
+        check_limits(chain, qs)
+    _check_size(call, len(qs), len(chain), most)
+    speeds = _rows(chain, call.joint_velocities, "joint_velocities", len(qs))
+    state = State(qs, np.zeros_like(qs) if speeds is None else speeds, _held(robot, chain, call, qs))
+    gravity = np.zeros(3) if gravity is None else gravity
+    found = dynamics(
+        robot,
+        chain,
+        state,
+        terms=call.terms,
+        gravity=gravity,
+        load=load,
+        accelerations=_rows(chain, call.joint_accelerations, "joint_accelerations", len(qs)),
+        torques=_rows(chain, call.torques, "torques", len(qs)),
+    )
+    array = _array(call, found)
+    return Outcome(
+        lambda: _content(robot, chain, call, state, gravity, load, found),
+        None if array is None else lambda: (array, {}),
+    )
+
+
+def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
+    """One row a configuration, where there are any."""
+    if values is None:
+        return None
+    rows = configurations(chain, values, field)
+    if len(rows) != count:
+        raise InvalidField(field, f"{len(rows)} entries for {count} configurations")
+    return rows
+
+
+def _held(robot: Robot, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
+    """Jᵀγ, certified; zero without a wrench."""
+    frame = wrench_frame(call)
+    frame.check()
+    if call.wrenches is None:
+        return np.zeros_like(qs)
+    wrenches = wrench_rows(call.wrenches, len(qs), DIRECTIONS)
+    still = statics(robot, chain, qs, frame)
+    held = still.wrench_torques(wrenches)
+    certify_statics(still, wrenches, held)
+    return held
+
+
+def _check_size(call: DynamicsRequest, count: int, n: int, most: int) -> None:
+    matrices = len({"mass_matrix", "coriolis_matrix", "coriolis_torques"} & set(call.terms)) + (
+        call.torques is not None
+    )
+    numbers = count * (matrices * n * n + 6 * n + 2 + (12 + 6 * n) * (call.wrenches is not None))
+    if numbers > most:
+        raise TooLarge("numbers in the answer", numbers, most)
+
+
+def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
+    """What npy holds of the answer."""
+    if found.torques is not None:
+        return found.torques
+    if found.accelerations is not None or not call.terms:
+        return found.accelerations
+    if call.terms[0] == "energies":
+        return np.column_stack((found.kinetic_energies, found.potential_energies))  # type: ignore[arg-type]
+    array: Array = getattr(found, _FIELDS[call.terms[0]])
+    return array
+
+
+def _content(
+    robot: Robot,
+    chain: Chain,
+    call: DynamicsRequest,
+    state: State,
+    gravity: Array,
+    load: Load | None,
+    found: Dynamics,
+) -> dict[str, Any]:
+    notes = weight_notes(mechanism(robot, chain), load)
+    if not found.is_definite:
+        notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
+    answer: dict[str, Any] = {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "root_frame": robot.description.root,
+        "gravity": gravity,
+    }
+    for field in (*_FIELDS.values(), "kinetic_energies", "potential_energies"):
+        value = getattr(found, field)
+        if value is not None:
+            answer[field] = np.ascontiguousarray(value)
+    if call.wrenches is not None:
+        answer["wrench_torques"] = state.held
+    if found.torques is not None:
+        answer["torques"] = found.torques
+        answer["overloaded_joints"] = overloaded_joints(robot, chain, found.torques)
+    if found.accelerations is not None:
+        answer["joint_accelerations"] = found.accelerations
+    return {**answer, "notes": notes, "certificate": found.certificate}

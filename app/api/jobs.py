@@ -1,0 +1,197 @@
+"""Jobs: how far they are, what came out, and the end of them."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from datetime import UTC, datetime
+from typing import Annotated, Any, Literal
+
+import orjson
+from fastapi import APIRouter, Header, Path, Response
+from starlette.background import BackgroundTask
+from starlette.requests import Request
+from starlette.responses import StreamingResponse
+
+from app.api.openapi import npy_content, picture_content, problem_responses
+from app.api.payloads import JSON, NPY, PNG, SVG, preferred_type
+from app.api.problems import kind_of
+from app.jobs.job import Job
+from app.jobs.runner import Runner
+from app.jobs.workspace import ARRAY, SUMMARY, picture
+from app.model.errors import UnknownJob
+from app.schemas.jobs import JobInfo
+from app.schemas.workspace import WorkspaceAnswer
+
+EVENT_STREAM = "text/event-stream"
+LOOK_SECONDS = 0.2
+"""How often a stream looks how far its job is."""
+HEARTBEAT_SECONDS = 15.0
+"""After how long without news a stream sends a comment, so that nothing on the way takes it for dead."""
+
+_PIECE = 256 * 1024
+_PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
+_NO_STORE = {"Cache-Control": "no-store"}
+
+JobPath = Annotated[
+    str, Path(description="Name of a job.", openapi_examples={"panda-workspace": {"value": "panda-workspace"}})
+]
+LastEvent = Annotated[
+    str | None,
+    Header(
+        description="What a browser sends when it connects again; after the last event the answer is 204, at which it "
+        "stops.",
+        openapi_examples={"none": {"value": "0"}},
+    ),
+]
+
+
+def jobs_router(runner: Runner) -> APIRouter:
+    """What is asked of jobs that are there."""
+    router = APIRouter(prefix="/v1/jobs", tags=["Jobs"])
+
+    @router.get(
+        "/{job}",
+        operation_id="get_job",
+        summary="A job",
+        response_model=JobInfo,
+        responses=problem_responses(404, 422),
+    )
+    def get_job(job: JobPath) -> Response:
+        """How far it is. Any worker of the service knows every job; finished ones outlive a restart."""
+        return job_response(runner.shelf.get(job))
+
+    @router.get(
+        "/{job}/events",
+        operation_id="watch_job",
+        summary="A job's progress as it goes on",
+        response_class=StreamingResponse,
+        responses={
+            200: {"content": {EVENT_STREAM: {"schema": {"type": "string"}}}, "description": "Server-sent events"},
+            204: {"description": "The last event was received before"},
+            **problem_responses(404, 422),
+        },
+    )
+    async def watch_job(job: JobPath, last_event_id: LastEvent = None) -> Response:
+        """Server-sent events until the job comes to its end.
+
+        `event: progress` whenever it is further on, and at the end `event: finished`; the data of both is the job as
+        `GET /v1/jobs/{job}` has it. Comments keep the connection alive between them.
+        """
+        first = await asyncio.to_thread(runner.shelf.get, job)
+        if first.is_final and last_event_id == _event_id(first):
+            return Response(status_code=204)
+        return StreamingResponse(_events(runner, first), media_type=EVENT_STREAM, headers=_NO_STORE)
+
+    @router.get(
+        "/{job}/result",
+        operation_id="get_job_result",
+        summary="What came out of a job",
+        response_model=WorkspaceAnswer,
+        responses={
+            200: {
+                "content": {
+                    **npy_content(
+                        "The array, columns as `array.columns` of the JSON has them: (N, 4) x y z measure of a cloud, "
+                        "(M, 5) x y z samples best_measure of a grid, (M, 6) with the share of a dexterity map."
+                    ),
+                    **picture_content(
+                        "The workspace from the front, the side and above, or in its plane, coloured by the measure or "
+                        "the dexterity."
+                    ),
+                }
+            },
+            **problem_responses(404, 409, 413, 422, 500),
+        },
+    )
+    def get_result(job: JobPath, request: Request) -> Response:
+        """A summary as JSON, the array as npy, or a picture, by `Accept`; of a failed job its problem."""
+        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, SVG, PNG))
+        if wanted in _PICTURES:
+            paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
+            return Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
+        return _file_response(runner, job, ARRAY if wanted == NPY else SUMMARY, wanted)
+
+    @router.delete(
+        "/{job}",
+        operation_id="cancel_job",
+        summary="Cancel a job, or remove a finished one",
+        response_model=JobInfo,
+        responses=problem_responses(404, 422, 503, 507),
+    )
+    def cancel_job(job: JobPath) -> Response:
+        """A job that waits or runs is cancelled at once, whichever worker does it, and stays to be looked at.
+
+        One that has come to its end is removed together with its result; the answer shows it for the last time.
+        """
+        return job_response(runner.cancel(job))
+
+    return router
+
+
+def job_response(job: Job, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """A job as it travels."""
+    return Response(orjson.dumps(_content(job)), status, {**_NO_STORE, **(headers or {})}, JSON)
+
+
+def _content(job: Job) -> dict[str, Any]:
+    failure = job.failure
+    content: dict[str, Any] = {
+        "id": job.id,
+        "kind": job.kind,
+        "state": job.state,
+        "progress": job.progress,
+        "created": _moment(job.created),
+        "started": _moment(job.started),
+        "finished": _moment(job.finished),
+        "error": None,
+    }
+    if failure is not None:
+        kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
+        content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
+    return content
+
+
+def _moment(seconds: float | None) -> str | None:
+    if seconds is None:
+        return None
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def _event_id(job: Job) -> str:
+    return job.state if job.is_final else f"{job.progress:.6f}"
+
+
+async def _events(runner: Runner, job: Job) -> AsyncIterator[str]:
+    """The events of a job from now on; when its client has left, the server ends the iteration."""
+    told, quiet = "", 0.0
+    while True:
+        if (event_id := f"{job.state} {job.progress}") != told:
+            told, quiet = event_id, 0.0
+            name = "finished" if job.is_final else "progress"
+            yield f"event: {name}\nid: {_event_id(job)}\ndata: {orjson.dumps(_content(job)).decode()}\n\n"
+        elif quiet >= HEARTBEAT_SECONDS:
+            quiet = 0.0
+            yield ": still there\n\n"
+        if job.is_final:
+            return
+        await asyncio.sleep(LOOK_SECONDS)
+        quiet += LOOK_SECONDS
+        try:
+            job = await asyncio.to_thread(runner.shelf.get, job.id)
+        except UnknownJob:
+            return
+
+
+def _file_response(runner: Runner, job_id: str, name: str, media_type: str) -> Response:
+    """A file that a job has left behind, piece by piece: once open, it is there to its end."""
+    path = runner.result(job_id, name)
+    try:
+        stream = path.open("rb")
+    except FileNotFoundError:
+        raise UnknownJob(job_id) from None
+    headers = {**_NO_STORE, "Content-Length": str(path.stat().st_size)}
+    return StreamingResponse(
+        iter(lambda: stream.read(_PIECE), b""),
+        media_type=media_type,
+        headers=headers,
+        background=BackgroundTask(stream.close),
+    )

@@ -1,0 +1,243 @@
+"""Singularities of a robot: at configurations and along a path."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from app.api.routes import Computation, Operation, Outcome
+from app.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from app.kinematics.configuration import check_limits, configurations
+from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Task
+from app.kinematics.jacobian import singular_values
+from app.kinematics.kernels import chain_jacobians
+from app.kinematics.singularity import SingularityReport, singularity_report
+from app.kinematics.singularity_distance import NearestSingularity, Search, nearest_singularity
+from app.kinematics.singularity_path import Place, places_along
+from app.kinematics.task_space import FULL_SPACE, TaskSpace, slides
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import InvalidField, TooLarge
+from app.model.robot import Robot
+from app.schemas.singularity import (
+    MAX_NEAREST,
+    MAX_PATH,
+    MAX_PLACES,
+    MAX_REPORTS,
+    SingularityAnswer,
+    SingularityOptions,
+    SingularityRequest,
+)
+from app.store.records import LoadedRobot
+
+_QUICK_REPORTS = 1
+"""Reports that take the event loop about half a millisecond; more go to a thread."""
+_ENTRY = 120
+"""Numbers in a report beside those of its joints, at most."""
+
+
+def singularity_operation(max_answer_numbers: int) -> Operation:
+    """The operation `singularities`, none of whose answers holds more numbers than given."""
+
+    def singularities(loaded: LoadedRobot, call: SingularityRequest) -> Outcome:
+        """What the tip has lost at each configuration, which joints make it so, and what they can do unseen.
+
+        A configuration is singular where the Jacobian's rank is below that at random configurations: what an arm never
+        has (a planar arm, or one of fewer than six joints) is told apart from what it has lost here. Each lost
+        direction comes as a twist and as the wrench that it bears for free; each internal motion as joint velocities,
+        those of redundancy told apart from those of the singularity. `nearest` adds the nearest singular configuration
+        that was found, by projections from many starts: the distance is an upper bound. With `path` the configurations
+        are a path, whose singular and nearly singular places between them are found too. The Jacobians are recomputed
+        through Pinocchio before the answer is sent (a sample of a large batch, all of the nearest singularities), and
+        `certificate` says how far the two are apart: singular values differ by no more than √(6n) times that.
+
+        The lecture notes say that the rank of a planar arm's 6×n Jacobian is between 1 and 2: of two joints it is
+        always 2, because the angular row and the linear ones never vanish together; what drops to rank 1 at q₂ = 0 and
+        π is the block of `x y`, so ask for that as `task`. They call an arm with many inverse solutions redundant: here
+        redundancy is n larger than the rank, with internal motions at every configuration.
+        """
+        chain = loaded.robot.chain(call.base_frame, call.tip_frame)
+        qs = configurations(chain, call.joint_positions)
+        if call.respect_limits:
+            check_limits(chain, qs)
+        space = _space(call)
+        _check_size(call, len(qs), len(chain), max_answer_numbers)
+        certificate = _certificate(loaded.robot, chain, qs)
+        Js = space.jacobians(chain, qs)
+        fits = not (call.nearest or call.path)
+        return Outcome(
+            lambda: _content(loaded.robot, chain, call, qs, Js, certificate),
+            (lambda: (singular_values(Js), {})) if fits else None,
+        )
+
+    return Operation(
+        name="singularities",
+        operation_id="singularities",
+        summary="Singularities",
+        computation=Computation(
+            run=singularities,
+            request=SingularityRequest,
+            options=SingularityOptions,
+            array_field="joint_positions",
+            is_heavy=lambda call: call.nearest or call.path or len(call.joint_positions) > _QUICK_REPORTS,
+        ),
+        answer=SingularityAnswer,
+        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_answer="Singular values as one array, largest first, of shape (N, k), k the lesser of n and the number of "
+        "directions that count.",
+        example={"joint_positions": [[0.0, 0.0, 0.0, -1.571, 0.0, 1.571, 0.785]], "nearest": True},
+    )
+
+
+def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
+    """A report as `SingularityInfo` has it."""
+    defect = report.defect
+    lost = zip(report.twists.T.tolist(), report.wrenches.T.tolist(), strict=True)
+    return {
+        "singular": defect > 0,
+        "rank": report.rank,
+        "structural_rank": report.structural_rank,
+        "rank_tolerance": report.tolerance,
+        "singular_values": report.sigmas.tolist(),
+        "smallest_singular_value": report.smallest,
+        "lost_directions": [
+            {"twist": twist, "wrench": wrench, "lost_here": k < defect} for k, (twist, wrench) in enumerate(lost)
+        ],
+        "internal_motions": [
+            {"joint_velocities": motion, "only_here": k < defect}
+            for k, motion in enumerate(report.internal_motions.T.tolist())
+        ],
+        "dependent_joints": _names(chain, report.joints),
+        "kinds": report.kinds,
+        "exit": _exit(chain, report),
+    }
+
+
+def _exit(chain: Chain, report: SingularityReport) -> dict[str, Any] | None:
+    if report.exit is None:
+        return None
+    joint = chain.joint_names[int(np.argmax(np.abs(report.exit)))]
+    return {"joint": joint, "direction": report.exit.tolist(), "rate": report.exit_rate}
+
+
+def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
+    return [chain.joint_names[j] for j in joints]
+
+
+def _space(call: SingularityRequest) -> TaskSpace:
+    if call.task is None:
+        return FULL_SPACE if call.characteristic_length is None else TaskSpace(FULL_POSE, call.characteristic_length)
+    if len(set(call.task)) < len(call.task):
+        raise InvalidField("task", "each direction at most once")
+    task = Task(tuple(direction for direction in DIRECTIONS if direction in call.task))
+    return TaskSpace(task, call.characteristic_length)
+
+
+def _check_size(call: SingularityRequest, count: int, joints: int, allowed: int) -> None:
+    if count > MAX_REPORTS:
+        raise TooLarge("configurations with singularity reports", count, MAX_REPORTS)
+    if call.path and count > MAX_PATH:
+        raise TooLarge("configurations of a path", count, MAX_PATH)
+    most = max(1, MAX_NEAREST * 49 // max(joints, 7) ** 2)
+    if call.nearest and count > most:
+        raise TooLarge(f"configurations of {joints} joints whose nearest singularity is wanted", count, most)
+    numbers = count * (_ENTRY + joints * (joints + 4)) * (1 + call.path)
+    if numbers > allowed:
+        raise TooLarge("numbers in the answer", numbers, allowed)
+
+
+def _certificate(robot: Robot, chain: Chain, qs: Array) -> JacobianCertificate:
+    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2])
+
+
+def _content(
+    robot: Robot, chain: Chain, call: SingularityRequest, qs: Array, Js: Array, certificate: JacobianCertificate
+) -> dict[str, Any]:
+    space = _space(call)
+    entries = [
+        singularity_info(chain, singularity_report(chain, q, J, call.rank_tolerance, space))
+        for q, J in zip(qs, Js, strict=True)
+    ]
+    answer: dict[str, Any] = {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "task": space.task.directions,
+        "characteristic_length": call.characteristic_length,
+        "units_mixed": _units_are_mixed(chain, space),
+        "singularities": entries,
+    }
+    if call.nearest:
+        search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
+        found = [nearest_singularity(chain, q, space, search) for q in qs]
+        certificate = _with_nearest(robot, chain, certificate, found)
+        for entry, q, nearest in zip(entries, qs, found, strict=True):
+            entry.update(_nearest(chain, space, search, q, nearest))
+    if call.path:
+        places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
+        told = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
+        answer["path"] = {
+            "places": list(_places(chain, qs, space, call.rank_tolerance, told)),
+            "omitted": len(places) - len(told),
+        }
+    answer["certificate"] = certificate
+    return answer
+
+
+def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
+    rows = 0 < space.turns < len(space) and space.characteristic_length is None
+    return rows or len(set(slides(chain).tolist())) > 1
+
+
+def _with_nearest(
+    robot: Robot, chain: Chain, certificate: JacobianCertificate, found: list[NearestSingularity | None]
+) -> JacobianCertificate:
+    """The certificate, with each of the singular configurations recomputed too."""
+    rows = [nearest.q for nearest in found if nearest is not None]
+    for first in range(0, len(rows), MAX_SAMPLES):
+        part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
+        certificate = replace(
+            certificate,
+            samples=certificate.samples + part.samples,
+            max_error=max(certificate.max_error, part.max_error),
+        )
+    return certificate
+
+
+def _nearest(
+    chain: Chain, space: TaskSpace, search: Search, q: Array, nearest: NearestSingularity | None
+) -> dict[str, Any]:
+    if nearest is None:
+        where = " within the joint limits" if search.respect_limits else ""
+        reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
+        return {"nearest": None, "nearest_reason": reason}
+    report = singularity_report(chain, nearest.q, tolerance=search.tolerance, space=space)
+    within = bool(((chain.lower <= nearest.q) & (nearest.q <= chain.upper)).all())
+    return {
+        "nearest": {
+            "distance": nearest.distance,
+            "joint_positions": nearest.q.tolist(),
+            "displacement": (nearest.q - q).tolist(),
+            "joints": _names(chain, nearest.joints),
+            "within_limits": within,
+            "smallest_singular_value": nearest.sigma,
+            "kinds": report.kinds,
+            "dependent_joints": _names(chain, report.joints),
+        }
+    }
+
+
+def _places(
+    chain: Chain, qs: Array, space: TaskSpace, tolerance: float, places: list[Place]
+) -> Iterator[dict[str, Any]]:
+    for place in places:
+        segment = min(int(place.start), max(len(qs) - 2, 0))
+        report = singularity_report(chain, place.q, tolerance=tolerance, space=space)
+        yield {
+            "segment": segment,
+            "fraction": place.start - segment,
+            "end": place.end,
+            "joint_positions": place.q.tolist(),
+            "report": singularity_info(chain, report),
+        }

@@ -1,0 +1,129 @@
+"""The numeric workspace of a robot, as a job."""
+
+import hashlib
+import math
+from concurrent.futures import Executor
+from dataclasses import dataclass
+
+import numpy as np
+from starlette.responses import Response
+
+from app.api.jobs import job_response
+from app.api.openapi import RobotPath, json_example, problem_responses
+from app.api.payloads import JSON, BoundedRequest, read_json
+from app.api.problems import UnsupportedMediaType
+from app.api.routes import DocumentedRoute, in_thread
+from app.jobs.job import Job
+from app.jobs.runner import Runner
+from app.jobs.workspace import KIND, question, work_of
+from app.kinematics.survey import POINT_COLUMNS
+from app.kinematics.workspace import Plane, Wish
+from app.model.errors import InvalidField, TooLarge
+from app.schemas.jobs import JobInfo
+from app.schemas.workspace import SlicePlane, WorkspaceRequest
+from app.store.library import Library
+from app.store.records import LoadedRobot
+
+
+@dataclass(frozen=True, slots=True)
+class SampleLimits:
+    """How much may be asked of one job.
+
+    Attributes:
+        samples: Configurations.
+        numbers: In the array of its result.
+    """
+
+    samples: int
+    numbers: int
+
+
+def workspace_route(
+    library: Library, runner: Runner, executor: Executor, limits: SampleLimits, max_body_bytes: int
+) -> DocumentedRoute:
+    """POST /v1/robots/{robot}/workspace; what is asked is checked in a thread before there is a job."""
+
+    def workspace(robot: RobotPath, call: WorkspaceRequest) -> JobInfo:
+        """The workspace of any chain within its joint limits, by samples of its joint space, as a job.
+
+        The answer comes at once, with the job's address in `Location`; `GET` that, or its `/events`, until `state` is
+        `succeeded`, then get `/result`: as JSON a summary (extent, reach, volume, the largest manipulability, how well
+        a sample of it agrees with Pinocchio), as npy the positions or voxels, as SVG or PNG a picture.
+
+        The same request gives the same result, whatever the number of processes. Samples are uniform in joint space:
+        regions that few configurations lead to need more of them, and `late_share` says whether there were enough. Of
+        planar arms `/v1/course/workspace` knows the exact one.
+        """
+        raise NotImplementedError
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        body = await request.body()
+        name: str = request.path_params["robot"]
+
+        def begin() -> Response:
+            call = read_json(WorkspaceRequest, body)
+            job = _submitted(runner, library.get(name), call, limits)
+            return job_response(job, 202, {"Location": f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"})
+
+        return await in_thread(executor, begin)
+
+    return DocumentedRoute(
+        "/v1/robots/{robot}/workspace",
+        workspace,
+        handle,
+        max_body_bytes,
+        methods=["POST"],
+        operation_id="workspace",
+        summary="Workspace",
+        tags=["Kinematics"],
+        status_code=202,
+        responses=problem_responses(400, 404, 409, 413, 415, 422, 429, 503, 507),
+        openapi_extra={
+            "requestBody": {
+                "content": json_example(
+                    {"kind": "cloud", "samples": 100_000, "tip_frame": "panda_link8", "job_id": "panda-workspace"}
+                )
+            }
+        },
+    )
+
+
+def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits) -> Job:
+    """The job for a call, which is checked first."""
+    if call.samples > limits.samples:
+        raise TooLarge("samples", call.samples, limits.samples)
+    numbers = call.samples * len(POINT_COLUMNS)
+    if call.kind == "cloud" and numbers > limits.numbers:
+        raise TooLarge("numbers in the result (a grid has fewer)", numbers, limits.numbers)
+    if call.task is not None and len(set(call.task)) < len(call.task):
+        raise InvalidField("task", "each direction at most once")
+    chain = loaded.robot.chain(call.base_frame, call.tip_frame)
+    asked = question(loaded.robot, chain, _wish(call), call.orientations_over, call.orientations)
+    ends = f"{chain.base_frame}\0{chain.tip_frame}\0"
+    content = call.model_dump_json(exclude={"job_id", "base_frame", "tip_frame"})
+    digest = hashlib.sha256((ends + content + loaded.urdf).encode("utf-8", "surrogatepass")).hexdigest()
+    return runner.submit(KIND, digest, work_of(asked), call.job_id)
+
+
+def _wish(call: WorkspaceRequest) -> Wish:
+    return Wish(
+        call.kind,
+        call.samples,
+        call.sequence,
+        call.random_seed,
+        call.voxel_size,
+        None if call.task is None else tuple(call.task),
+        None if call.plane is None else _plane(call.plane),
+        {name: (bounds[0], bounds[1]) for name, bounds in call.joint_ranges.items()},
+    )
+
+
+def _plane(plane: SlicePlane) -> Plane:
+    length = math.hypot(*plane.normal)
+    if length == 0.0:
+        raise InvalidField("plane/normal", "a vector of length zero is no normal")
+    return Plane(np.array(plane.origin), np.array(plane.normal) / length, plane.thickness)

@@ -1,0 +1,292 @@
+"""The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then what it all tells."""
+
+import pickle
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import orjson
+
+from app.jobs.runner import Files, Run, Work
+from app.kinematics.dexterity import Orientations, Over, orientations, shares
+from app.kinematics.sampling import Sampling
+from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
+from app.kinematics.tip_motion import Motion
+from app.kinematics.workspace import Plan, Wish, plan, sampled
+from app.model.arrays import Array, Indices
+from app.model.chain import Chain
+from app.model.description import Description
+from app.model.errors import TooLarge
+from app.model.robot import Robot
+
+KIND = "workspace"
+SUMMARY, ARRAY = "result.json", "result.npy"
+MAX_POSES = 1_000_000
+"""Orientations at voxels that a job asks of inverse kinematics."""
+
+_POSES_AT_ONCE = 512
+"""About a tenth of a second of inverse kinematics."""
+_SAMPLING_SHARE, _DONE = 0.05, 0.99
+"""Progress when the samples of a dexterity map are there, and when nothing but the summary is missing."""
+
+Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure", "dexterity"]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A workspace that is asked for, and how it is computed.
+
+    Attributes:
+        robot: The robot.
+        chain: Base and tip.
+        wish: What is asked of it.
+        plan: How the samples are computed.
+        asked: The orientations of a dexterity map.
+    """
+
+    robot: Robot
+    chain: Chain
+    wish: Wish
+    plan: Plan
+    asked: Orientations | None
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Of the array."""
+        if self.wish.kind == "cloud":
+            return POINT_COLUMNS
+        return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
+
+
+def question(robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> Question:
+    """What is asked, checked: what is wrong with it is said before there is a job.
+
+    Args:
+        robot: The robot.
+        chain: Base and tip.
+        wish: What is asked.
+        over: Of a dexterity map, which orientations.
+        count: How many of them.
+
+    Raises:
+        InvalidField: Something cannot be taken.
+    """
+    work, motion = plan(chain, wish)
+    asked = None
+    if wish.kind == "dexterity":
+        asked = orientations(chain, motion, over, count)
+        work = replace(work, notes=(*work.notes, *_spread_notes(chain, motion, asked)))
+    return Question(robot, chain, wish, work, asked)
+
+
+def _spread_notes(chain: Chain, motion: Motion, asked: Orientations) -> list[str]:
+    """Why a dexterity map cannot be what it may be expected to be."""
+    match asked.spread:
+        case "fixed":
+            return ["the tip never turns: its one orientation is all that is asked for"]
+        case "turns":
+            return ["the tip turns about one direction only: turns about that one are asked for"]
+    needed = motion.dimensions + (3 if asked.spread == "rotations" else 2)
+    if len(chain) >= needed:
+        return []
+    return [f"{len(chain)} joints cannot take all orientations at a position, for which {needed} are needed"]
+
+
+def work_of(asked: Question) -> Work:
+    """What computes it."""
+
+    def work(run: Run) -> Files:
+        survey = Survey(asked.plan)
+        end = _DONE if asked.asked is None else _SAMPLING_SHARE
+        jobs = ((asked.plan, k) for k in range(asked.plan.parts))
+        for part in run.map(sampled, jobs, asked.plan.parts, (0.0, end)):
+            survey.add(part)
+        found = survey.result(asked.robot, asked.chain)
+        dexterity = None if asked.asked is None else _dexterity(run, asked, found)
+        table = found.points if found.points is not None else found.voxel_rows(asked.plan)
+        array = table if dexterity is None else np.column_stack((table, dexterity))
+        summary = orjson.dumps(_summary(asked, found, dexterity), option=orjson.OPT_SERIALIZE_NUMPY)
+        return {
+            ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
+            SUMMARY: lambda target: target.write(summary),
+        }
+
+    return work
+
+
+def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
+    """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
+    assert asked.asked is not None  # noqa: S101 - what it is called for
+    poses = len(found.voxels) * len(asked.asked.rotations)
+    if poses > MAX_POSES:
+        raise TooLarge("orientations at voxels", poses, MAX_POSES)
+    centres = asked.plan.grid.centres(found.voxels.keys)
+    arm = pickle.dumps(_arm(asked))
+    size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
+
+    def parts() -> Iterator[tuple[bytes, Array, Indices]]:
+        for first in range(0, len(centres), size):
+            yield arm, centres[first : first + size], found.voxels.first[first : first + size]
+
+    count = -(-len(centres) // size)
+    return np.concatenate([np.empty(0), *run.map(_shares, parts(), count, (_SAMPLING_SHARE, _DONE))])
+
+
+@dataclass(frozen=True, slots=True)
+class _Arm:
+    """What another process needs for inverse kinematics.
+
+    Attributes:
+        description: The robot.
+        ends: Base and tip.
+        lower: Bounds of the variables; shape (n,), [rad or m].
+        upper: Likewise.
+        sampling: The configurations that have come to the voxels.
+        orientations: What is asked for.
+    """
+
+    description: Description
+    ends: tuple[str, str]
+    lower: Array
+    upper: Array
+    sampling: Sampling
+    orientations: Orientations
+
+
+def _arm(asked: Question) -> _Arm:
+    """With the joint limits, where nothing else is asked for; a joint that turns freely may do so here too."""
+    assert asked.asked is not None  # noqa: S101
+    chain, ranges = asked.chain, asked.plan.sampling.ranges
+    sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
+    bound = np.array(
+        [i in sliding or name in (asked.wish.ranges or {}) for i, name in enumerate(chain.joint_names)], dtype=bool
+    )
+    return _Arm(
+        replace(asked.robot.description, warnings=()),
+        (chain.base_frame, chain.tip_frame),
+        np.where(bound, ranges.lower, chain.lower),
+        np.where(bound, ranges.upper, chain.upper),
+        asked.plan.sampling,
+        asked.asked,
+    )
+
+
+def _shares(job: tuple[bytes, Array, Indices]) -> Array:
+    """The dexterity at some voxels, in a process of its own; see `shares`."""
+    pickled, centres, numbers = job
+    robot, chain, arm = _unpacked(pickled)
+    return shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations)
+
+
+@lru_cache(maxsize=2)
+def _unpacked(pickled: bytes) -> tuple[Robot, Chain, _Arm]:
+    arm: _Arm = pickle.loads(pickled)  # noqa: S301 - written by this service
+    robot = Robot(arm.description, arm.ends)
+    return robot, replace(robot.chain(*arm.ends), lower=arm.lower, upper=arm.upper), arm
+
+
+def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
+    """What travels as JSON."""
+    chain, work, wish = asked.chain, asked.plan, asked.wish
+    certificate = found.certificate
+    return {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "kind": wish.kind,
+        "samples": wish.samples,
+        "samples_counted": found.count,
+        "sequence": wish.sequence,
+        "random_seed": wish.seed,
+        "joint_ranges": np.column_stack((work.sampling.ranges.lower, work.sampling.ranges.upper)).tolist(),
+        "bounding_box": None if found.bounds is None else dict(zip(("lower", "upper"), found.bounds, strict=True)),
+        "reach": None if found.reach is None else dict(zip(("min", "max"), found.reach, strict=True)),
+        "voxels": _voxels(work, found),
+        "measure": _measure(asked, found),
+        "dexterity": None if dexterity is None else _dexterity_summary(asked, dexterity),
+        "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
+        | {"columns": asked.columns},
+        "notes": work.notes,
+        "certificate": asdict(certificate.poses)
+        | {"max_jacobian_error": certificate.max_jacobian_error, "max_measure_error": certificate.max_measure_error},
+    }
+
+
+def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
+    grid, count = work.grid, len(found.voxels)
+    cell = grid.size**grid.dimensions
+    return {
+        "size": grid.size,
+        "dimensions": grid.dimensions,
+        "origin": grid.origin,
+        "axes": grid.axes.T.tolist(),
+        "count": count,
+        "inner_count": found.inner,
+        "volume": count * cell,
+        "inner_volume": found.inner * cell,
+        "late_share": found.late,
+    }
+
+
+def _measure(asked: Question, found: Workspace) -> dict[str, Any]:
+    work, measures = asked.plan, found.measures
+    axes = (np.eye(3) if work.turn is None else work.turn).T
+    directions = np.zeros((len(work.rows), 6))
+    for k, row in enumerate(work.rows.tolist()):
+        directions[k, 3 * (row // 3) : 3 * (row // 3) + 3] = axes[row % 3]
+    content: dict[str, Any] = {"directions": directions.tolist()}
+    names = ("min", "mean", "max", "position", "joint_positions")
+    if measures is None:
+        return content | dict.fromkeys(names)
+    values = (measures.least, measures.mean, measures.most, measures.position, measures.joint_positions)
+    return content | dict(zip(names, values, strict=True))
+
+
+def _dexterity_summary(asked: Question, values: Array) -> dict[str, Any]:
+    assert asked.asked is not None  # noqa: S101
+    grid, full = asked.plan.grid, int(np.sum(values == 1.0))
+    return {
+        "method": "inverse_kinematics",
+        "spread": asked.asked.spread,
+        "orientations": len(asked.asked.rotations),
+        "mean_share": float(values.mean()) if len(values) else None,
+        "max_share": float(values.max()) if len(values) else None,
+        "reached_count": int(np.sum(values > 0.0)),
+        "full_count": full,
+        "full_volume": full * grid.size**grid.dimensions,
+    }
+
+
+def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
+    """The array and the summary of a job as a picture, in a process of its own."""
+    from app.plots.workspace import Picture, picture_bytes  # noqa: PLC0415 - a third of a second, and seldom needed
+
+    array, summary, kind = job
+    content = orjson.loads(summary.read_bytes())
+    voxels = content["voxels"]
+    drawn = Picture(
+        np.load(array, mmap_mode="r", allow_pickle=False),
+        tuple(content["array"]["columns"]),
+        (content["base_frame"], content["tip_frame"]),
+        tuple(_captions(content)),
+        np.array(voxels["origin"]),
+        np.array(voxels["axes"]).T,
+        voxels["dimensions"],
+        voxels["size"],
+    )
+    return picture_bytes(drawn, kind)
+
+
+def _captions(content: dict[str, Any]) -> Iterator[str]:
+    """Lines beside the picture."""
+    voxels, dexterity = content["voxels"], content["dexterity"]
+    unit = {3: "m³", 2: "m²", 1: "m"}.get(voxels["dimensions"], "")
+    yield f"{content['samples_counted']:,} samples"
+    if content["reach"] is not None:
+        yield f"Reach from the base {content['reach']['min']:.4g} m to {content['reach']['max']:.4g} m"
+    yield f"{voxels['count']:,} voxels of {voxels['size']:g} m: {voxels['volume']:.4g} {unit}"
+    if dexterity is not None:
+        yield f"{dexterity['orientations']} orientations asked for at each"

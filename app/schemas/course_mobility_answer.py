@@ -1,0 +1,136 @@
+"""Answers of the count of a mobility."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from app.schemas.common import Answer
+from app.schemas.derive import StepInfo
+
+
+class PairInfo(Answer):
+    """A kinematic pair as it is counted."""
+
+    name: str
+    link_a: str
+    link_b: str
+    type: str = Field(description="Kind; of a robot also `floating`, which is no pair and takes nothing.")
+    order: Literal["low", "high"] | None = Field(
+        description="Low where the links touch in a surface, high in a line or point."
+    )
+    constraints: int = Field(description="c: freedoms that it takes.")
+    freedoms: int = Field(description="f = λ - c: freedoms that it leaves.")
+    joint: str | None = Field(description="The joint it is part of, where it says so.")
+    added: bool = Field(description="Whether it was missing at a joint of more than two links.")
+
+
+class PairCount(Answer):
+    """The pairs of one kind."""
+
+    type: str
+    order: Literal["low", "high"] | None
+    count: int = Field(description="Number of them.")
+    constraints: int = Field(description="c of each.")
+
+
+class JointSplitInfo(Answer):
+    """A joint of more than two links."""
+
+    joint: str
+    links: int = Field(description="k: links that meet there.")
+    pairs: int = Field(description="k - 1: pairs that it is.")
+    added: int = Field(description="How many of these had not been given.")
+    constraints: int = Field(description="c of each of those.")
+
+
+class IdleInfo(Answer):
+    """A freedom that moves nothing but the links that have it: they spin about the line of two spherical joints."""
+
+    links: list[str]
+    joints: list[str] = Field(description="The two spherical joints.")
+
+
+class PostureInfo(Answer):
+    """The mobility as the linkage stands, from where its axes lie; at a singular posture more than on the way."""
+
+    mobility: int = Field(description="λ(n - 1) - r with the number r of constraints that are independent there.")
+    redundant: int = Field(description="Σc - r: constraints that others imply, which the formula counts nonetheless.")
+    output: int | None = Field(description="Freedoms of the link `output`; null where none was named.")
+    smallest_counted: float | None = Field(
+        description="Smallest singular value that counts for r, no unit; null if none does."
+    )
+    largest_neglected: float | None = Field(
+        description="Largest singular value that does not count, no unit; null if all do."
+    )
+    residual: float = Field(
+        description="The certificate: largest velocity, of the motions that are left, that a pair does not allow; no "
+        "unit, lengths relative to the size of the linkage."
+    )
+
+
+class TaskInfo(Answer):
+    """A task, and whether a chain has enough joints for it."""
+
+    task: Literal["xy", "xy_phi", "xyz", "pose"] = Field(
+        description="A position in the plane, with an angle; a position in space, with an orientation."
+    )
+    dimension: int = Field(description="m: numbers that a task of this kind sets.")
+    redundancy: int = Field(description="n - m: its degree, where ≥ 0; less than 0 where joints are missing.")
+    solutions: Literal["none", "finite", "infinite"] = Field(
+        description="Of the inverse problem, by the counts alone: none for a task at random (n < m), finitely many "
+        "branches (n = m), or infinitely many (n > m), which is redundancy; branches are not."
+    )
+
+
+class SpacesInfo(Answer):
+    """Joint space and task space of a robot's default chain."""
+
+    base_frame: str
+    tip_frame: str
+    configuration_dimension: int = Field(description="n: joints of the chain with a position of their own.")
+    tasks: list[TaskInfo]
+
+
+class MobilityAnswer(Answer):
+    """The mobility, what it was counted from, and what to make of it."""
+
+    mobility: int = Field(description="M = λ(n - 1) - Σc, Grübler and Kutzbach; the number of freedoms.")
+    verdict: Literal["mechanism", "structure", "overconstrained"] = Field(
+        description="By the mobility less the idle freedoms: ≥ 1, 0, < 0; that of `posture` where there is one."
+    )
+    space: Literal["planar", "spatial"]
+    space_freedoms: int = Field(description="λ: freedoms of a free body.")
+    link_count: int = Field(description="n, the ground included.")
+    pair_count: int = Field(description="j, after joints of more than two links have been split.")
+    constraint_count: int = Field(description="Σc over the pairs.")
+    coupling_count: int = Field(description="Mimic joints of a robot: a constraint each, beside those of the pairs.")
+    kinds: list[PairCount]
+    splits: list[JointSplitInfo] = Field(description="The joints of more than two links.")
+    mobility_without_split: int | None = Field(
+        description="What comes out if the missing pairs at such joints are forgotten (a mistake); null if none was."
+    )
+    idle: list[IdleInfo] | None = Field(description="Idle freedoms; null where only counts of pairs were given.")
+    mobility_without_idle: int | None = Field(
+        description="Mobility, that of `posture` where there is one, less the idle freedoms; null where only counts of "
+        "pairs were given."
+    )
+    ground: str | None = Field(
+        description="The link at rest; null where only counts of pairs were given, as all below."
+    )
+    chain: Literal["open", "closed", "mixed"] | None = Field(
+        description="Closed: each link is joined to each other by two ways that share no pair. Open: no loop. Mixed: "
+        "anything else."
+    )
+    loop_count: int | None = Field(description="L = j - n + number of components: independent loops.")
+    components: list[list[str]] | None = Field(description="The links by connected parts.")
+    bridges: list[str] | None = Field(description="Pairs that lie on no loop.")
+    pairs: list[PairInfo] | None
+    mobility_by_loops: int | None = Field(
+        description="The certificate: the same number by Σf - λL + λ(components - 1) less the couplings."
+    )
+    posture: PostureInfo | None = Field(
+        description="Where the pairs say where they are: the mobility from that; else null."
+    )
+    spaces: SpacesInfo | None = Field(description="Of a robot: joint space and task spaces; else null.")
+    warnings: list[str] = Field(description="What the bare number does not say.")
+    steps: list[StepInfo] = Field(description="The count as it is written on the board.")

@@ -1,0 +1,40 @@
+"""What travels about jobs."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from app.schemas.common import Answer
+
+JobName = Annotated[
+    str,
+    Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$",
+        description="A name of your own for the job, so that the same call sent again finds the same job; one is "
+        "made up if left out.",
+        examples=["panda-workspace"],
+    ),
+]
+
+
+class JobError(Answer):
+    """Why a job failed."""
+
+    type: str = Field(description="The same as of the problem that its result answers with.")
+    detail: str
+    facts: dict[str, Any] = Field(description="Typed data of this kind of problem.")
+
+
+class JobInfo(Answer):
+    """A job."""
+
+    id: str
+    kind: Literal["workspace"]
+    state: Literal["queued", "running", "succeeded", "failed", "cancelled"] = Field(
+        description="The last three are final."
+    )
+    progress: float = Field(ge=0, le=1, description="From 0 to 1; never smaller than before.")
+    created: str = Field(description="When it was asked for, RFC 3339, UTC.")
+    started: str | None = Field(description="When it was begun; null before.")
+    finished: str | None = Field(description="When it came to a final state; null before.")
+    error: JobError | None = Field(None, description="Of a failed job.")

@@ -1,0 +1,201 @@
+"""Requests and answers of the singularity report."""
+
+import math
+
+from pydantic import Field
+
+from app.kinematics.ik.task import Direction
+from app.kinematics.singularity_kinds import Kind
+from app.schemas.common import Answer, ChainOptions
+from app.schemas.kinematics import Configurations, JacobianCertificateInfo
+
+MAX_REPORTS = 2000
+"""Configurations of a call whose whole report is asked for, as JSON."""
+MAX_PATH = 1000
+"""Configurations of a path."""
+MAX_PLACES = 500
+"""Places of a path that are told."""
+MAX_NEAREST = 100
+"""Configurations of at most seven joints whose nearest singularity is looked for; of n joints (7/n)² as many."""
+
+
+class SingularityOptions(ChainOptions):
+    """What is to be told of singularities."""
+
+    list_fields = frozenset({"task"})
+
+    task: list[Direction] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="The directions that count; all six if left out. `x y z` along the base's axes; `rx ry rz` about "
+        "these too where all three count, else about the tip's. Of a planar arm nothing is lost in all six: its "
+        "singularities are those of `x y`.",
+        examples=[["x", "y", "z"]],
+    )
+    characteristic_length: float | None = Field(
+        None,
+        ge=1e-6,
+        le=1e6,
+        description="What angular rows are multiplied by so that they compare with linear ones, [m]; if left out "
+        "metres and radians are mixed where both count.",
+    )
+    rank_tolerance: float = Field(
+        1e-10, ge=1e-14, lt=1, description="A singular value counts where it exceeds this times the largest; no unit."
+    )
+    respect_limits: bool = Field(
+        False,
+        description="Whether a configuration beyond the joint limits is an error, and the nearest singularity is to be "
+        "within them.",
+    )
+    nearest: bool = Field(
+        False,
+        description="Whether the nearest singular configuration is looked for, some 15 ms each; of at most 100 "
+        "configurations of seven joints.",
+    )
+    search_radius: float = Field(
+        math.pi, gt=0, le=10, description="How far away the nearest singularity may be, ‖Δq‖, [rad and m]."
+    )
+    path: bool = Field(
+        False,
+        description="Whether the configurations are a path, led from each straight to the next in the joints, whose "
+        "singular places are wanted; at most 1000 of them.",
+    )
+    path_threshold: float = Field(
+        0.01,
+        gt=0,
+        le=1,
+        description="A minimum along the path is told where the smallest singular value is at most this share of the "
+        "largest; no unit.",
+    )
+
+
+class SingularityRequest(SingularityOptions):
+    """Singularities at a batch of configurations, or along a path of them."""
+
+    joint_positions: Configurations
+
+
+class LostDirectionInfo(Answer):
+    """A direction in which the tip cannot move."""
+
+    twist: list[float] = Field(
+        description="Unit vector in the base's axes, linear before angular, [m/s] and [rad/s]: square to every twist "
+        "that the tip can have, with a characteristic length when angular parts are multiplied by it."
+    )
+    wrench: list[float] = Field(
+        description="What it bears for free: a force and a moment at the tip, in the base's axes, that no joint feels; "
+        "unit vector, [N] and [N m]. It does no work along any motion that the tip can make."
+    )
+    lost_here: bool = Field(
+        description="Whether the arm has it elsewhere: false where a direction like it is missing at every "
+        "configuration."
+    )
+
+
+class InternalMotionInfo(Answer):
+    """Joint velocities that leave the tip at rest, as far as the directions of the task tell."""
+
+    joint_velocities: list[float] = Field(description="Unit vector in the order of `joint_names`, [rad/s or m/s].")
+    only_here: bool = Field(description="Whether the arm has no such motion elsewhere: false for its redundancy.")
+
+
+class ExitInfo(Answer):
+    """How the smallest singular value grows."""
+
+    joint: str = Field(description="The joint that has the largest share in `direction`.")
+    direction: list[float] = Field(
+        description="Joint motion of unit length along which it grows fastest; from a singular configuration it does "
+        "so to either side. In the order of `joint_names`, [rad or m]."
+    )
+    rate: float = Field(description="How fast, in the unit of the singular values per [rad or m].")
+
+
+class SingularityInfo(Answer):
+    """What a configuration does to the directions of the tip."""
+
+    singular: bool = Field(description="Whether a direction is lost here that the arm has elsewhere.")
+    rank: int = Field(description="Singular values that exceed `rank_tolerance` times the largest.")
+    structural_rank: int = Field(description="The rank at random configurations: what the arm can have at all.")
+    rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
+    singular_values: list[float] = Field(
+        description="Largest first; [m or rad] per [rad or m] mixed, or [m] with a characteristic length."
+    )
+    smallest_singular_value: float | None = Field(
+        description="The last one that can be other than zero, number `structural_rank`; null where none can. In the "
+        "unit of the others."
+    )
+    lost_directions: list[LostDirectionInfo] = Field(description="Those that are lost here first.")
+    internal_motions: list[InternalMotionInfo] = Field(description="Those that exist only here first.")
+    dependent_joints: list[str] = Field(
+        description="Joints that take part in the internal motions that exist only here: their columns of the Jacobian "
+        "are dependent. Empty where the configuration is regular."
+    )
+    kinds: list[Kind] = Field(
+        description="What the singularity is called, where the geometry of the arm tells: `wrist`, two axes of the "
+        "wrist on one line (or the last axis parallel to three that are so); `elbow`, the arm stretched or folded; "
+        "`shoulder`, the wrist where the first joint cannot move it out of the plane of the arm, above all over the "
+        "first axis. Empty where the arm has no such parts, or the singularity no such name."
+    )
+    exit: ExitInfo | None = Field(
+        description="Which way leads out of the singularity, or away from it; null where none does to first order."
+    )
+
+
+class NearestSingularityInfo(Answer):
+    """The nearest singular configuration that was found; nothing proves that none is nearer."""
+
+    distance: float = Field(description="‖Δq‖, the norm of `displacement`, [rad and m].")
+    joint_positions: list[float] = Field(description="The singular configuration, [rad or m].")
+    displacement: list[float] = Field(description="The joint motion that leads there, [rad or m].")
+    joints: list[str] = Field(description="The joints that move.")
+    within_limits: bool = Field(description="Whether it is within the joint limits.")
+    smallest_singular_value: float = Field(description="What is left of it there, rounding; as the others.")
+    kinds: list[Kind] = Field(description="What the singularity is called, where the geometry of the arm tells.")
+    dependent_joints: list[str] = Field(description="Joints whose columns of the Jacobian are dependent there.")
+
+
+class SingularityEntry(SingularityInfo):
+    """The report of one configuration."""
+
+    nearest: NearestSingularityInfo | None = Field(
+        None, description="Where asked for; null where none was found, for the reason in `nearest_reason`."
+    )
+    nearest_reason: str | None = Field(None, description="Why there is none.")
+
+
+class SingularPlaceInfo(Answer):
+    """Where the smallest singular value has a minimum along the path."""
+
+    segment: int = Field(description="It lies between the configurations of this index and the next; no unit.")
+    fraction: float = Field(description="Where between these two, 0 to 1; no unit.")
+    end: float = Field(
+        description="Segment plus fraction; larger than that of the start where the value stays for a while as it is."
+    )
+    joint_positions: list[float] = Field(description="The configuration there, [rad or m].")
+    report: SingularityInfo = Field(description="What is lost there.")
+
+
+class SingularPathInfo(Answer):
+    """Singular and nearly singular places on the path, in its order."""
+
+    places: list[SingularPlaceInfo]
+    omitted: int = Field(description="How many more there are; told are the 500 that are nearest to singular.")
+
+
+class SingularityAnswer(Answer):
+    """Singularity reports, one entry a configuration, in order."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str
+    tip_frame: str
+    task: list[Direction] = Field(description="The directions that count.")
+    characteristic_length: float | None = Field(description="What angular rows were multiplied by, [m].")
+    units_mixed: bool = Field(
+        description="Whether metres and radians stand side by side in the rows or in the columns of the Jacobian: then "
+        "the singular values, what is lost and all that is called smallest, fastest or nearest depend on the unit of "
+        "length; whether the configuration is singular does not."
+    )
+    singularities: list[SingularityEntry]
+    path: SingularPathInfo | None = Field(None, description="Where asked for.")
+    certificate: JacobianCertificateInfo

@@ -1,0 +1,217 @@
+"""Requests and answers of statics, and what dynamics share with them: wrenches, gravity, payload."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from app.kinematics.ik.task import Direction
+from app.schemas.common import Answer, ChainOptions, FrameName, Payload
+from app.schemas.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
+
+MAX_TESTS = 100
+MAX_WRENCH = 1e6
+
+_Acceleration = Annotated[float, Field(ge=-1e3, le=1e3)]
+_Length = Annotated[float, Field(ge=-1e3, le=1e3)]
+_Moment = Annotated[float, Field(ge=-1e9, le=1e9)]
+_Component = Annotated[float, Field(ge=-MAX_WRENCH, le=MAX_WRENCH)]
+
+
+def _kind(value: Any) -> str:
+    return "<list>" if isinstance(value, list | tuple) else "<switch>"
+
+
+Gravity = Annotated[
+    Annotated[bool, Tag("<switch>")] | Annotated[list[_Acceleration], Field(min_length=3, max_length=3), Tag("<list>")],
+    Discriminator(_kind),
+]
+"""A switch for 9.81 m/s² along -z of the root, or the vector."""
+
+Wrenches = Annotated[
+    list[Annotated[list[_Component], Field(min_length=1, max_length=6)]],
+    Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+]
+_Vectors = Annotated[
+    list[Annotated[list[_Component], Field(max_length=128, fail_fast=True)]], Field(max_length=MAX_TESTS)
+]
+
+
+class PayloadInfo(Payload):
+    """A rigid body on the tip."""
+
+    mass: float = Field(gt=0, le=1e6, description="[kg].")
+    center_of_mass: Annotated[list[_Length], Field(min_length=3, max_length=3)] = Field(
+        default=[0.0, 0.0, 0.0], description="In the tip frame, [m]."
+    )
+    inertia: Annotated[list[_Moment], Field(min_length=6, max_length=6)] | None = Field(
+        default=None,
+        description="ixx, ixy, ixz, iyy, iyz, izz about the centre of mass in the tip's axes, [kg m²]; left out, the "
+        "mass is a point.",
+    )
+
+
+class WrenchOptions(ChainOptions):
+    """Axes and point of a wrench."""
+
+    reference: Literal["local_world_aligned", "local", "world"] = Field(
+        "local_world_aligned",
+        description="`local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, "
+        "at the base origin.",
+    )
+    expressed_in: FrameName | None = Field(
+        None, description="Frame whose axes are taken instead of those of `reference`."
+    )
+    point_frame: FrameName | None = Field(None, description="Frame of `point`; the tip if left out.")
+    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+
+
+class WrenchRequest(WrenchOptions):
+    """What a robot bears."""
+
+    point: Annotated[list[_Component], Field(min_length=3, max_length=3)] | None = Field(
+        default=None,
+        description="Where the force acts, and the moment is about, instead of where `reference` says: coordinates in "
+        "`point_frame`, [m].",
+    )
+    payload: PayloadInfo | None = Field(default=None, description="Weighs on the tip.")
+
+
+class StaticsOptions(WrenchOptions):
+    """How statics are wanted."""
+
+    list_fields = frozenset({"task"})
+
+    task: list[Direction] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
+        "six if left out. A wrench then has one number for each, and none in the others.",
+        examples=[["x", "y"]],
+    )
+    gravity: Gravity = Field(
+        False,
+        description="Whether the motors also hold the robot's weight: true for 9.81 m/s² along -z of the root link, or "
+        "the gravity in the axes of the root link, [m/s²]. Links on branches count where the chain's joints carry "
+        "them; joints that the chain does not have stand at zero.",
+        examples=[[0.0, 0.0, -9.81]],
+    )
+    subspaces: bool = Field(False, description="Whether the four subspaces of the Jacobian are wanted.")
+    rank_tolerance: float = Field(
+        1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest; no unit."
+    )
+    membership_tolerance: float = Field(
+        1e-9,
+        gt=0,
+        lt=1,
+        description="A vector lies in a subspace where what is outside is no longer than this times it; no unit.",
+    )
+
+
+class StaticsRequest(StaticsOptions, WrenchRequest):
+    """Statics of a batch of configurations."""
+
+    joint_positions: Configurations
+    wrenches: Wrenches | None = Field(
+        default=None,
+        description="γ, exerted by the tip on its surroundings, force before moment, [N] and [Nm]: a list of one for "
+        "all configurations or of one each.",
+        examples=[[[10.0, 0.0, -5.0, 0.0, 0.0, 0.0]]],
+    )
+    torques: Configurations | None = Field(
+        default=None,
+        description="τ of the motors, [Nm] or [N] of a sliding joint, in exchange for `wrenches`: one for all "
+        "configurations or one each.",
+    )
+    test_twists: _Vectors | None = Field(
+        default=None, description="Tip velocities to be split into range(J) and ker(Jᵀ), [m/s] and [rad/s]."
+    )
+    test_wrenches: _Vectors | None = Field(
+        default=None, description="Wrenches to be split into range(J) and ker(Jᵀ), [N] and [Nm]."
+    )
+    test_torques: _Vectors | None = Field(
+        default=None, description="Joint torques to be split into range(Jᵀ) and ker(J), [Nm or N]."
+    )
+    test_joint_velocities: _Vectors | None = Field(
+        default=None, description="Joint velocities to be split into range(Jᵀ) and ker(J), [rad/s or m/s]."
+    )
+
+
+class SplitInfo(Answer):
+    """A vector as the sum of two in subspaces that are each other's orthogonal complement."""
+
+    components: dict[str, list[float]] = Field(description="By subspace, in the unit of the vector.")
+    member_of: list[str] = Field(description="The subspaces that it lies in: of a zero vector both.")
+
+
+class SubspacesInfo(Answer):
+    """range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ) ⊕ ker(J) = Rⁿ, each pair orthogonal; bases orthonormal, a vector a row."""
+
+    rank: int = Field(description="ρ, the number of singular values that count.")
+    singular_values: list[float] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")
+    dimensions: dict[str, int] = Field(description="ρ, m - ρ, ρ and n - ρ, by subspace.")
+    range: Matrix = Field(description="range(J): tip velocities that the joints can make, [m] and [rad] mixed.")
+    left_kernel: Matrix = Field(
+        description="ker(Jᵀ): wrenches that need no torque, and tip velocities that are lost, [m] and [rad] mixed."
+    )
+    row_space: Matrix = Field(description="range(Jᵀ): torques that a wrench balances, [Nm or N] mixed.")
+    kernel: Matrix = Field(description="ker(J): joint velocities that leave the tip at rest, [rad or m] mixed.")
+    twists: list[SplitInfo] | None = Field(None, description="Of `test_twists`.")
+    wrenches: list[SplitInfo] | None = Field(None, description="Of `test_wrenches`.")
+    torques: list[SplitInfo] | None = Field(None, description="Of `test_torques`.")
+    joint_velocities: list[SplitInfo] | None = Field(None, description="Of `test_joint_velocities`.")
+
+
+class StaticsCertificateInfo(Answer):
+    """How far Pinocchio's torques are from these."""
+
+    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
+    max_torque_error: float = Field(
+        description="Largest difference from Newton-Euler at rest with the wrench as an external force, [Nm or N]."
+    )
+    max_virtual_work_error: float = Field(
+        description="Largest |τᵀq̇ - γᵀv| at random joint velocities q̇, the tip's twist v by Pinocchio, [W]."
+    )
+    seed: int = Field(description="Of the choice of samples and velocities.")
+
+
+class BalanceInfo(Answer):
+    """What the torques say about the wrench."""
+
+    is_balanced: list[bool] = Field(description="Whether a wrench explains the torques, by `membership_tolerance`.")
+    is_unique: list[bool] = Field(description="Whether only one does: ker(Jᵀ) is empty.")
+    residual_torques: list[list[float]] = Field(
+        description="τ - g - Jᵀγ, in ker(J): no wrench balances it, the robot would move; [Nm or N]."
+    )
+    free_wrenches: list[Matrix] = Field(
+        description="Orthonormal basis of ker(Jᵀ), a wrench a row, [N] and [Nm]: any sum of them may be added to γ, "
+        "which is the one of least norm (metres count as radians)."
+    )
+
+
+class StaticsAnswer(Answer):
+    """Forces at rest, one entry a configuration, in order."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str
+    tip_frame: str
+    root_frame: str = Field(description="The root link, in whose axes gravity is given.")
+    gravity: list[float] | None = Field(description="In the axes of the root link, [m/s²]; null where left out.")
+    task: list[Direction] = Field(description="The components of a wrench.")
+    wrenches: list[list[float]] | None = Field(
+        description="γ, exerted by the tip on its surroundings, as given or as the torques tell, [N] and [Nm]; null "
+        "where there is none."
+    )
+    torques: list[list[float]] = Field(
+        description="τ = Jᵀγ + g(q), which the motors give, [Nm], or [N] of a sliding joint; or as they were given."
+    )
+    gravity_torques: list[list[float]] | None = Field(
+        None, description="g(q), the part of `torques` that holds the weight, [Nm or N]."
+    )
+    balance: BalanceInfo | None = Field(None, description="Where `torques` were given.")
+    overloaded_joints: list[list[str]] = Field(
+        description="Joints whose torque is beyond the effort limit of the description."
+    )
+    subspaces: list[SubspacesInfo] | None = Field(None, description="Where they were asked for.")
+    notes: list[str] = Field(description="What the numbers leave out, such as links without mass.")
+    certificate: StaticsCertificateInfo

@@ -1,0 +1,196 @@
+"""Requests and answers of the numeric workspace."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from app.kinematics.ik.task import Direction
+from app.schemas.common import Answer, ChainOptions, Payload
+from app.schemas.jobs import JobName
+from app.schemas.pose import Vector3
+
+_Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
+JointRange = Annotated[list[_Bound], Field(min_length=2, max_length=2)]
+
+
+class SlicePlane(Payload):
+    """A slice of space to which positions are restricted."""
+
+    origin: Vector3 = Field(description="A point of the plane, in the base frame, [m].")
+    normal: Vector3 = Field(description="Normal of the plane, in the base frame; of any length but zero, no unit.")
+    thickness: float = Field(
+        gt=0, le=1e6, description="Positions within half of it to either side of the plane count, [m]."
+    )
+
+
+class WorkspaceRequest(ChainOptions):
+    """A workspace by samples of the joint space."""
+
+    kind: Literal["cloud", "grid", "dexterity"] = Field(
+        "cloud",
+        description="What the array of the result holds. `cloud`: each sample's position and measure. `grid`: each "
+        "voxel that samples fall into, with their number and the largest measure. `dexterity`: the same, and the share "
+        "of the `orientations` that inverse kinematics reaches at its centre.",
+    )
+    samples: int = Field(100_000, ge=1, lt=2**53, description="How many configurations; no unit.")
+    sequence: Literal["random", "low_discrepancy"] = Field(
+        "random",
+        description="`random`: uniform between the bounds, row i that of `numpy.random.default_rng(random_seed)"
+        ".random((samples, n))`. `low_discrepancy`: a scrambled Halton sequence, which leaves smaller gaps.",
+    )
+    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the samples; no unit.")
+    voxel_size: float | None = Field(
+        None,
+        gt=0,
+        le=1e6,
+        description="Edge of a voxel, [m]; if left out a 40th of the longest side of the workspace, with `dexterity` "
+        "a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
+    )
+    task: list[Direction] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
+        "rotation, along the base's axes. If left out the translation, in the directions in which the tip moves at "
+        "all, so that a planar arm has a measure too.",
+        examples=[["x", "y"]],
+    )
+    plane: SlicePlane | None = Field(
+        None,
+        description="Only positions in a slice; its voxels are squares in its plane. An arm that keeps to a plane of "
+        "its own has squares in that one without being asked.",
+    )
+    joint_ranges: dict[str, JointRange] = Field(
+        default_factory=dict,
+        max_length=128,
+        description="By joint name, [lower, upper] within the joint's limits, [rad or m]. Others are sampled between "
+        "their limits; without limits a turning joint goes once round and a sliding one 1 m to either side.",
+    )
+    orientations: int = Field(
+        32, ge=1, le=1000, description="With `dexterity`: how many orientations are asked for at each voxel; no unit."
+    )
+    orientations_over: Literal["rotations", "approach_directions"] = Field(
+        "rotations",
+        description="With `dexterity`, over what these are spread evenly: over all rotations, or over the directions "
+        "of the tip's z axis, with any turn about it. Of an arm that turns about one direction only, as planar arms "
+        "and SCARAs, they are turns about that one.",
+    )
+    job_id: JobName | None = Field(None)
+
+
+class BoxInfo(Answer):
+    """A box along the base's axes."""
+
+    lower: list[float] = Field(description="Smallest x, y, z, [m].")
+    upper: list[float] = Field(description="Largest x, y, z, [m].")
+
+
+class ReachInfo(Answer):
+    """Distances of the tip from the base frame's origin."""
+
+    min: float = Field(description="Smallest, [m].")
+    max: float = Field(description="Largest, [m].")
+
+
+class VoxelsInfo(Answer):
+    """The voxels that samples fall into: centres at origin + Σ i_k · size · axes[k]."""
+
+    size: float = Field(description="Edge, [m].")
+    dimensions: int = Field(
+        description="3 in space, 2 in a plane (squares), 1 on a line, 0 where the tip does not move; no unit."
+    )
+    origin: list[float] = Field(description="Centre of the voxel 0, 0, 0, [m].")
+    axes: list[list[float]] = Field(
+        description="Unit vectors along the edges, in the base frame, no unit; the first `dimensions` of them count."
+    )
+    count: int = Field(description="How many voxels; no unit.")
+    inner_count: int = Field(description="Those of them that have a neighbour on every side; no unit.")
+    volume: float = Field(
+        description="Of all of them, [m³], in a plane [m²], on a line [m]: a little more than that of the workspace, "
+        "because those on its border count whole."
+    )
+    inner_volume: float = Field(
+        description="Of the inner ones, [m³, m² or m]: with enough samples a little less than the workspace's."
+    )
+    late_share: float | None = Field(
+        description="Share of the voxels that only the last tenth of the samples found, no unit: near 0, more samples "
+        "would find hardly any more. Null where no sample counts."
+    )
+
+
+class MeasureInfo(Answer):
+    """Yoshikawa's measure, the product of the singular values of the Jacobian's rows that count.
+
+    Null where no sample counts.
+    """
+
+    directions: list[list[float]] = Field(
+        description="The rows that count as unit twists in the base frame, linear before angular; no unit."
+    )
+    min: float | None = Field(description="Smallest; one factor [m or rad] per [rad or m] a direction.")
+    mean: float | None = Field(description="Mean of the samples that count, likewise.")
+    max: float | None = Field(description="Largest, likewise.")
+    position: list[float] | None = Field(description="Where the tip is then, [m].")
+    joint_positions: list[float] | None = Field(description="The configuration there, [rad or m].")
+
+
+class DexterityInfo(Answer):
+    """How many orientations are reached at the voxels' centres."""
+
+    method: Literal["inverse_kinematics"] = Field(
+        description="Each orientation at each voxel's centre is a target of inverse kinematics, whose solutions are "
+        "recomputed through Pinocchio. Of a chain without a closed form the shares are lower bounds."
+    )
+    spread: Literal["rotations", "approach_directions", "turns", "fixed"] = Field(
+        description="Over what the orientations are spread; `fixed` is the one of a tip that never turns."
+    )
+    orientations: int = Field(description="How many at each voxel; no unit.")
+    mean_share: float | None = Field(description="Mean over the voxels, 0 to 1, no unit.")
+    max_share: float | None = Field(description="Largest, 0 to 1, no unit.")
+    reached_count: int = Field(description="Voxels at whose centre any is reached; no unit.")
+    full_count: int = Field(description="Voxels at whose centre all are reached; no unit.")
+    full_volume: float = Field(
+        description="Volume of these, [m³], in a plane [m²]: an estimate of the secondary workspace WS₂."
+    )
+
+
+class ArrayInfo(Answer):
+    """The array that the result is as npy."""
+
+    shape: list[int] = Field(description="Rows and columns; no unit.")
+    columns: list[str] = Field(description="What each column is; x y z in the base frame, [m].")
+
+
+class WorkspaceCertificateInfo(Answer):
+    """How far a sample of the configurations recomputed through Pinocchio is from what was counted."""
+
+    samples: int = Field(description="Configurations that were recomputed, spread over all of them.")
+    max_position_error: float = Field(description="Largest distance, [m].")
+    max_orientation_error: float = Field(description="Largest angle, [rad].")
+    seed: int = Field(description="Of the choice among these.")
+    max_jacobian_error: float = Field(description="Largest difference of an entry, [m or rad] per [rad or m].")
+    max_measure_error: float = Field(
+        description="Largest difference of a measure from the product of singular values of that Jacobian; as those."
+    )
+
+
+class WorkspaceAnswer(Answer):
+    """What the samples tell of a workspace."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Frame in which positions are expressed.")
+    tip_frame: str = Field(description="Frame whose positions they are.")
+    kind: Literal["cloud", "grid", "dexterity"]
+    samples: int = Field(description="Configurations that were computed; no unit.")
+    samples_counted: int = Field(description="Those of them whose position counts: all without a plane; no unit.")
+    sequence: Literal["random", "low_discrepancy"]
+    random_seed: int = Field(description="Of the samples; no unit.")
+    joint_ranges: list[list[float]] = Field(description="Between what each joint was sampled, [rad or m].")
+    bounding_box: BoxInfo | None = Field(description="Null where no sample counts.")
+    reach: ReachInfo | None = Field(description="Null where no sample counts.")
+    voxels: VoxelsInfo
+    measure: MeasureInfo
+    dexterity: DexterityInfo | None = Field(description="Where it was asked for.")
+    array: ArrayInfo
+    notes: list[str] = Field(description="What was assumed, and what is special about the chain.")
+    certificate: WorkspaceCertificateInfo

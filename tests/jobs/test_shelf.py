@@ -1,0 +1,165 @@
+"""Jobs on disk: one truth for all processes, bounded, and honest about jobs whose process is gone."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from app.jobs.job import Failure
+from app.jobs.shelf import JOB_FILE, Limits, Shelf
+from app.model import errors
+from app.model.errors import JobExists, JobFailed, TooManyJobs, UnknownJob
+from tests.model.test_errors import CONCRETE, example
+
+
+@contextmanager
+def opened(root: Path, limits: Limits = Limits()) -> Iterator[Shelf]:  # noqa: B008 - frozen
+    shelf = Shelf(root, limits)
+    try:
+        yield shelf
+    finally:
+        shelf.close()
+
+
+@pytest.fixture
+def shelf(tmp_path: Path) -> Iterator[Shelf]:
+    with opened(tmp_path / "jobs") as shelf:
+        yield shelf
+
+
+def test_a_job_is_what_it_was_made(shelf: Shelf) -> None:
+    job, is_new = shelf.add("workspace", "digest")
+    assert is_new
+    assert shelf.get(job.id) == job
+    assert (job.state, job.progress, job.started, job.finished, job.failure) == ("queued", 0.0, None, None, None)
+    assert abs(job.created - time.time()) < 5.0
+    running = shelf.change(job.id, state="running", started=time.time(), progress=0.25)
+    assert shelf.get(job.id) == running
+    assert (running.state, running.progress) == ("running", 0.25)
+
+
+def test_a_final_state_stays(shelf: Shelf) -> None:
+    job, _ = shelf.add("workspace", "digest")
+    cancelled = shelf.change(job.id, state="cancelled")
+    assert cancelled.finished is not None
+    assert shelf.change(job.id, state="succeeded", progress=1.0) == cancelled == shelf.get(job.id)
+
+
+def test_a_job_that_has_anothers_name_by_now_is_left_alone(shelf: Shelf) -> None:
+    old, _ = shelf.add("workspace", "digest", "mine")
+    shelf.remove("mine")
+    new, _ = shelf.add("workspace", "digest", "mine")
+    with pytest.raises(UnknownJob):
+        shelf.change(old, state="succeeded")
+    assert shelf.get("mine") == new
+
+
+def test_a_name_is_one_request(shelf: Shelf) -> None:
+    job, _ = shelf.add("workspace", "digest", "mine")
+    assert shelf.add("workspace", "digest", "mine") == (job, False)
+    with pytest.raises(JobExists):
+        shelf.add("workspace", "another", "mine")
+
+
+@pytest.mark.parametrize("name", ["nobody", "", "..", ".owners", "a/b", "x" * 300, "a\0b", "ü"])
+def test_unknown_names(shelf: Shelf, name: str) -> None:
+    shelf.add("workspace", "digest", "mine")
+    for ask in (shelf.get, shelf.remove, shelf.change):
+        with pytest.raises(UnknownJob):
+            ask(name)
+
+
+def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path) -> None:
+    job, _ = shelf.add("workspace", "digest")
+    code = (
+        "import sys; from pathlib import Path; from app.jobs.shelf import *\n"
+        "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
+        "assert shelf.get(sys.argv[2]).state == 'queued'\n"
+        "shelf.change(sys.argv[2], state='cancelled')"
+    )
+    subprocess.run([sys.executable, "-c", code, str(tmp_path / "jobs"), job.id], check=True)
+    assert shelf.get(job.id).state == "cancelled"
+
+
+def test_a_job_has_failed_when_its_process_is_gone(shelf: Shelf, tmp_path: Path) -> None:
+    code = (
+        "import os, sys; from pathlib import Path; from app.jobs.shelf import *\n"
+        "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
+        "print(shelf.add('workspace', 'digest')[0].id, flush=True)\n"
+        "os.kill(os.getpid(), 9)"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "jobs")], capture_output=True, text=True, check=False
+    )
+    job = shelf.get(run.stdout.strip())
+    assert job.state == "failed"
+    assert job.failure is not None
+    assert "ended" in job.failure.detail
+    assert len(list((tmp_path / "jobs" / ".owners").iterdir())) == 1
+    shelf.prepare()
+    assert list((tmp_path / "jobs" / ".owners").iterdir()) == []
+
+
+def test_two_shelves_of_one_folder_know_that_the_other_lives(tmp_path: Path) -> None:
+    with opened(tmp_path) as other:
+        with opened(tmp_path) as one:
+            job, _ = one.add("workspace", "digest")
+            other.add("workspace", "digest")
+            other.prepare()
+            assert other.get(job.id).state == "queued"
+        assert other.get(job.id).state == "failed"
+
+
+def test_no_more_wait_than_may(tmp_path: Path) -> None:
+    with opened(tmp_path, Limits(unfinished=2)) as shelf:
+        first, _ = shelf.add("workspace", "1")
+        shelf.add("workspace", "2")
+        with pytest.raises(TooManyJobs) as refused:
+            shelf.add("workspace", "3")
+        assert (refused.value.unfinished, refused.value.allowed) == (2, 2)
+        shelf.change(first.id, state="cancelled")
+        shelf.add("workspace", "3")
+
+
+def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
+    with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as shelf:
+        names = [shelf.add("workspace", "x", f"job-{i}")[0].id for i in range(3)]
+        for name in names[1:]:
+            shelf.change(name, state="succeeded")
+        shelf.add("workspace", "x", "job-3")
+        assert shelf.get("job-0").state == "queued", "what is not finished stays"
+        assert shelf.get("job-2").state == "succeeded"
+        with pytest.raises(UnknownJob):
+            shelf.get("job-1")
+        shelf.write("job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
+        shelf.change("job-3", state="succeeded")
+        shelf.add("workspace", "x", "job-4")
+        assert sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith(".")) == ["job-0", "job-4"]
+
+
+def test_what_is_no_job_is_left_aside(shelf: Shelf, tmp_path: Path) -> None:
+    job, _ = shelf.add("workspace", "digest")
+    (tmp_path / "jobs" / job.id / JOB_FILE).write_text("{")
+    (tmp_path / "jobs" / "stray").mkdir()
+    (tmp_path / "jobs" / "file").touch()
+    for name in (job.id, "stray", "file"):
+        with pytest.raises(UnknownJob):
+            shelf.get(name)
+    shelf.add("workspace", "digest")
+
+
+@pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
+def test_a_failure_is_raised_again_as_it_was(shelf: Shelf, cls: type[errors.KinematicsError]) -> None:
+    error = example(cls)
+    job, _ = shelf.add("workspace", "digest")
+    failure = shelf.change(job.id, state="failed", failure=Failure.of(error)).failure
+    again = shelf.get(job.id).failure
+    assert failure is not None
+    assert again is not None
+    raised = again.error_again()
+    assert raised.detail == error.detail
+    assert type(raised) is cls or (type(raised) is JobFailed and cls.facts is not errors.KinematicsError.facts)

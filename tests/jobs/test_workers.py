@@ -1,0 +1,107 @@
+"""Processes for parts of jobs: warm, replaced when they die, killed when what they do is no longer wanted."""
+
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.jobs import workers as workers_module
+from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
+from tests.jobs.parts import die, die_once, double, fail, gone, own_pid, sleep
+
+SOON = 20.0
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[Workers]:
+    pool = Workers(2)
+    yield pool
+    pool.close()
+
+
+def order(seconds: float = SOON) -> Order:
+    return Order(time.monotonic() + seconds)
+
+
+def test_nothing_runs_before_the_first_part_and_nothing_is_left_at_the_end() -> None:
+    pool = Workers(2)
+    assert pool.pids == []
+    assert pool.submit(double, 21, order()).result(SOON) == 42
+    pids = [pool.submit(own_pid, 0, order()).result(SOON), *pool.pids]
+    slow, waiting = pool.submit(sleep, 60.0, order(90.0)), [pool.submit(sleep, 60.0, order(90.0)) for _ in range(3)]
+    time.sleep(0.3)
+    started = time.monotonic()
+    pool.close()
+    assert time.monotonic() - started < 2.0
+    for future in (slow, *waiting):
+        with pytest.raises(Cancelled):
+            future.result(SOON)
+    assert all(gone(pid) for pid in pids)
+    with pytest.raises(Cancelled):
+        pool.submit(double, 1, order())
+
+
+def test_parts_are_shared_by_the_processes_that_stay_warm(workers: Workers) -> None:
+    mine = order()
+    for future in [workers.submit(sleep, 0.3, mine) for _ in range(4)]:
+        future.result(SOON)
+    first = set(workers.pids)
+    assert len(first) == 2
+    assert {workers.submit(own_pid, 0, mine).result(SOON) for _ in range(6)} <= first
+
+
+def test_an_error_comes_back_as_it_was_raised(workers: Workers) -> None:
+    with pytest.raises(ValueError, match="no such thing"):
+        workers.submit(fail, "no such thing", order()).result(SOON)
+
+
+def test_a_part_whose_process_dies_is_begun_again_once(workers: Workers, tmp_path: Path) -> None:
+    assert workers.submit(die_once, str(tmp_path / "mark"), order()).result(SOON) == 1
+    with pytest.raises(ChildProcessError):
+        workers.submit(die, 3, order()).result(SOON)
+    assert workers.submit(double, 4, order()).result(SOON) == 8
+
+
+def test_a_process_that_is_killed_from_outside_is_replaced(workers: Workers) -> None:
+    for _ in range(2):
+        workers.submit(double, 1, order()).result(SOON)
+    for pid in workers.pids:
+        os.kill(pid, 9)
+    assert [workers.submit(double, i, order()).result(SOON) for i in range(4)] == [0, 2, 4, 6]
+
+
+def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(
+    workers: Workers, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(workers_module, "_GRACE", 0.2)
+    unwanted, other = order(), order()
+    hanging, beside = workers.submit(sleep, 60.0, unwanted), workers.submit(sleep, 0.7, other)
+    time.sleep(0.2)
+    started = time.monotonic()
+    unwanted.cancelled.set()
+    with pytest.raises(Cancelled):
+        hanging.result(SOON)
+    assert time.monotonic() - started < 1.0
+    assert beside.result(SOON) == 0.7
+
+
+def test_what_takes_too_long_is_killed(workers: Workers) -> None:
+    with pytest.raises(OutOfTime):
+        workers.submit(sleep, 60.0, order(0.6)).result(SOON)
+    assert workers.submit(double, 1, order()).result(SOON) == 2
+
+
+def test_a_process_without_work_is_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers_module, "_IDLE", 0.2)
+    pool = Workers(1)
+    try:
+        pid = pool.submit(own_pid, 0, order()).result(SOON)
+        deadline = time.monotonic() + 5.0
+        while not gone(pid):
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        assert pool.submit(own_pid, 0, order()).result(SOON) != pid
+    finally:
+        pool.close()
