@@ -36,8 +36,8 @@ def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) ->
         of 90°, 45° or 30° is read as that, which `notes` states.
 
         Each formula has been compared with the numbers of the table at random configurations, and the numbers at the
-        given ones with Pinocchio's. Of a large arm the formulas that nobody would read are left out: `notes` says
-        which, and the numbers remain.
+        given ones with Pinocchio's. A formula that fails is left out, and so are those of a large arm that nobody
+        would read: `notes` says which, and the numbers remain.
 
         With `dynamics` a planar arm of up to three joints also gets its equations of motion by the Lagrangian:
         energies, mass matrix, Christoffel symbols, Coriolis and gravity terms, compared with Pinocchio at random

@@ -76,7 +76,9 @@ class DeterminantInfo(Answer):
     rows: list[Literal["v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"]]
     frame: int = Field(description="Number of the frame in whose axes these rows are meant.")
     why: str = Field(description="Why this block.")
-    latex: str | None = Field(description="The determinant as a product; null where it has too many terms.")
+    latex: str | None = Field(
+        description="The determinant as a product; null where it has too many terms, or failed its check."
+    )
     plain: str | None
     factors: list[FormulaInfo] = Field(description="The factors of the product beside its number, each one once.")
 
@@ -181,7 +183,9 @@ class DeriveAnswer(Answer):
     )
     numeric: list[NumericInfo] = Field(description="One entry a configuration.")
     steps: list[StepInfo] = Field(description="The same told in the order of a lecture.")
-    notes: list[str] = Field(description="What was read as something else; what stays numeric, and why.")
+    notes: list[str] = Field(
+        description="What was read as something else; what stays numeric or failed its check, and why."
+    )
     certificate: DeriveCertificate | None = Field(description="Null where there are no formulas.")
     numeric_certificate: NumericCertificate | None = Field(description="Null where there are no configurations.")
 

@@ -130,8 +130,8 @@ class MotionNumbers(Answer):
     joint_velocities: list[float] | None = Field(description="[rad/s or m/s]; null where none were given.")
     mass_matrix: Grid = Field(description="M, [kg m², kg m or kg].")
     coriolis: Grid | None = Field(description="C, [kg m²/s, kg m/s or kg/s]; null without velocities.")
-    coriolis_vector: list[float] | None = Field(description="C q̇, [Nm or N]; null without velocities.")
-    gravity_vector: list[float] = Field(description="g, [Nm or N].")
+    coriolis_vector: list[float] | None = Field(description="C q̇, [N m or N]; null without velocities.")
+    gravity_vector: list[float] = Field(description="g, [N m or N].")
 
 
 class EquationsCertificate(Answer):
@@ -142,7 +142,7 @@ class EquationsCertificate(Answer):
     )
     max_mass_matrix_error: float = Field(description="Largest difference of an entry of M, [kg m², kg m or kg].")
     max_coriolis_error: float = Field(description="Of a Christoffel symbol, [kg m², kg m or kg].")
-    max_gravity_error: float = Field(description="Of an entry of g, [Nm or N].")
+    max_gravity_error: float = Field(description="Of an entry of g, [N m or N].")
     seed: int | None = Field(description="Of the choice of samples; null where these were given.")
 
 

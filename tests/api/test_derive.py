@@ -10,7 +10,9 @@ import pytest
 from starlette.testclient import TestClient
 
 from app.api import derive
+from app.kinematics.derive.check import Checks
 from app.main import create_app
+from app.model.errors import CertificationFailed
 from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
 from app.schemas.lagrangian import EXAMPLE_MOTION
 from app.settings import Settings
@@ -209,6 +211,59 @@ def test_masses_that_are_no_numbers_are_refused(client: TestClient, number: str)
     body = json.dumps(EXAMPLE_MOTION).replace('"mass": 2.0', f'"mass": {number}')
     answer = client.post(PATH, content=body, headers={"content-type": "application/json"})
     assert answer.status_code in {400, 422}
+
+
+RIGHT = 1.5707963267948966
+
+
+def row(kind: str, a: float, alpha: float, theta: float) -> dict[str, Any]:
+    return {"type": kind, "a": a, "alpha": alpha, "d": 0, "theta": theta}
+
+
+@pytest.mark.parametrize(
+    ("convention", "joints", "dynamics"),
+    [
+        ("standard", [row("prismatic", 1, 0, 0.3)], {}),
+        ("standard", [row("revolute", 1, -RIGHT, 0), row("prismatic", 0.5, 0, 0.3)], {}),
+        ("standard", [row("revolute", 1, -RIGHT, 0), row("prismatic", 0.5, 0, 0.3)], None),
+        (
+            "standard",
+            [row("revolute", 1, -RIGHT, 0), row("prismatic", 1, -RIGHT, 0.3), row("prismatic", 1, 0, 0)],
+            None,
+        ),
+        (
+            "modified",
+            [row("prismatic", 1, -RIGHT, 0), row("prismatic", 1, -RIGHT, 0.3), row("prismatic", 1, RIGHT, 0)],
+            None,
+        ),
+        ("standard", [row("revolute", 1e6, 0, 0), row("revolute", 1e-6, 0, 0)], {}),
+        ("standard", [row("revolute", 1e5, 0, 0), row("revolute", 1e-3, 0, 0)], {}),
+    ],
+)
+def test_odd_angles_of_slides_and_lengths_far_apart_leave_nothing_out(
+    client: TestClient, convention: str, joints: list[dict[str, Any]], dynamics: dict[str, Any] | None
+) -> None:
+    body = {"dh": {"convention": convention, "joints": joints}, "dynamics": dynamics}
+    answer = posted(client, {**body, "joint_positions": [[0.4] * len(joints)]})
+    assert not [note for note in answer["notes"] if "left out" in note]
+    assert answer["jacobian"]["matrix"]["plain"] is not None
+    assert (answer["dynamics"] is None) == (dynamics is None)
+    if len(joints) == 3 or joints[-1]["type"] == "revolute":
+        assert answer["determinant"]["plain"] is not None
+
+
+def test_formulas_that_fail_their_check_are_null_and_noted(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(checks: Checks, quantity: str, *_: object) -> bool:
+        checks.left_out(CertificationFailed(quantity, 1.0, 1e-9))
+        return False
+
+    monkeypatch.setattr(Checks, "holds", fails)
+    answer = posted(client, EXAMPLE_ANTHROPOMORPHIC)
+    assert [one["plain"] for one in (*answer["A"], *answer["T_0"])] == [None] * 6
+    assert (answer["T_base_tool"], answer["position"], answer["rotation"], answer["jacobian"]) == (None,) * 4
+    assert answer["determinant"]["plain"] is not None
+    assert answer["numeric"][0]["rank"] == 3
+    assert len(answer["notes"]) == 8
 
 
 def test_a_row_that_follows_another_joint_is_refused(client: TestClient) -> None:

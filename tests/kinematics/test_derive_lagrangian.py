@@ -16,8 +16,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from app.kinematics.derive import worked
-from app.kinematics.derive.lagrangian import symbolic
+from app.kinematics.derive.algebra import Polynomial, derivative
+from app.kinematics.derive.lagrangian import equations, symbolic
+from app.kinematics.derive.lagrangian import solution as solution_module
 from app.kinematics.derive.lagrangian.bodies import Body, Gravity
+from app.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
 from app.kinematics.derive.lagrangian.solution import Dynamics, MotionSolution
 from app.kinematics.derive.lagrangian.texts import MotionQuestion, MotionTexts
 from app.kinematics.derive.typeset import MatrixText, Style
@@ -425,8 +428,8 @@ def planar(convention: Convention, types: str, lengths: Sequence[tuple[float, fl
         across = needed
     shifted = twists if convention == "modified" else [*twists[1:], 0.0]
     base = dh_columns.turn(0, twists[0]) if convention == "standard" else np.eye(4)
-    for (a, d), alpha, kind, sign in zip(lengths, shifted, types, signs, strict=False):
-        parameters.append((a, alpha, d, 0.3 if kind == "R" and sign == 1 else 0.0))
+    for i, ((a, d), alpha, kind, sign) in enumerate(zip(lengths, shifted, types, signs, strict=False)):
+        parameters.append((a, alpha, d, 0.3 if sign == 1 and (kind == "R" or i + 1 == len(types)) else 0.0))
     return turned(rows(convention, parameters, types), base)
 
 
@@ -560,7 +563,9 @@ QUANTITIES = {
 
 
 @pytest.mark.parametrize("field", QUANTITIES)
-def test_a_formula_that_disagrees_with_pinocchio_is_withheld(field: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_formula_that_disagrees_with_pinocchio_leaves_out_the_equations_and_nothing_else(
+    field: str, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     honest = symbolic.motion
 
     def wrong(question: MotionQuestion) -> MotionTexts:
@@ -570,9 +575,61 @@ def test_a_formula_that_disagrees_with_pinocchio_is_withheld(field: str, monkeyp
         return replace(found, values=values)
 
     monkeypatch.setattr(worked, "motion", wrong)
-    with pytest.raises(CertificationFailed) as caught:
-        worked_solution(PLANAR_2R, dynamics=Dynamics((), UPRIGHT))
-    assert caught.value.quantity == QUANTITIES[field]
+    solution = worked_solution(PLANAR_2R, dynamics=Dynamics((), UPRIGHT))
+    without = worked_solution(PLANAR_2R)
+    assert solution.motion is None
+    (note,) = solution.notes
+    assert note.startswith(f"{QUANTITIES[field]} of the equations of motion in symbols failed")
+    assert note.endswith("the equations of motion are left out")
+    assert [record.levelname for record in caplog.records] == ["ERROR"]
+    assert QUANTITIES[field] in caplog.records[0].getMessage()
+    assert (solution.formulas, solution.singularities) == (without.formulas, without.singularities)
+
+
+def test_numbers_that_disagree_with_pinocchio_are_withheld(monkeypatch: pytest.MonkeyPatch) -> None:
+    honest = numeric_motion
+
+    def wrong(*given: Any) -> NumericMotion:
+        found = honest(*given)
+        return replace(found, mass_matrix=found.mass_matrix + 1e-6)
+
+    monkeypatch.setattr(solution_module, "numeric_motion", wrong)
+    with pytest.raises(CertificationFailed, match="mass matrix"):
+        worked_solution(PLANAR_2R, [[0.1, 0.2]], dynamics=Dynamics(BODIES_2, UPRIGHT))
+
+
+ODD = {
+    "P": rows("standard", [(1, 0, 0, 0.3)], "P"),
+    "R-P": rows("standard", [(1, -H, 0, 0), (0.5, 0, 0, 0.3)], "RP"),
+    "P, modified": rows("modified", [(1, 0.4, 0.2, 0.3)], "P"),
+    "R-P-R": rows("standard", [(0.5, -H, 0, 0.2), (0.4, H, 0, 0), (0.3, 0, 0, 0.1)], "RPR"),
+    "P-P": rows("standard", [(0.5, H, 0, 0.3), (0.4, 0, 0, -1.2)], "PP"),
+    "P-P, modified": rows("modified", [(0.2, 0.7, 0, 0.3), (0.5, H, 0, 1.1)], "PP"),
+}
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_the_constant_angle_of_a_slide_is_not_differentiated(name: str) -> None:
+    dh, count = ODD[name], len(ODD[name].joints)
+    points = [(0.1, -0.2, 0.3), (0.2, 0.1, -0.1), (0.15, 0.05, 0.2)][:count]
+    bodies = tuple(Body(1.0 + i, point, 0.1) for i, point in enumerate(points))
+    links = [Link(1.0 + i, point, 0.1) for i, point in enumerate(points)]
+    gravity = Gravity(9.81, (0.48, 0.6, 0.64))
+    check_by_text(dh, derived(dh, *bodies, gravity=gravity), oracle(dh, links, gravity))
+
+
+def test_a_slide_that_is_differentiated_by_its_angle_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def careless(polynomial: Polynomial, index: int, *, slides: bool = False) -> Polynomial:
+        slope = derivative(polynomial, index)
+        return slope + derivative(polynomial, index, slides=True) if slides else slope
+
+    monkeypatch.setattr(equations, "derivative", careless)
+    monkeypatch.setattr(worked, "motion", symbolic.motion.__wrapped__)  # without what it remembers
+    solution = worked_solution(ODD["R-P"], [[0.1, 0.2]], dynamics=Dynamics((), UPRIGHT))
+    assert solution.motion is None
+    assert "the equations of motion are left out" in solution.notes[-1]
+    assert solution.formulas is not None
+    assert solution.determinants[0] is not None
 
 
 def test_without_time_there_are_no_equations_and_the_rest_remains() -> None:

@@ -9,6 +9,7 @@ cosines of parallel axes into sums of single ones, which no identity can shorten
 function if and only if their reduced forms are equal.
 """
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
@@ -107,6 +108,13 @@ class Polynomial:
                 product *= values[atom] ** power
             result += product
         return result
+
+    def size(self, values: Mapping[Atom, float]) -> float:
+        """The sum of its terms' magnitudes: rounding of its value grows with it."""
+        return sum(
+            abs(float(factor)) * math.prod(abs(values[atom]) ** power for atom, power in monomial)
+            for monomial, factor in self.terms.items()
+        )
 
 
 Vector: TypeAlias = tuple[Polynomial, Polynomial, Polynomial]
@@ -230,12 +238,14 @@ def scaled(factor: Polynomial, vector: Vector) -> Vector:
     return factor * vector[0], factor * vector[1], factor * vector[2]
 
 
-def derivative(polynomial: Polynomial, index: int) -> Polynomial:
-    """∂/∂ϑ of joint `index`, or ∂/∂q where it is a prismatic variable."""
+def derivative(polynomial: Polynomial, index: int, *, slides: bool = False) -> Polynomial:
+    """∂/∂ϑ of joint `index`; where it slides ∂/∂q, and its angle is a constant."""
+    kind = VARIABLE if slides else TRIGONOMETRIC
     return collected(
         (monomial_product(monomial_without(monomial, atom), (rest,) if rest else ()), factor * scale)
         for monomial, factor in polynomial
         for atom, power in monomial
+        if atom.kind == kind
         for rest, scale in _derivatives(atom, power, index)
     )
 

@@ -79,11 +79,20 @@ def numeric_solution(table: DhTable, q: Array) -> NumericSolution:
     in_base, tip = table.frames(values), table.pose(values)
     axes = in_base[:-1] if table.convention == "standard" else in_base[1:]
     columns = []
-    for row, T in zip(table.joints, axes, strict=True):
-        z, arm = T[:3, 2], tip[:3, 3] - T[:3, 3]
+    for row, T, point in zip(table.joints, axes, _tips(table, rows), strict=True):
+        z, arm = T[:3, 2], T[:3, :3] @ point
         turning = row.type == "revolute"
         columns.append(NumericColumn(z, arm, np.cross(z, arm) if turning else z, z if turning else np.zeros(3)))
     J = np.array([np.concatenate((column.linear, column.angular)) for column in columns]).T
     sigmas = np.linalg.svd(J, compute_uv=False)
     rank = int(np.sum((sigmas > RANK_TOLERANCE * sigmas[0]) & (sigmas > 0.0)))
     return NumericSolution(np.array(values), rows, frames[1:], in_base, tip, columns, J, sigmas, rank)
+
+
+def _tips(table: DhTable, rows: Sequence[Array]) -> list[Array]:
+    """The tip in the frame of each joint's axis, [m]: no long way to it and back that would round a short one off."""
+    points = [table.tool[:3, 3]]
+    for A in reversed(rows):
+        points.append(A[:3, :3] @ points[-1] + A[:3, 3])
+    points.reverse()
+    return points[:-1] if table.convention == "standard" else points[1:]

@@ -68,14 +68,14 @@ class _Wave:
 
 def condition(factor: Polynomial, table: Table, notation: Notation) -> Condition | None:
     """When a factor vanishes; None where it depends on no joint."""
-    moving = {atom for atom in factor.atoms if atom.kind in {TRIGONOMETRIC, VARIABLE}}
+    moving = {atom for atom in factor.atoms if _moves(atom, table)}
     if not moving:
         return None
     solutions: tuple[Solution, ...] | None = None
-    if (wave := _as_wave(factor)) is not None:
+    if (wave := _as_wave(factor, moving)) is not None:
         solutions = _of_wave(wave, table, notation)
-    elif (line := _as_line(factor)) is not None:
-        solutions = (_of_line(*line, table, notation),)
+    elif (line := _as_line(factor, moving)) is not None:
+        solutions = _of_line(*line, table, notation)
     if solutions is None:
         return Condition("equation", factor, (), _found(factor, table))
     if not solutions:
@@ -83,16 +83,23 @@ def condition(factor: Polynomial, table: Table, notation: Notation) -> Condition
     return Condition("solved", factor, solutions, _placed(solutions[0], table))
 
 
-def _as_wave(factor: Polynomial) -> _Wave | None:
-    angles = {atom.indices for atom in factor.atoms if atom.kind == TRIGONOMETRIC}
-    if len(angles) != 1 or any(atom.kind == VARIABLE for atom in factor.atoms):
+def _moves(atom: Atom, table: Table) -> bool:
+    """Whether an atom depends on a joint: the angle of a prismatic row is a constant."""
+    return atom.kind == VARIABLE or (
+        atom.kind == TRIGONOMETRIC and any(table.rows[abs(i) - 1].is_revolute for i in atom.indices)
+    )
+
+
+def _as_wave(factor: Polynomial, moving: set[Atom]) -> _Wave | None:
+    angles = {atom.indices for atom in moving}
+    if len(angles) != 1 or any(atom.kind == VARIABLE for atom in moving):
         return None
     angle = angles.pop()
     if len(set(angle)) < len(angle):
         return None
     sums = {"c": ZERO, "s": ZERO, "": ZERO}
     for monomial, value in factor:
-        waves = [(atom, power) for atom, power in monomial if atom.kind == TRIGONOMETRIC]
+        waves = [(atom, power) for atom, power in monomial if atom in moving]
         if len(waves) > 1 or any(power > 1 for _, power in waves):
             return None
         name = waves[0][0].name if waves else ""
@@ -101,31 +108,35 @@ def _as_wave(factor: Polynomial) -> _Wave | None:
     return _Wave(angle, sums["c"], sums["s"], sums[""])
 
 
-def _of_wave(wave: _Wave, table: Table, notation: Notation) -> tuple[Solution, ...]:
+def _of_wave(wave: _Wave, table: Table, notation: Notation) -> tuple[Solution, ...] | None:
+    """The solutions; None where the wave vanishes everywhere with these lengths."""
     atoms = wave.cosine.atoms | wave.sine.atoms | wave.constant.atoms
     values = table.atom_values(tuple(0.0 for _ in table.rows), atoms)
     a, b, c = wave.cosine.value(values), wave.sine.value(values), wave.constant.value(values)
     if abs(c) > math.hypot(a, b):
         return ()
+    if not a and not b:
+        return None
+    turning = tuple(i for i in wave.angle if table.rows[abs(i) - 1].is_revolute)
     offset = sum(table.rows[abs(i) - 1].offset * (1 if i > 0 else -1) for i in wave.angle)
     solutions = []
-    for text, angle in zip(_formulas(wave, notation), _angles(a, b, c), strict=True):
+    for text, angle in zip(_formulas(wave, notation), _angles(wave, a, b, c), strict=True):
         named = joined(text, decimal(-offset)) if offset else text
-        solutions.append(Solution(wave.angle, named, _principal(angle - offset)))
+        solutions.append(Solution(turning, named, _principal(angle - offset)))
     return tuple(solutions)
 
 
-def _angles(a: float, b: float, c: float) -> tuple[float, float]:
-    """Where a cos ϑ + b sin ϑ + c vanishes, in the order of `_formulas`."""
-    if not c and not a:
+def _angles(wave: _Wave, a: float, b: float, c: float) -> tuple[float, float]:
+    """Where a cos ϑ + b sin ϑ + c vanishes, case by case as `_formulas` has it."""
+    if not wave.constant and not wave.cosine:
         return 0.0, math.pi
-    if not c and not b:
+    if not wave.constant and not wave.sine:
         return math.pi / 2, -math.pi / 2
-    if not c:
+    if not wave.constant:
         return math.atan2(-a, b), math.atan2(-a, b) + math.pi
-    if not b:
+    if not wave.sine:
         return math.acos(-c / a), -math.acos(-c / a)
-    if not a:
+    if not wave.cosine:
         return math.pi / 2 + math.acos(-c / b), math.pi / 2 - math.acos(-c / b)
     half = math.acos(-c / math.hypot(a, b))
     return math.atan2(b, a) + half, math.atan2(b, a) - half
@@ -177,12 +188,13 @@ def _size_and_phase(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
     return size, phase
 
 
-def _as_line(factor: Polynomial) -> tuple[Atom, Polynomial, Polynomial] | None:
+def _as_line(factor: Polynomial, moving: set[Atom]) -> tuple[Atom, Polynomial, Polynomial] | None:
     """K · q + C of one prismatic variable: q, k and C."""
-    variables = {atom for atom in factor.atoms if atom.kind == VARIABLE}
-    if len(variables) != 1 or any(atom.kind == TRIGONOMETRIC for atom in factor.atoms):
+    if len(moving) != 1:
         return None
-    variable = variables.pop()
+    (variable,) = moving
+    if variable.kind != VARIABLE:
+        return None
     slope, constant = ZERO, ZERO
     for monomial, value in factor:
         power = dict(monomial).get(variable, 0)
@@ -193,12 +205,18 @@ def _as_line(factor: Polynomial) -> tuple[Atom, Polynomial, Polynomial] | None:
     return variable, slope, constant
 
 
-def _of_line(variable: Atom, slope: Polynomial, constant: Polynomial, table: Table, notation: Notation) -> Solution:
+def _of_line(
+    variable: Atom, slope: Polynomial, constant: Polynomial, table: Table, notation: Notation
+) -> tuple[Solution, ...] | None:
+    """The solution; none where the slope is nought with these lengths, None where the constant is so too."""
     values = table.atom_values(tuple(0.0 for _ in table.rows), slope.atoms | constant.atoms)
+    k, c = slope.value(values), constant.value(values)
+    if not k:
+        return () if c else None
     text = notation.text(-constant)
     if slope != number(1):
         text = _quotient(text, notation.text(slope))
-    return Solution(variable.indices, text, -constant.value(values) / slope.value(values) + 0.0)
+    return (Solution(variable.indices, text, -c / k + 0.0),)
 
 
 def _placed(solution: Solution, table: Table) -> tuple[float, ...]:
@@ -218,7 +236,7 @@ def _drawn(table: Table, random: Random) -> tuple[float, ...]:
 
 def _found(factor: Polynomial, table: Table) -> tuple[float, ...] | None:
     """A configuration at which the factor changes its sign, searched along one joint after the other."""
-    indices = sorted({abs(i) for atom in factor.atoms if atom.kind in {TRIGONOMETRIC, VARIABLE} for i in atom.indices})
+    indices = sorted({abs(i) for atom in factor.atoms if _moves(atom, table) for i in atom.indices})
     random = Random(0)  # noqa: S311
     for _ in range(_DRAWS // max(1, len(indices))):
         q = _drawn(table, random)

@@ -117,7 +117,7 @@ def _determinant(singular: Singularities) -> Step | None:
             "those of its parts."
         )
     if singular.formula is None:
-        return Step("Determinant", text + " It has too many terms to be written out.", [])
+        return Step("Determinant", text + " It is not written out: see the notes.", [])
     return Step("Determinant", text, [rf"\det J_{{({rows})}} = {singular.formula.latex}"])
 
 

@@ -5,6 +5,7 @@ results. The values at the samples come from the very polynomials that are writt
 with the numbers of the table itself.
 """
 
+import math
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -87,24 +88,23 @@ def singularities(question: Question) -> Singularities:
     notation = _notation(question, table)
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     if len(frames) <= len(table.rows):
-        return Singularities(None, None, [], None, [], [], [])
+        return Singularities(None, None, [], None, [], [], [], [])
     structure = Structure(table, frames, behind(frames[-1], table.tool, table.group).position)
     block = square_block(table, structure)
     if block is None:
-        return Singularities(None, None, [], None, [], [], [])
+        return Singularities(None, None, [], None, [], [], [], [])
     setting = best_setting(structure, block, len(table.rows))
     try:
         factor, factors = _product(table, setting) if setting else (Fraction(0), [])
     except TooManyTerms:
-        return Singularities(block, setting, [], None, [], [], [])
+        return Singularities(block, setting, [], None, [], [], [], [])
     conditions = [condition(part, table, notation) for part in dict.fromkeys(factors)]
     atoms = {atom for part in factors for atom in part.atoms}
-    values = []
+    values, sizes = list[float](), list[float]()
     for q in question.samples:
-        known, value = table.atom_values(q, atoms), float(factor)
-        for part in factors:
-            value *= part.value(known)
-        values.append(value)
+        known = table.atom_values(q, atoms)
+        values.append(float(factor) * math.prod(part.value(known) for part in factors))
+        sizes.append(abs(float(factor)) * math.prod(part.size(known) for part in factors))
     return Singularities(
         block,
         setting,
@@ -113,6 +113,7 @@ def singularities(question: Question) -> Singularities:
         [notation.text(part) for part in dict.fromkeys(factors)],
         [_condition_text(item, notation) for item in conditions if item is not None],
         values,
+        sizes,
     )
 
 

@@ -198,7 +198,8 @@ class _Reader:
         for i in range(3):
             row = [entries[i][j] or self._entry(name, i, j, place[i][j], entries[i][j]) for j in range(3)]
             rows.append((row[0], row[1], row[2]))
-            numbers.append((*place[i][:3], place[i][3] if abs(place[i][3]) > LENGTH_TOLERANCE else 0.0))
+            read = (_read_as(exact, x) for exact, x in zip(entries[i], place[i], strict=False))
+            numbers.append((*read, place[i][3] if abs(place[i][3]) > LENGTH_TOLERANCE else 0.0))
         position = [self._coordinate(name, i, place[i][3]) for i in range(3)]
         rotation = (rows[0], rows[1], rows[2])
         identity = rotation == IDENTITY and not any(position)
@@ -234,6 +235,11 @@ def exact_number(value: float) -> Polynomial | None:
         if abs(abs(value) - magnitude) <= ROTATION_TOLERANCE:
             return polynomial if value >= 0 else -polynomial
     return None
+
+
+def _read_as(exact: Polynomial | None, value: float) -> float:
+    """The number that an entry of a rotation was read as."""
+    return value if exact is None else exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
 
 
 def read_table(numbers: TableNumbers) -> Table:

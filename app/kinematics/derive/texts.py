@@ -67,7 +67,7 @@ class Formulas:
         remarks: What was read as something else.
         legend: All symbols in order of appearance.
         parameters: a, alpha, d, theta of each row.
-        rows: A_1 … A_n.
+        rows: A_1 … A_n; None where one failed its check.
         frames: T_0_1 … T_0_n; None where one is too long.
         tip: T_base_tool likewise.
         chain: What the tip's position is in each frame, from n to 0, right to left; None where one is too long.
@@ -82,7 +82,7 @@ class Formulas:
     remarks: tuple[str, ...]
     legend: list[Entry]
     parameters: list[tuple[Text, Text, Text, Text]]
-    rows: list[MatrixText]
+    rows: list[MatrixText | None]
     frames: list[MatrixText | None]
     tip: MatrixText | None
     chain: list[MatrixText] | None
@@ -125,6 +125,7 @@ class Singularities:
         factors: Of the product, beside its number.
         conditions: One each factor that depends on a joint.
         values: At each sample.
+        sizes: How large the terms are that add up to these.
     """
 
     block: Block | None
@@ -134,3 +135,4 @@ class Singularities:
     factors: list[Text]
     conditions: list[ConditionText]
     values: list[float]
+    sizes: list[float]

@@ -1,10 +1,12 @@
 """The worked solution of a DH table: formulas, numbers, and each the judge of the other.
 
 The formulas come from the symbolic side, which shares no code with the numbers, and are compared with these at random
-configurations before anyone sees them; the numbers at given configurations are compared with Pinocchio's. What the
-symbolic side cannot do in the time that is left stays numeric, and the notes say so.
+configurations before anyone sees them; the numbers at given configurations are compared with Pinocchio's. A formula
+that fails is left out, and logged. What the symbolic side cannot do in the time that is left stays numeric. The notes
+say both.
 """
 
+import logging
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,12 +16,7 @@ import numpy as np
 
 from app.kinematics.certify import Certificate, JacobianCertificate, certify_jacobians, certify_poses
 from app.kinematics.configuration import Configuration, configurations
-from app.kinematics.derive.check import (
-    FormulaCertificate,
-    determinants_error,
-    example_singular_values,
-    formulas_error,
-)
+from app.kinematics.derive.check import Checks, FormulaCertificate, checked_formulas, checked_singularities
 from app.kinematics.derive.lagrangian.solution import (
     Dynamics,
     MotionSolution,
@@ -43,6 +40,8 @@ from app.model.errors import InvalidDhTable
 from app.model.poses import Poses
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
+
+logger = logging.getLogger("gelenk")
 
 SAMPLES = 20
 SEED = 0
@@ -121,7 +120,7 @@ def worked_solution(
         InvalidDhTable: A row follows another joint.
         WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration is none of the table, or the
             dynamics are not.
-        CertificationFailed: Formulas and numbers, or numbers and Pinocchio's, differ.
+        CertificationFailed: Numbers and Pinocchio's differ. A formula that does is left out, and the notes say so.
     """
     for i, row in enumerate(table.joints):
         if row.mimic is not None:
@@ -138,17 +137,17 @@ def worked_solution(
     what = "the equations of motion", "they are left out"
     moving = _timed(run, motion, asked, deadline, 0.5, notes, *what) if asked else None
     singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
-    error, examples, solved = 0.0, list[float | None](), None
+    checks, examples, solved = Checks(0.0, []), list[float | None](), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
         as_read = _read_back(table, found.as_read)
         if asked is not None and bodies is not None and isinstance(moving, MotionTexts):
-            solved = motion_solution(moving, asked, table, as_read, *bodies, qs, SEED)
+            solved = motion_solution(moving, asked, table, as_read, *bodies, qs, SEED, checks)
         solutions = [numeric_solution(as_read, q) for q in samples]
-        error = formulas_error(found.values, solutions)
+        found = checked_formulas(found, solutions, checks)
         if singular is not None:
-            error = max(error, determinants_error(singular, solutions))
-            examples = example_singular_values(singular, as_read)
+            singular, examples = checked_singularities(singular, solutions, as_read, checks)
+        notes += checks.notes
     if isinstance(moving, NoMotion):
         notes.append(moving.reason)
     elif bodies is not None and found is None:
@@ -164,7 +163,7 @@ def worked_solution(
         [_determinant(singular, solution) for solution in numeric],
         [*told, *(solved.steps if solved is not None else ())],
         [*notes, *(solved.notes if solved is not None else ())],
-        None if found is None else FormulaCertificate(len(samples), error, SEED),
+        None if found is None else FormulaCertificate(len(samples), checks.worst, SEED),
         *_certified(robot, qs, numeric),
     )
 
@@ -179,13 +178,16 @@ def _timed(
     what: str,
     instead: str = "only numbers are given",
 ) -> _Result | None:
-    """The result of a symbolic part within its share of the time that is left; else None and a note."""
+    """The result of a symbolic part within its share of the time that is left; None and a note if it fails."""
     seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
     try:
         return run(function, question, seconds)
     except (TimeoutError, ChildProcessError):
         notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
-        return None
+    except ArithmeticError:
+        logger.exception("derived formulas left out: %s failed a check of their own", what)
+        notes.append(f"{what} in symbols failed a check of their own: {instead}")
+    return None
 
 
 def _samples(table: DhTable) -> Array:

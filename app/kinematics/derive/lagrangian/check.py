@@ -28,7 +28,7 @@ class MotionCertificate:
         seed: Of the choice of samples; None where these were given.
         mass_matrix: Largest difference of an entry of M, [kg], [kg m] or [kg m²].
         coriolis: Of a Christoffel symbol, and so of C per unit of velocity, likewise.
-        gravity: Of an entry of g, [Nm or N].
+        gravity: Of an entry of g, [N m or N].
     """
 
     samples: int
@@ -165,7 +165,7 @@ class _Scales:
     slides: tuple[bool, ...]
 
     def at(self, q: Array) -> tuple[float, float]:
-        """The largest sum of inertias, [kg m²], and of weights, [Nm], at a configuration."""
+        """The largest sum of inertias, [kg m²], and of weights, [N m], at a configuration."""
         reach = max(1.0, self.reach + float(np.abs(q[list(self.slides)]).sum()))
         return self.mass * reach**2 + self.inertia, self.mass * self.gravity * reach
 

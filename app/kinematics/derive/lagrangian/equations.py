@@ -99,7 +99,8 @@ def equations(arm: PlanarArm, bodies: Sequence[Body], gravity: Gravity, values: 
     masses = [_quantity("m", i, body.mass, values) for i, body in zip(joints, bodies, strict=True)]
     inertias = [_quantity("I", i, body.inertia, values) for i, body in zip(joints, bodies, strict=True)]
     fall = _free_fall(gravity, values)
-    columns = [[_along(center, j) for j in joints] for center in arm.centers]
+    slides = tuple(not sense for sense in arm.senses)
+    columns = [[_along(center, j, slides) for j in joints] for center in arm.centers]
     velocities = [_combined(column, joints) for column in columns]
     turns = [total(number(arm.senses[j - 1]) * rate(j) for j in joints if j <= i) for i in joints]
     kinetic = [
@@ -108,10 +109,10 @@ def equations(arm: PlanarArm, bodies: Sequence[Body], gravity: Gravity, values: 
     ]
     potential = [_short(-m * dot(fall, center)) for m, center in zip(masses, arm.centers, strict=True)]
     M = _mass_matrix(arm, columns, masses, inertias)
-    c = _christoffel(M)
+    c = _christoffel(M, slides)
     C = [[_short(total(entry * rate(k) for k, entry in enumerate(row, start=1))) for row in rows] for rows in c]
     Cv = [_short(total(entry * rate(j) for j, entry in enumerate(row, start=1))) for row in C]
-    g = [_short(total(derivative(energy, j) for energy in potential)) for j in joints]
+    g = [_short(total(derivative(energy, j, slides=slides[j - 1]) for energy in potential)) for j in joints]
     found = Equations(
         fall,
         list(arm.centers),
@@ -124,7 +125,7 @@ def equations(arm: PlanarArm, bodies: Sequence[Body], gravity: Gravity, values: 
         C,
         Cv,
         g,
-        _skew(M, C),
+        _skew(M, C, slides),
         [total((*(e * rate(j, 2) for j, e in enumerate(M[i], start=1)), Cv[i], g[i])) for i in range(len(M))],
     )
     if max(len(entry) for entry in found.all) > MAX_ENTRY_TERMS:
@@ -167,9 +168,10 @@ def _short(polynomial: Polynomial) -> Polynomial:
     return reduced(polynomial, one_group)
 
 
-def _along(vector: Vector, index: int) -> Vector:
+def _along(vector: Vector, index: int, slides: Sequence[bool]) -> Vector:
     """∂/∂q of one joint."""
-    return derivative(vector[0], index), derivative(vector[1], index), derivative(vector[2], index)
+    x, y, z = (derivative(entry, index, slides=slides[index - 1]) for entry in vector)
+    return x, y, z
 
 
 def _combined(columns: Sequence[Vector], joints: Sequence[int]) -> Vector:
@@ -192,22 +194,22 @@ def _mass_matrix(
     return grid
 
 
-def _christoffel(M: Rows) -> list[Rows]:
+def _christoffel(M: Rows, slides: Sequence[bool]) -> list[Rows]:
     size = range(len(M))
-    slopes = [[[derivative(M[i][j], k + 1) for k in size] for j in size] for i in size]
+    slopes = [[[derivative(M[i][j], k + 1, slides=slides[k]) for k in size] for j in size] for i in size]
     return [
         [[_short(_HALF * (slopes[i][j][k] + slopes[i][k][j] - slopes[j][k][i])) for k in size] for j in size]
         for i in size
     ]
 
 
-def _skew(M: Rows, C: Rows) -> Rows:
+def _skew(M: Rows, C: Rows, slides: Sequence[bool]) -> Rows:
     """Ṁ - 2C."""
     size = range(len(M))
-    N = [
-        [_short(total(derivative(M[i][j], k + 1) * rate(k + 1) for k in size) - number(2) * C[i][j]) for j in size]
-        for i in size
+    rates = [
+        [total(derivative(M[i][j], k + 1, slides=slides[k]) * rate(k + 1) for k in size) for j in size] for i in size
     ]
+    N = [[_short(rates[i][j] - number(2) * C[i][j]) for j in size] for i in size]
     if any(_short(N[i][j] + N[j][i]) for i in size for j in size):
         raise ArithmeticError("Ṁ - 2C is not skew symmetric")
     return N

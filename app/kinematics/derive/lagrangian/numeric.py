@@ -20,14 +20,14 @@ from app.model.dh import DhTable
 
 @dataclass(frozen=True, slots=True)
 class NumericMotion:
-    """M, C and g at one configuration, in [kg], [kg m] or [kg m²] and in [N or Nm].
+    """M, C and g at one configuration, in [kg], [kg m] or [kg m²] and in [N or N m].
 
     Attributes:
         q: Joint positions; shape (n,), [rad or m].
         v: Joint velocities; shape (n,), [rad/s or m/s]; None where none are given.
         mass_matrix: M; shape (n, n).
         christoffel: c[i, j, k], symmetric in j and k; shape (n, n, n).
-        gravity_vector: g; shape (n,), [Nm or N].
+        gravity_vector: g; shape (n,), [N m or N].
     """
 
     q: Array
@@ -43,7 +43,7 @@ class NumericMotion:
 
     @property
     def coriolis_vector(self) -> Array | None:
-        """C q̇; shape (n,), [Nm or N]."""
+        """C q̇; shape (n,), [N m or N]."""
         return None if self.v is None else np.asarray(self.christoffel @ self.v @ self.v)
 
 

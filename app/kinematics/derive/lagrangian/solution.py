@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.kinematics.configuration import Configuration, configurations
+from app.kinematics.derive.check import Checks
 from app.kinematics.derive.lagrangian.bodies import Body, Gravity
 from app.kinematics.derive.lagrangian.check import MotionCertificate, certify_formulas, certify_numbers
 from app.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
@@ -18,7 +19,7 @@ from app.kinematics.derive.texts import Question
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.dh import DhTable
-from app.model.errors import InvalidField
+from app.model.errors import CertificationFailed, InvalidField
 
 LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
 """What these fields of a request are called in errors."""
@@ -120,8 +121,11 @@ def motion_solution(
     velocities: Array | None,
     qs: Array,
     seed: int,
-) -> MotionSolution:
-    """Formulas and numbers, both certified.
+    checks: Checks,
+) -> MotionSolution | None:
+    """Formulas and numbers, both certified; None where a formula is not what Pinocchio has.
+
+    Everything after a wrong formula follows from it, so that all of them are left out then.
 
     Args:
         texts: The formulas.
@@ -132,12 +136,19 @@ def motion_solution(
         velocities: At the configurations, shape (N, n), [rad/s or m/s]; or None.
         qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
         seed: Of the samples.
+        checks: Takes a formula that fails.
 
     Raises:
-        CertificationFailed: Pinocchio's are others.
+        CertificationFailed: Numbers at given configurations are not Pinocchio's.
     """
     in_frame_0 = replace(as_read, base=np.eye(4))
-    certificate = certify_formulas(in_frame_0, np.array(question.gravity.vector), question.samples, texts.values, seed)
+    fall = np.array(question.gravity.vector)
+    try:
+        certificate = certify_formulas(in_frame_0, fall, question.samples, texts.values, seed)
+    except CertificationFailed as failure:
+        quantity = f"{failure.quantity} of the equations of motion in symbols"
+        checks.left_out(replace(failure, quantity=quantity), "the equations of motion are left out")
+        return None
     notes, numeric = _notes(texts, question, len(qs)), list[NumericMotion]()
     gravity = np.array(dynamics.gravity.vector)
     if not texts.missing:

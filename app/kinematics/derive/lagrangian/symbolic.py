@@ -124,7 +124,7 @@ def _legend(found: Equations, lines: Sequence[Line], table: Table, notation: Not
         if atom.name in _MOVING and atom not in notation.numbers:
             entries.append(Entry(notation.atom(atom), _meaning(_words(atom, lines)), table.values.get(atom)))
     for i in range(1, len(lines) + 1):
-        words = f"torque of joint {i}, in Nm" if lines[i - 1] != "own axis" else f"force of joint {i}, in N"
+        words = f"torque of joint {i}, in N m" if lines[i - 1] != "own axis" else f"force of joint {i}, in N"
         entries.append(Entry(Text(rf"\tau_{{{i}}}", f"tau{i}"), _meaning(words), None))
     return entries
 
