@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from app.api.loads import gravity_of, load_of, weight_notes, wrench_frame, wrench_rows
+from app.api.loads import chain_of, entries, gravity_of, load_of, unused_frame, weight_notes, wrench_frame, wrench_rows
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.bodies import Load
 from app.kinematics.configuration import check_limits, configurations
@@ -45,15 +45,16 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
 
         The robot's root link stands still. Joints that the chain does not have are locked at zero, and their links
         count where the chain's joints carry them. A mimic joint moves with its leader and adds to its inertia. Friction
-        and damping that a description gives are not applied, and rotors have no inertia.
+        and damping that a description gives are not applied, and rotors have no inertia. A DH table gives no masses:
+        its robot weighs what the bodies drawn for it would, and `notes` say so.
 
         Terms come from Pinocchio; `certificate` says how far sums over the bodies with Jacobians of our own are apart.
         """
-        return _outcome(loaded.robot, call, max_answer_numbers)
+        return _outcome(loaded, call, max_answer_numbers)
 
     def attempt(loaded: LoadedRobot, call: DynamicsRequest) -> Outcome | None:
         """The same where all is at hand; None where it has to be made ready first, or is large."""
-        known = known_mechanism(loaded.robot, loaded.robot.chain(call.base_frame, call.tip_frame))
+        known = known_mechanism(loaded.robot, chain_of(loaded.robot, call))
         return None if known is None or len(known.bodies) > _QUICK_BODIES else run(loaded, call)
 
     return Operation(
@@ -81,12 +82,10 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
     )
 
 
-def _outcome(robot: Robot, call: DynamicsRequest, most: int) -> Outcome:
-    if call.joint_accelerations is not None and call.torques is not None:
-        raise InvalidField(
-            "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
-        )
-    chain = robot.chain(call.base_frame, call.tip_frame)
+def _outcome(loaded: LoadedRobot, call: DynamicsRequest, most: int) -> Outcome:
+    robot = loaded.robot
+    chain = chain_of(robot, call)
+    _check_options(call)
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
     qs = configurations(chain, call.joint_positions)
     if call.respect_limits:
@@ -107,9 +106,26 @@ def _outcome(robot: Robot, call: DynamicsRequest, most: int) -> Outcome:
     )
     array = _array(call, found)
     return Outcome(
-        lambda: _content(robot, chain, call, state, gravity, load, found),
+        lambda: _content(loaded, chain, call, state, gravity, load, found),
         None if array is None else lambda: (array, {}),
     )
+
+
+def _check_options(call: DynamicsRequest) -> None:
+    """Refuse what does not go together.
+
+    Raises:
+        InvalidField: The field, and what it goes with.
+    """
+    if call.joint_accelerations is not None and call.torques is not None:
+        raise InvalidField(
+            "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
+        )
+    if len(set(call.terms)) < len(call.terms):
+        raise InvalidField("terms", "each term at most once")
+    wrench_frame(call)
+    if call.wrenches is None and (field := unused_frame(call)) is not None:
+        raise InvalidField(field, "it goes with `wrenches`, which it says the axes or the point of")
 
 
 def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
@@ -118,18 +134,18 @@ def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
         return None
     rows = configurations(chain, values, field)
     if len(rows) != count:
-        raise InvalidField(field, f"{len(rows)} entries for {count} configurations")
+        if not count:
+            raise InvalidField("joint_positions", f"there are none, and yet `{field}` are given: one a configuration")
+        raise InvalidField(field, f"{entries(rows, count)}: one each")
     return rows
 
 
 def _held(robot: Robot, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
     """Jᵀγ, certified; zero without a wrench."""
-    frame = wrench_frame(call)
-    frame.check()
     if call.wrenches is None:
         return np.zeros_like(qs)
     wrenches = wrench_rows(call.wrenches, len(qs), DIRECTIONS)
-    still = statics(robot, chain, qs, frame)
+    still = statics(robot, chain, qs, wrench_frame(call))
     held = still.wrench_torques(wrenches)
     certify_statics(still, wrenches, held)
     return held
@@ -157,7 +173,7 @@ def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
 
 
 def _content(
-    robot: Robot,
+    loaded: LoadedRobot,
     chain: Chain,
     call: DynamicsRequest,
     state: State,
@@ -165,7 +181,8 @@ def _content(
     load: Load | None,
     found: Dynamics,
 ) -> dict[str, Any]:
-    notes = weight_notes(mechanism(robot, chain), load)
+    robot = loaded.robot
+    notes = weight_notes(loaded, mechanism(robot, chain), load)
     if not found.is_definite:
         notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
     answer: dict[str, Any] = {

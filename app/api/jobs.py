@@ -16,7 +16,8 @@ from app.api.payloads import JSON, NPY, PNG, SVG, preferred_type
 from app.api.problems import kind_of
 from app.jobs.job import Job
 from app.jobs.runner import Runner
-from app.jobs.workspace import ARRAY, SUMMARY, picture
+from app.jobs.workspace import ARRAY, SUMMARY
+from app.jobs.workspace_picture import picture
 from app.model.errors import UnknownJob
 from app.schemas.jobs import JobInfo
 from app.schemas.workspace import WorkspaceAnswer
@@ -99,11 +100,14 @@ def jobs_router(runner: Runner) -> APIRouter:
                     ),
                 }
             },
-            **problem_responses(404, 409, 413, 422, 500),
+            **problem_responses(404, 409, 413, 422, 500, 503),
         },
     )
     def get_result(job: JobPath, request: Request) -> Response:
-        """A summary as JSON, the array as npy, or a picture, by `Accept`; of a failed job its problem."""
+        """A summary as JSON, the array as npy, or a picture, by `Accept`; of a failed job its problem.
+
+        One that did not come to its end because the service was shutting down is a 409: it has to be asked for again.
+        """
         wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, SVG, PNG))
         if wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)

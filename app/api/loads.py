@@ -8,8 +8,30 @@ from app.kinematics.bodies import Load
 from app.kinematics.mechanism import STANDARD_GRAVITY, Mechanism
 from app.kinematics.wrenches import WrenchFrame
 from app.model.arrays import Array
-from app.model.errors import InvalidField, listed
-from app.schemas.statics import PayloadInfo, WrenchRequest
+from app.model.chain import Chain
+from app.model.errors import InvalidField, UnknownFrame, listed
+from app.model.robot import Robot
+from app.schemas.statics import PayloadInfo, WrenchOptions, WrenchRequest
+from app.store.records import LoadedRobot
+
+DRAWN_MASSES = (
+    "a DH table says nothing of masses: the links weigh what the bodies drawn for it would in aluminium, which are "
+    "placeholders; for real numbers upload a URDF with `inertial` elements"
+)
+
+
+def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
+    """The chain that is addressed.
+
+    Raises:
+        UnknownFrame: The robot has not every frame that is named, with its field.
+        UnsupportedJoint: A floating or planar joint lies on the way.
+    """
+    for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
+        name = getattr(call, field)
+        if name is not None and name not in robot.description.joints_below:
+            raise UnknownFrame(name, robot.description.frames, field)
+    return robot.chain(call.base_frame, call.tip_frame)
 
 
 def gravity_of(value: bool | Sequence[float]) -> Array | None:
@@ -44,13 +66,27 @@ def load_of(payload: PayloadInfo | None) -> Load | None:
 
 
 def wrench_frame(call: WrenchRequest) -> WrenchFrame:
-    """Axes and point of the wrenches."""
+    """Axes and point of the wrenches.
+
+    Raises:
+        InvalidField: They contradict each other.
+    """
     point = None if call.point is None else (call.point[0], call.point[1], call.point[2])
-    return WrenchFrame(call.reference, call.expressed_in, point, call.point_frame)
+    frame = WrenchFrame(call.reference, call.expressed_in, point, call.point_frame)
+    frame.check()
+    return frame
+
+
+def unused_frame(call: WrenchRequest) -> str | None:
+    """The first field that changes axes or point, which a call with nothing to be expressed in them has in vain."""
+    if call.reference != "local_world_aligned":
+        return "reference"
+    fields = ("expressed_in", "point", "point_frame")
+    return next((field for field in fields if getattr(call, field) is not None), None)
 
 
 def wrench_rows(wrenches: Sequence[Sequence[float]], count: int, components: Sequence[str]) -> Array:
-    """One wrench a configuration; shape (N, m), [N] and [Nm].
+    """One wrench a configuration; shape (N, m), [N] and [N m].
 
     Raises:
         InvalidField: Their number, or that of the components, does not fit.
@@ -63,6 +99,14 @@ def wrench_rows(wrenches: Sequence[Sequence[float]], count: int, components: Seq
     return one_each(np.array(wrenches, dtype=float).reshape(len(wrenches), len(components)), count, "wrenches")
 
 
+def entries(rows: Array, count: int) -> str:
+    """How many rows there are for how many configurations, in words."""
+    return (
+        f"{len(rows)} {'entry' if len(rows) == 1 else 'entries'} for {count} "
+        f"{'configuration' if count == 1 else 'configurations'}"
+    )
+
+
 def one_each(rows: Array, count: int, field: str) -> Array:
     """One row for all configurations, or one each, as one each.
 
@@ -72,13 +116,13 @@ def one_each(rows: Array, count: int, field: str) -> Array:
     if len(rows) == count:
         return rows
     if len(rows) != 1:
-        raise InvalidField(field, f"{len(rows)} entries for {count} configurations: one for all of them or one each")
+        raise InvalidField(field, f"{entries(rows, count)}: one for all of them or one each")
     return np.repeat(rows, count, axis=0)
 
 
-def weight_notes(found: Mechanism, load: Load | None) -> list[str]:
-    """What the numbers leave out, one sentence each."""
-    notes = []
+def weight_notes(loaded: LoadedRobot, found: Mechanism, load: Load | None) -> list[str]:
+    """What the numbers leave out or are made of, one sentence each."""
+    notes = [DRAWN_MASSES] if loaded.table is not None and found.bodies else []
     if found.without_mass:
         notes.append(f"the description gives no mass to {listed(found.without_mass)}, which move: they weigh nothing")
     if found.bodies and not any(body.mass > 0.0 for body in found.bodies):

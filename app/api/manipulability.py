@@ -7,7 +7,6 @@ import numpy as np
 
 from app.api.routes import Computation, Operation, Outcome, PictureFormat
 from app.kinematics.configuration import Configuration, check_limits, configurations, one_configuration
-from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
 from app.kinematics.manipulability import (
     Ellipsoids,
@@ -55,7 +54,8 @@ def manipulability_operation(max_answer_numbers: int) -> Operation:
 
         `polytopes` replaces the norm by the limits of each joint. With `Accept: image/svg+xml` or `image/png` one
         configuration is drawn: the arm and the ellipses of translation at its tip, a planar arm in its plane, any
-        other in three projections. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
+        other in three projections; `directions` are arrows there, and `polytopes` outlines, of a translation in a plane
+        alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
         large batch), and the ellipsoids are put together again and compared with JJᵀ.
         """
         chain, qs = _chain_and_positions(loaded, call)
@@ -69,6 +69,7 @@ def manipulability_operation(max_answer_numbers: int) -> Operation:
                 chain,
                 qs,
                 task=call.task,
+                reference=call.reference,
                 characteristic_length=call.characteristic_length,
                 rank_tolerance=call.rank_tolerance,
                 gradient=call.gradient,
@@ -84,7 +85,9 @@ def manipulability_operation(max_answer_numbers: int) -> Operation:
         def picture(kind: PictureFormat) -> bytes:
             if len(qs) != 1:
                 raise InvalidField("joint_positions", f"an image shows one configuration; these are {len(qs)}")
-            return _picture(loaded, chain, qs[0], result(), kind)
+            if call.reference != "local_world_aligned":
+                raise InvalidField("reference", "an image is drawn in the base's axes, `local_world_aligned`")
+            return _picture(loaded, chain, qs[0], result(), call, bounds, kind)
 
         fits = not (call.gradient or call.polytopes or call.directions)
         return Outcome(content, (lambda: (_table(result()), {})) if fits else None, picture)
@@ -189,7 +192,8 @@ def _content(
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
-        "task": [direction for direction in DIRECTIONS if direction in call.task],
+        "reference": call.reference,
+        "task": call.task,
         "rank_tolerance": call.rank_tolerance,
         "characteristic_length": call.characteristic_length,
         "spaces": [_space(chain, part, ellipsoids) for part, ellipsoids in result.parts.items()],
@@ -326,8 +330,24 @@ def _add_polytopes(
         entry["force_polytope"] = polytope(motion.forces, motion.force_vertices)
 
 
-def _picture(loaded: LoadedRobot, chain: Chain, q: Array, result: Manipulability, kind: PictureFormat) -> bytes:
+def _picture(
+    loaded: LoadedRobot,
+    chain: Chain,
+    q: Array,
+    result: Manipulability,
+    call: ManipulabilityRequest,
+    bounds: JointBounds | None,
+    kind: PictureFormat,
+) -> bytes:
     # The drawing library takes a third of a second to load, which the service's start does not wait for.
-    from app.plots.ellipsoids import manipulability_picture  # noqa: PLC0415
+    from app.plots.ellipsoids import Asked, manipulability_picture  # noqa: PLC0415
 
-    return manipulability_picture(loaded.record.name, chain, q, result.parts.get("translation"), kind)
+    translation, limited = result.parts.get("translation"), None
+    directions = None if call.directions is None else _directions(call)
+    if bounds is not None:
+        if translation is None or not translation.space.is_plane:
+            reason = "an image shows them of a translation in a plane, as of a planar arm or the task x, y"
+            raise InvalidField("polytopes", reason)
+        limited = limited_motion(translation, result.Js, bounds, np.eye(3))[0]
+    asked = Asked(np.zeros((0, 3)) if directions is None else directions, call.rank_tolerance, limited)
+    return manipulability_picture(loaded.record.name, chain, q, translation, kind, asked)

@@ -33,6 +33,8 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.JobNotFinished: HTTPStatus.CONFLICT,
     errors.JobCancelled: HTTPStatus.CONFLICT,
     errors.JobFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.JobInterrupted: HTTPStatus.CONFLICT,
+    errors.ServiceStopping: HTTPStatus.SERVICE_UNAVAILABLE,
     errors.JobTookTooLong: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
@@ -193,6 +195,8 @@ def _place(error: errors.KinematicsError) -> str | None:
     """Where in the payload the core found something wrong, where it can be said."""
     match error:
         case errors.InvalidField(field=field):
+            return f"#/{field}"
+        case errors.UnknownFrame(field=str(field)):
             return f"#/{field}"
         case errors.InvalidUrdf():
             return "#/urdf"

@@ -8,14 +8,15 @@ import numpy as np
 
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from app.kinematics.certify_singularity import certify_reports
 from app.kinematics.configuration import check_limits, configurations
-from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Task
+from app.kinematics.ik.task import DIRECTIONS, Task
 from app.kinematics.jacobian import singular_values
 from app.kinematics.kernels import chain_jacobians
 from app.kinematics.singularity import SingularityReport, singularity_report
-from app.kinematics.singularity_distance import NearestSingularity, Search, nearest_singularity
+from app.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
 from app.kinematics.singularity_path import Place, places_along
-from app.kinematics.task_space import FULL_SPACE, TaskSpace, slides
+from app.kinematics.task_space import TaskSpace, slides, structure
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
@@ -51,6 +52,11 @@ def singularity_operation(max_answer_numbers: int) -> Operation:
         are a path, whose singular and nearly singular places between them are found too. The Jacobians are recomputed
         through Pinocchio before the answer is sent (a sample of a large batch, all of the nearest singularities), and
         `certificate` says how far the two are apart: singular values differ by no more than √(6n) times that.
+        Pinocchio's Jacobian is also multiplied with each internal motion and each lost direction, which is to give
+        nothing.
+
+        The rows that count are those of the Jacobian in `reference`. What an `ik` task leaves free, such as a turn
+        about the tool (`x y z rx ry`), is free about the tip's axes: for that ask with `local`.
 
         The lecture notes say that the rank of a planar arm's 6×n Jacobian is between 1 and 2: of two joints it is
         always 2, because the angular row and the linear ones never vanish together; what drops to rank 1 at q₂ = 0 and
@@ -64,11 +70,10 @@ def singularity_operation(max_answer_numbers: int) -> Operation:
         space = _space(call)
         _check_size(call, len(qs), len(chain), max_answer_numbers)
         certificate = _certificate(loaded.robot, chain, qs)
-        Js = space.jacobians(chain, qs)
         fits = not (call.nearest or call.path)
         return Outcome(
-            lambda: _content(loaded.robot, chain, call, qs, Js, certificate),
-            (lambda: (singular_values(Js), {})) if fits else None,
+            lambda: _content(loaded.robot, chain, call, qs, certificate),
+            (lambda: (singular_values(space.jacobians(chain, qs)), {})) if fits else None,
         )
 
     return Operation(
@@ -126,12 +131,10 @@ def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
 
 
 def _space(call: SingularityRequest) -> TaskSpace:
-    if call.task is None:
-        return FULL_SPACE if call.characteristic_length is None else TaskSpace(FULL_POSE, call.characteristic_length)
-    if len(set(call.task)) < len(call.task):
+    directions = DIRECTIONS if call.task is None else tuple(call.task)
+    if len(set(directions)) < len(directions):
         raise InvalidField("task", "each direction at most once")
-    task = Task(tuple(direction for direction in DIRECTIONS if direction in call.task))
-    return TaskSpace(task, call.characteristic_length)
+    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
 
 
 def _check_size(call: SingularityRequest, count: int, joints: int, allowed: int) -> None:
@@ -152,18 +155,19 @@ def _certificate(robot: Robot, chain: Chain, qs: Array) -> JacobianCertificate:
 
 
 def _content(
-    robot: Robot, chain: Chain, call: SingularityRequest, qs: Array, Js: Array, certificate: JacobianCertificate
+    robot: Robot, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
 ) -> dict[str, Any]:
     space = _space(call)
-    entries = [
-        singularity_info(chain, singularity_report(chain, q, J, call.rank_tolerance, space))
-        for q, J in zip(qs, Js, strict=True)
-    ]
+    reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
+    products = [certify_reports(robot, chain, space, qs, reports)]
+    entries = [singularity_info(chain, report) for report in reports]
     answer: dict[str, Any] = {
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
+        "reference": space.reference,
         "task": space.task.directions,
+        "rank_tolerance": call.rank_tolerance,
         "characteristic_length": call.characteristic_length,
         "units_mixed": _units_are_mixed(chain, space),
         "singularities": entries,
@@ -171,17 +175,30 @@ def _content(
     if call.nearest:
         search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
         found = [nearest_singularity(chain, q, space, search) for q in qs]
-        certificate = _with_nearest(robot, chain, certificate, found)
+        certificate = _with_more(robot, chain, certificate, [nearest.q for nearest in found if nearest is not None])
         for entry, q, nearest in zip(entries, qs, found, strict=True):
             entry.update(_nearest(chain, space, search, q, nearest))
     if call.path:
         places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
         told = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
+        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in told]
+        certificate = _with_more(robot, chain, certificate, [place.q for place in told[:MAX_SAMPLES]])
+        products += [
+            certify_reports(robot, chain, space, place.q[None], [report])
+            for place, report in zip(told[:MAX_SAMPLES], reports, strict=False)
+        ]
         answer["path"] = {
-            "places": list(_places(chain, qs, space, call.rank_tolerance, told)),
+            "places": list(_places(chain, len(qs), told, reports)),
             "omitted": len(places) - len(told),
         }
-    answer["certificate"] = certificate
+    answer["certificate"] = {
+        "samples": certificate.samples,
+        "max_error": certificate.max_error,
+        "max_time_variation_error": certificate.max_time_variation_error,
+        "seed": certificate.seed,
+        "max_internal_motion": max(product.max_internal_motion for product in products),
+        "max_lost_direction": max(product.max_lost_direction for product in products),
+    }
     return answer
 
 
@@ -190,11 +207,8 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
     return rows or len(set(slides(chain).tolist())) > 1
 
 
-def _with_nearest(
-    robot: Robot, chain: Chain, certificate: JacobianCertificate, found: list[NearestSingularity | None]
-) -> JacobianCertificate:
-    """The certificate, with each of the singular configurations recomputed too."""
-    rows = [nearest.q for nearest in found if nearest is not None]
+def _with_more(robot: Robot, chain: Chain, certificate: JacobianCertificate, rows: list[Array]) -> JacobianCertificate:
+    """The certificate, with further configurations recomputed too."""
     for first in range(0, len(rows), MAX_SAMPLES):
         part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
         certificate = replace(
@@ -209,10 +223,8 @@ def _nearest(
     chain: Chain, space: TaskSpace, search: Search, q: Array, nearest: NearestSingularity | None
 ) -> dict[str, Any]:
     if nearest is None:
-        where = " within the joint limits" if search.respect_limits else ""
-        reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
-        return {"nearest": None, "nearest_reason": reason}
-    report = singularity_report(chain, nearest.q, tolerance=search.tolerance, space=space)
+        return {"nearest": None, "nearest_reason": _why_none(chain, space, search)}
+    report = singularity_report(chain, nearest.q, search.tolerance, space)
     within = bool(((chain.lower <= nearest.q) & (nearest.q <= chain.upper)).all())
     return {
         "nearest": {
@@ -228,12 +240,36 @@ def _nearest(
     }
 
 
+def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
+    """Why no singular configuration was found, and what to ask for where the task is too large to lose anything."""
+    rank = structure(chain, space.task, space.reference).rank
+    if rank == 0:
+        return "nothing can be lost: the tip has none of these directions at any configuration"
+    if not can_lose(chain, space):
+        return "nothing can be lost: of these directions the tip has the same at every configuration"
+    where = " within the joint limits" if search.respect_limits else ""
+    reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
+    if rank == len(space):
+        return reason
+    reason += f": of these {len(space)} directions the tip has {rank} at most, and it keeps as many wherever was looked"
+    fewer = _positions_that_move(chain, space)
+    return reason if fewer is None else f"{reason}; what it loses of the position shows with `task` {fewer}"
+
+
+def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
+    """The linear directions of a task along which the tip moves; None where they are the task, or depend."""
+    names = [direction for direction in space.task.directions if direction in {"x", "y", "z"}]
+    moving = tuple(name for name in names if structure(chain, Task((name,)), space.reference).rank)
+    if not moving or len(moving) == len(space) or structure(chain, Task(moving), space.reference).rank < len(moving):
+        return None
+    return " ".join(moving)
+
+
 def _places(
-    chain: Chain, qs: Array, space: TaskSpace, tolerance: float, places: list[Place]
+    chain: Chain, count: int, places: list[Place], reports: list[SingularityReport]
 ) -> Iterator[dict[str, Any]]:
-    for place in places:
-        segment = min(int(place.start), max(len(qs) - 2, 0))
-        report = singularity_report(chain, place.q, tolerance=tolerance, space=space)
+    for place, report in zip(places, reports, strict=True):
+        segment = min(int(place.start), max(count - 2, 0))
         yield {
             "segment": segment,
             "fraction": place.start - segment,

@@ -6,7 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from app.api.loads import gravity_of, load_of, one_each, weight_notes, wrench_frame, wrench_rows
+from app.api.loads import (
+    chain_of,
+    gravity_of,
+    load_of,
+    one_each,
+    unused_frame,
+    weight_notes,
+    wrench_frame,
+    wrench_rows,
+)
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.ik.task import DIRECTIONS, Direction
@@ -25,7 +34,6 @@ from app.kinematics.subspaces import Subspaces
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
-from app.model.robot import Robot
 from app.schemas.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from app.store.records import LoadedRobot
 
@@ -52,17 +60,18 @@ def statics_operation(max_answer_numbers: int) -> Operation:
 
         `torques` in the place of `wrenches` asks for γ = J⁻ᵀ(τ - g), of a Jacobian that is not square or singular
         the wrench of least norm that comes nearest; `balance` holds what is left of the torques, and the wrenches that
-        may be added. With neither, `torques` are those of the weight alone.
+        may be added. With neither, `torques` are those of the weight alone, where `gravity` asks for it. A DH table
+        gives no masses: its robot weighs what the bodies drawn for it would, and `notes` say so.
 
         `subspaces` (implied by any of the `test_…` vectors): range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ) ⊕ ker(J) = Rⁿ. Both
         sums are direct and orthogonal (the notes write +). Metres and radians are mixed in them: `task` picks rows
         of one unit.
         """
-        return _outcome(loaded.robot, call, max_answer_numbers)
+        return _outcome(loaded, call, max_answer_numbers)
 
     def attempt(loaded: LoadedRobot, call: StaticsRequest) -> Outcome | None:
         """The same where all is at hand; None where it has to be made ready first, or is large."""
-        known = known_mechanism(loaded.robot, loaded.robot.chain(call.base_frame, call.tip_frame))
+        known = known_mechanism(loaded.robot, chain_of(loaded.robot, call))
         return None if known is None or len(known.bodies) > _QUICK_BODIES else run(loaded, call)
 
     return Operation(
@@ -101,8 +110,9 @@ class _Found:
     certificate: StaticsCertificate
 
 
-def _outcome(robot: Robot, call: StaticsRequest, most: int) -> Outcome:
-    chain = robot.chain(call.base_frame, call.tip_frame)
+def _outcome(loaded: LoadedRobot, call: StaticsRequest, most: int) -> Outcome:
+    robot = loaded.robot
+    chain = chain_of(robot, call)
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
     _check_options(call, chain, weighs=gravity is not None)
     qs = configurations(chain, call.joint_positions)
@@ -117,7 +127,7 @@ def _outcome(robot: Robot, call: StaticsRequest, most: int) -> Outcome:
     still = statics(robot, chain, qs, wrench_frame(call), rows=rows, gravity=gravity, load=load)
     found = _solved(still, call, wrenches, torques)
     array = found.torques if found.balance is None else found.balance.wrenches
-    return Outcome(lambda: _content(call, found), None if _wants_subspaces(call) else lambda: (array, {}))
+    return Outcome(lambda: _content(loaded, call, found), None if _wants_subspaces(call) else lambda: (array, {}))
 
 
 def _task(call: StaticsRequest) -> Sequence[Direction]:
@@ -151,6 +161,13 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
         raise InvalidField("torques", "they are given in exchange for `wrenches`, not beside them")
     if call.payload is not None and not weighs:
         raise InvalidField("payload", "it weighs only where there is `gravity`")
+    wrench_frame(call)
+    if call.wrenches is None and call.torques is None and not _wants_subspaces(call):
+        if not weighs:
+            raise InvalidField("wrenches", "nothing acts on the robot: give `wrenches`, `torques` or `gravity`")
+        field = "task" if call.task is not None else unused_frame(call)
+        if field is not None:
+            raise InvalidField(field, "it goes with `wrenches`, `torques` or `subspaces`: weight alone needs none")
     for name, vectors in _tests(call).items():
         size = len(_task(call)) if name in _OF_THE_TIP else len(chain)
         for i, vector in enumerate(vectors):
@@ -186,7 +203,7 @@ def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torque
     return _Found(still, wrenches, torques, found, splits if _wants_subspaces(call) else None, certificate)
 
 
-def _content(call: StaticsRequest, found: _Found) -> dict[str, Any]:
+def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Found) -> dict[str, Any]:
     still, splits = found.still, found.splits
     robot, chain, weighs = still.robot, still.chain, still.gravity is not None
     return {
@@ -196,13 +213,15 @@ def _content(call: StaticsRequest, found: _Found) -> dict[str, Any]:
         "root_frame": robot.description.root,
         "gravity": still.gravity,
         "task": _task(call),
+        "rank_tolerance": call.rank_tolerance,
+        "membership_tolerance": call.membership_tolerance,
         "wrenches": found.wrenches,
         "torques": found.torques,
         "gravity_torques": still.gravity_torques if weighs else None,
         "balance": None if found.balance is None else _balance_content(call, found, found.balance),
         "overloaded_joints": overloaded_joints(robot, chain, found.torques),
         "subspaces": None if splits is None else [_subspaces_content(call, split) for split in splits],
-        "notes": weight_notes(mechanism(robot, chain), still.load) if weighs else [],
+        "notes": weight_notes(loaded, mechanism(robot, chain), still.load) if weighs else [],
         "certificate": found.certificate,
     }
 

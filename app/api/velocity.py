@@ -13,22 +13,21 @@ from app.api.velocity_call import (
     null_motion_of_call,
     positions_and_rates,
     rule_of_call,
+    space_of_call,
     targets_of_call,
-    task_of_call,
 )
 from app.kinematics.certify_motion import MotionCertificate
 from app.kinematics.configuration import check_limits
 from app.kinematics.inverse_velocity import (
     InverseMotion,
-    columns_in_reference,
     exceeded,
     inverse_motion,
-    structural_rank,
     velocity_limits,
 )
 from app.kinematics.linear_inverse import Decomposition, Inversion, Rule, decompose
 from app.kinematics.singularity import singularity_report
-from app.kinematics.task_space import TaskSpace
+from app.kinematics.subspaces import rounding
+from app.kinematics.task_space import TaskSpace, jacobians_with_terms, structure
 from app.kinematics.velocity import TipMotion, tip_motion
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -75,17 +74,15 @@ def velocity_operation(max_answer_numbers: int) -> Operation:
         asked = asked_field(call, len(rates))
         if call.respect_limits:
             check_limits(chain, qs)
-        space = TaskSpace(task_of_call(call), call.characteristic_length)
+        space = space_of_call(call)
         _check_size(call, len(qs), len(chain), max_answer_numbers)
         if asked is None:
             motion = tip_motion(robot, chain, qs, rates, call.reference)
             return _forward_outcome(robot, chain, call, qs, rates, space, motion)
         rule = rule_of_call(chain, call, asked, len(space))
         targets = targets_of_call(call, asked, space, len(qs))
-        null_motion = null_motion_of_call(robot, chain, call, qs, asked, space)
-        found = inverse_motion(
-            robot, chain, qs, rates, targets, rule, space=space, reference=call.reference, null_motion=null_motion
-        )
+        null_motion = null_motion_of_call(chain, call, qs, asked, space)
+        found = inverse_motion(robot, chain, qs, rates, targets, rule, space=space, null_motion=null_motion)
         return _inverse_outcome(robot, chain, call, qs, rates, space, asked, found)
 
     return Operation(
@@ -138,10 +135,9 @@ def _forward_outcome(
             answer[name] = np.ascontiguousarray(values)
         if motion.spatial_accelerations is not None:
             answer["spatial_accelerations"] = np.ascontiguousarray(motion.spatial_accelerations)
-        Js = motion.jacobians[0]
-        if call.reference != "local_world_aligned":
-            Js = columns_in_reference(chain, qs, call.reference)
-        parts = decompose(Js[:, space.rows], Rule(rank_tolerance=call.rank_tolerance), space.scales)
+        Js, terms = jacobians_with_terms(chain, qs, call.reference)
+        rule = Rule(rank_tolerance=call.rank_tolerance)
+        parts = decompose(Js[:, space.rows], rule, space.scales, rounding(terms))
         answer["results"] = _results(robot, chain, call, qs, rates[0], space, parts)
         return _with_proof(answer, call, motion)
 
@@ -228,7 +224,7 @@ def _results(
 ) -> list[dict[str, Any]]:
     """What is to be said of each configuration, whatever was asked; speeds of shape (N, n)."""
     limits = velocity_limits(robot, chain)
-    highest = structural_rank(chain, space, call.reference)
+    highest = structure(chain, space.task, space.reference).rank
     conditions = parts.condition_numbers
     results: list[dict[str, Any]] = []
     for row, (rank, sigmas) in enumerate(zip(parts.ranks.tolist(), parts.sigmas.tolist(), strict=True)):
@@ -266,7 +262,11 @@ def _verdict(call: VelocityRequest, space: TaskSpace, found: InverseMotion, row:
     if status == "approximate" and damping > 0.0:
         entry["reason"] = f"damping by {damping:.3g} keeps the joints slow at the price of this residual"
     elif status == "approximate":
-        entry["reason"] = "the tip cannot move like this: the residual is what no motion of the joints gives"
+        entry["reason"] = (
+            "the tip cannot move like this: the residual is what no motion of the joints gives"
+            if inversion.decomposition.ranks[row] < len(space)
+            else "the Jacobian is so nearly singular here that rounding of the fast joints is the residual"
+        )
     return entry
 
 

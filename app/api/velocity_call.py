@@ -1,21 +1,19 @@
 """What a call of velocity kinematics asks, checked: one question, its numbers, and how to invert."""
 
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
 
 from app.kinematics.configuration import configurations, one_configuration
 from app.kinematics.ik.null_space import Objective
-from app.kinematics.ik.task import DIRECTIONS, Direction, Task
+from app.kinematics.ik.task import DIRECTIONS, Task
 from app.kinematics.inverse_velocity import descent
 from app.kinematics.linear_inverse import Rule
 from app.kinematics.task_space import TaskSpace
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidArray, InvalidField, quoted
-from app.model.robot import Robot
 from app.schemas.velocity import NullSpace, VelocityRequest
 
 RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
@@ -26,7 +24,7 @@ TIP = {"twists": 0, "tip_accelerations": 1, "tip_jerks": 2}
 _INVERSE_ALONE = ("inverse", "damping", "damping_threshold", "weights", "null_space")
 _THRESHOLD = 0.05
 """σ₀ of the adaptive damping where none is given."""
-_LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-9, 1e9
+_LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-6, 1e6
 
 
 def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Array]:
@@ -92,8 +90,8 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
     return asked
 
 
-def task_of_call(call: VelocityRequest) -> Task:
-    """The directions that count, in their order.
+def space_of_call(call: VelocityRequest) -> TaskSpace:
+    """The directions that count, as they are given, in the reference.
 
     Raises:
         InvalidField: One of them is named twice.
@@ -101,12 +99,7 @@ def task_of_call(call: VelocityRequest) -> Task:
     directions = DIRECTIONS if call.task is None else tuple(call.task)
     if len(set(directions)) < len(directions):
         raise InvalidField("task", "each direction at most once")
-    return _task_of(frozenset(directions))
-
-
-@lru_cache(maxsize=64)
-def _task_of(directions: frozenset[Direction]) -> Task:
-    return Task(tuple(direction for direction in DIRECTIONS if direction in directions))
+    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
 
 
 def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> Rule:
@@ -167,13 +160,12 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
         if len(entry) not in {6, len(space)}:
             allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
             raise InvalidField(f"{asked}/{i}", f"{len(entry)} numbers; allowed are {allowed}")
+        # Six numbers of six directions are in the order of these too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
     return targets
 
 
-def null_motion_of_call(
-    robot: Robot, chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace
-) -> Array | None:
+def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace) -> Array | None:
     """ξ; shape (N, n).
 
     Raises:
@@ -187,7 +179,7 @@ def null_motion_of_call(
         if wanted.posture is not None:
             posture = one_configuration(chain, wanted.posture, "null_space/posture")
         objective = Objective(wanted.objective, posture)
-        return descent(robot, chain, qs, objective, wanted.gain, space, call.reference)
+        return descent(chain, qs, objective, wanted.gain, space)
     return _given_null_motion(chain, wanted, asked, len(qs))
 
 

@@ -102,8 +102,11 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction at most once")
     chain = loaded.robot.chain(call.base_frame, call.tip_frame)
-    asked = question(loaded.robot, chain, _wish(call), call.orientations_over, call.orientations)
-    ends = f"{chain.base_frame}\0{chain.tip_frame}\0"
+    for field in ("orientations", "orientations_over"):
+        if call.kind != "dexterity" and field in call.model_fields_set:
+            raise InvalidField(field, f"goes with the kind `dexterity`; this one is `{call.kind}`")
+    asked = question(loaded.record.name, loaded.robot, chain, _wish(call), call.orientations_over, call.orientations)
+    ends = f"{loaded.record.name}\0{chain.base_frame}\0{chain.tip_frame}\0"
     content = call.model_dump_json(exclude={"job_id", "base_frame", "tip_frame"})
     digest = hashlib.sha256((ends + content + loaded.urdf).encode("utf-8", "surrogatepass")).hexdigest()
     return runner.submit(KIND, digest, work_of(asked), call.job_id)

@@ -5,4 +5,5 @@
 - `workers`: processes that are kept warm, and replaced when they die or hang.
 - `runner`: takes jobs in, does them part by part, and cancels them.
 - `workspace`: the workspace of a robot as a job.
+- `workspace_picture`: its picture.
 """

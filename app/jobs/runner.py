@@ -15,7 +15,16 @@ from typing import IO, Any, TypeAlias, TypeVar
 from app.jobs.job import Failure, Job
 from app.jobs.shelf import Shelf
 from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
-from app.model.errors import JobCancelled, JobFailed, JobNotFinished, JobTookTooLong, KinematicsError, UnknownJob
+from app.model.errors import (
+    JobCancelled,
+    JobFailed,
+    JobInterrupted,
+    JobNotFinished,
+    JobTookTooLong,
+    KinematicsError,
+    ServiceStopping,
+    UnknownJob,
+)
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -25,7 +34,7 @@ _LOOK = 0.1
 _AHEAD = 2
 """Parts a process that are handed out at once: while one is computed the next one waits."""
 _RENDERING_SECONDS = 60.0
-_SHUTTING_DOWN = "the service is shutting down"
+_SHUTTING_DOWN = "the service was shutting down"
 
 logger = logging.getLogger("gelenk")
 
@@ -133,11 +142,11 @@ class Runner:
         Raises:
             JobExists: The name stands for another request.
             TooManyJobs: Too many wait.
-            JobFailed: The service is shutting down.
+            ServiceStopping: It takes no more jobs.
             StorageFailed: It cannot be kept.
         """
         if self._closed:
-            raise JobFailed(_SHUTTING_DOWN)
+            raise ServiceStopping
         job, is_new = self.shelf.add(kind, digest, job_id)
         if is_new:
             self._queue.put((job, work))
@@ -193,7 +202,8 @@ class Runner:
 
         Raises:
             JobTookTooLong: It takes very long.
-            JobFailed: The process has died, or the service is shutting down.
+            JobFailed: The process has died.
+            ServiceStopping: The service is shutting down.
         """
         order = Order(time.monotonic() + _RENDERING_SECONDS)
         try:
@@ -201,7 +211,7 @@ class Runner:
         except OutOfTime:
             raise JobTookTooLong(_RENDERING_SECONDS) from None
         except Cancelled:
-            raise JobFailed(_SHUTTING_DOWN) from None
+            raise ServiceStopping from None
         except ChildProcessError as error:
             raise JobFailed(str(error)) from None
         return found
@@ -225,7 +235,7 @@ class Runner:
             except queue.Empty:
                 return
             if entry is not None:
-                self._fail(entry[0], Failure.because(_SHUTTING_DOWN))
+                self._fail(entry[0], Failure.of(JobInterrupted(_SHUTTING_DOWN)))
 
     def _serve(self) -> None:
         while (entry := self._queue.get()) is not None:
@@ -245,7 +255,7 @@ class Runner:
             self.shelf.change(job, state="succeeded", progress=1.0)
         except (Cancelled, UnknownJob):
             if self._closed:
-                self._fail(job, Failure.because(_SHUTTING_DOWN))
+                self._fail(job, Failure.of(JobInterrupted(_SHUTTING_DOWN)))
         except OutOfTime:
             self._fail(job, Failure.of(JobTookTooLong(self._seconds)))
         except KinematicsError as error:

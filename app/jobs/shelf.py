@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from app.jobs.job import Failure, Job
-from app.model.errors import JobExists, StorageFailed, TooManyJobs, UnknownJob
+from app.model.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from app.store import folders
 
 JOB_FILE = "job.json"
@@ -81,6 +81,8 @@ class Shelf:
     def add(self, kind: str, digest: str, job_id: str | None = None) -> tuple[Job, bool]:
         """A new job, or the one that stands under its name already for the same request.
 
+        One that the end of its service has interrupted begins anew.
+
         Returns:
             The job, and whether it is new.
 
@@ -94,8 +96,11 @@ class Shelf:
             if job_id is not None and (found := self._read(job_id)) is not None:
                 if found.digest != digest:
                     raise JobExists(job_id)
-                return found, False
+                if not self._was_interrupted(found):
+                    return found, False
             self._make_room()
+            if job_id is not None and self._read(job_id) is not None:
+                folders.remove_folder(self._root, job_id)
             job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owner, time.time())
             folders.create_folder(self._root, job.id, {JOB_FILE: job.as_bytes()})
         return job, True
@@ -111,7 +116,7 @@ class Shelf:
             raise UnknownJob(job_id)
         if job.is_final or self._lives(job.owner):
             return job
-        lost = Failure.because("the process of the service that did it has ended: ask for it again")
+        lost = Failure.of(JobInterrupted("the process of the service that did it has ended"))
         return self.change(job_id, state="failed", failure=lost)
 
     def change(self, which: Job | str, **changes: Any) -> Job:
@@ -217,6 +222,12 @@ class Shelf:
             owners.mkdir(exist_ok=True)
             self._lock = (owners / self._owner).open("w")
             fcntl.flock(self._lock, fcntl.LOCK_EX)
+
+    def _was_interrupted(self, job: Job) -> bool:
+        """Whether it has no result because its process of the service came to its end before it did."""
+        if job.is_final:
+            return job.failure is not None and job.failure.error == JobInterrupted.__name__
+        return not self._lives(job.owner)
 
     def _lives(self, owner: str) -> bool:
         """Whether a process of the service is there: the system lets go of its lock when it ends."""

@@ -4,7 +4,6 @@ import pickle
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache
-from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -15,7 +14,7 @@ from app.kinematics.dexterity import Orientations, Over, orientations, shares
 from app.kinematics.sampling import Sampling
 from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
 from app.kinematics.tip_motion import Motion
-from app.kinematics.workspace import Plan, Wish, plan, sampled
+from app.kinematics.workspace import Plan, Plane, Wish, plan, sampled
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.description import Description
@@ -40,6 +39,7 @@ class Question:
     """A workspace that is asked for, and how it is computed.
 
     Attributes:
+        name: The robot's.
         robot: The robot.
         chain: Base and tip.
         wish: What is asked of it.
@@ -47,6 +47,7 @@ class Question:
         asked: The orientations of a dexterity map.
     """
 
+    name: str
     robot: Robot
     chain: Chain
     wish: Wish
@@ -61,10 +62,11 @@ class Question:
         return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
 
 
-def question(robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> Question:
+def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> Question:
     """What is asked, checked: what is wrong with it is said before there is a job.
 
     Args:
+        name: The robot's.
         robot: The robot.
         chain: Base and tip.
         wish: What is asked.
@@ -78,21 +80,39 @@ def question(robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> 
     asked = None
     if wish.kind == "dexterity":
         asked = orientations(chain, motion, over, count)
-        work = replace(work, notes=(*work.notes, *_spread_notes(chain, motion, asked)))
-    return Question(robot, chain, wish, work, asked)
+        work = replace(work, notes=(*work.notes, *_spread_notes(chain, motion, wish.plane, asked)))
+    return Question(name, robot, chain, wish, work, asked)
 
 
-def _spread_notes(chain: Chain, motion: Motion, asked: Orientations) -> list[str]:
+def _spread_notes(chain: Chain, motion: Motion, plane: Plane | None, asked: Orientations) -> list[str]:
     """Why a dexterity map cannot be what it may be expected to be."""
+    missed = _missed_notes(motion, plane)
     match asked.spread:
         case "fixed":
-            return ["the tip never turns: its one orientation is all that is asked for"]
+            return [*missed, "the tip never turns: its one orientation is all that is asked for"]
         case "turns":
-            return ["the tip turns about one direction only: turns about that one are asked for"]
+            return [*missed, "the tip turns about one direction only: turns about that one are asked for"]
     needed = motion.dimensions + (3 if asked.spread == "rotations" else 2)
     if len(chain) >= needed:
+        return missed
+    return [*missed, f"{len(chain)} joints cannot take all orientations at a position, for which {needed} are needed"]
+
+
+def _missed_notes(motion: Motion, plane: Plane | None) -> list[str]:
+    """Where the middles of the voxels are not on what the tip keeps to."""
+    if motion.kept_to is not None:
+        note = (
+            f"orientations are asked for at the middles of the voxels, and these are beside the {motion.kept_to} that "
+            "the tip keeps to: hardly any is reached, if one is at all"
+        )
+        return [note]
+    if plane is None or not 0 < motion.dimensions < 3 or not motion.slice_notes(plane.normal):
         return []
-    return [f"{len(chain)} joints cannot take all orientations at a position, for which {needed} are needed"]
+    note = (
+        "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
+        "on what the tip keeps to"
+    )
+    return [note]
 
 
 def work_of(asked: Question) -> Work:
@@ -193,12 +213,14 @@ def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict
     chain, work, wish = asked.chain, asked.plan, asked.wish
     certificate = found.certificate
     return {
+        "robot": asked.name,
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
         "kind": wish.kind,
         "samples": wish.samples,
         "samples_counted": found.count,
+        "plane": None if wish.plane is None else asdict(wish.plane),
         "sequence": wish.sequence,
         "random_seed": wish.seed,
         "joint_ranges": np.column_stack((work.sampling.ranges.lower, work.sampling.ranges.upper)).tolist(),
@@ -217,7 +239,6 @@ def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict
 
 def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
     grid, count = work.grid, len(found.voxels)
-    cell = grid.size**grid.dimensions
     return {
         "size": grid.size,
         "dimensions": grid.dimensions,
@@ -225,8 +246,8 @@ def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
         "axes": grid.axes.T.tolist(),
         "count": count,
         "inner_count": found.inner,
-        "volume": count * cell,
-        "inner_volume": found.inner * cell,
+        "volume": count * grid.cell,
+        "inner_volume": found.inner * grid.cell,
         "late_share": found.late,
     }
 
@@ -256,37 +277,5 @@ def _dexterity_summary(asked: Question, values: Array) -> dict[str, Any]:
         "max_share": float(values.max()) if len(values) else None,
         "reached_count": int(np.sum(values > 0.0)),
         "full_count": full,
-        "full_volume": full * grid.size**grid.dimensions,
+        "full_volume": full * grid.cell,
     }
-
-
-def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
-    """The array and the summary of a job as a picture, in a process of its own."""
-    from app.plots.workspace import Picture, picture_bytes  # noqa: PLC0415 - a third of a second, and seldom needed
-
-    array, summary, kind = job
-    content = orjson.loads(summary.read_bytes())
-    voxels = content["voxels"]
-    drawn = Picture(
-        np.load(array, mmap_mode="r", allow_pickle=False),
-        tuple(content["array"]["columns"]),
-        (content["base_frame"], content["tip_frame"]),
-        tuple(_captions(content)),
-        np.array(voxels["origin"]),
-        np.array(voxels["axes"]).T,
-        voxels["dimensions"],
-        voxels["size"],
-    )
-    return picture_bytes(drawn, kind)
-
-
-def _captions(content: dict[str, Any]) -> Iterator[str]:
-    """Lines beside the picture."""
-    voxels, dexterity = content["voxels"], content["dexterity"]
-    unit = {3: "m³", 2: "m²", 1: "m"}.get(voxels["dimensions"], "")
-    yield f"{content['samples_counted']:,} samples"
-    if content["reach"] is not None:
-        yield f"Reach from the base {content['reach']['min']:.4g} m to {content['reach']['max']:.4g} m"
-    yield f"{voxels['count']:,} voxels of {voxels['size']:g} m: {voxels['volume']:.4g} {unit}"
-    if dexterity is not None:
-        yield f"{dexterity['orientations']} orientations asked for at each"

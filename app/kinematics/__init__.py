@@ -9,6 +9,7 @@
 - `inverse_velocity`: joint rates behind those, on `linear_inverse`: exact, pseudo- and damped inverses.
 - `singularity`: what is lost where, and which joints make it so; `singularity_kinds` names it, `singularity_distance`
   finds the nearest, `singularity_path` those between the configurations of a path.
+  `certify_singularity` asks Pinocchio's Jacobian about all of them.
 - `manipulability`: ellipsoids and measures; `polytope` and `limited_motion`: the same within the limits of the joints.
 - `wrenches`, `statics`: torques at rest. `dynamics`: equations of motion, on `mechanism` (Pinocchio's algorithms, for
   the variables of a chain) and judged by `lagrangian` on `bodies` (sums over bodies from our own Jacobians).

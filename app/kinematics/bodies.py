@@ -185,7 +185,7 @@ class Motions:
         )
 
     def gravity_torques(self, gravity: Array) -> Array:
-        """g: what holds the bodies against a gravity (3,) [m/s²] in the root's axes; shape (N, n), [Nm or N]."""
+        """g: what holds the bodies against a gravity (3,) [m/s²] in the root's axes; shape (N, n), [N m or N]."""
         torques: Array = -np.einsum("kbcj,c->kj", self._momenta(), gravity)
         return torques
 
@@ -203,7 +203,7 @@ class Motions:
         return float((self.masses * self._speeds() ** 2 + turning).max(initial=0.0))
 
     def gravity_scale(self, gravity: Array) -> float:
-        """The same of gravity torques, [Nm or N]."""
+        """The same of gravity torques, [N m or N]."""
         return float((self.masses * self._speeds()).max(initial=0.0) * np.abs(gravity).max())
 
     def _speeds(self) -> Array:

@@ -30,11 +30,11 @@ class Dynamics:
     Attributes:
         mass_matrices: M; shape (N, n, n).
         coriolis_matrices: C, with Ṁ - 2C skew; shape (N, n, n).
-        coriolis_torques: C q̇; shape (N, n), [Nm or N].
-        gravity_torques: g; shape (N, n), [Nm or N].
+        coriolis_torques: C q̇; shape (N, n), [N m or N].
+        gravity_torques: g; shape (N, n), [N m or N].
         kinetic_energies: T; shape (N,), [J].
         potential_energies: U, zero where the centre of mass of what moves is level with the root; shape (N,), [J].
-        torques: By inverse dynamics; shape (N, n), [Nm or N].
+        torques: By inverse dynamics; shape (N, n), [N m or N].
         accelerations: By forward dynamics; shape (N, n), [rad/s² or m/s²].
         is_definite: Whether M is positive definite, at the configurations that were recomputed.
         certificate: How far the second way is from all of these.
@@ -73,7 +73,7 @@ def dynamics(
         gravity: In the axes of the robot's root; shape (3,), [m/s²].
         load: A payload on the tip.
         accelerations: q̈, for inverse dynamics; shape (N, n), [rad/s² or m/s²].
-        torques: τ, for forward dynamics; shape (N, n), [Nm or N].
+        torques: τ, for forward dynamics; shape (N, n), [N m or N].
 
     Raises:
         InvalidField: Forward dynamics where the mass matrix is singular.
@@ -129,7 +129,7 @@ class _Computation:
         return found
 
     def inverse(self, accelerations: Array) -> Array:
-        """τ of q̈; shape (N, n), [Nm or N]."""
+        """τ of q̈; shape (N, n), [N m or N]."""
         by = self.by
         return self._each(accelerations.shape[1:], by.inverse, self.state.qs, self.state.speeds, accelerations)
 

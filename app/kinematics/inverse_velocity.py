@@ -5,17 +5,16 @@ q⃛ = J#(r⃛ - 2 J̇ q̈ - J̈ q̇), where J# is one of the inverses of `linea
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from app.kinematics.certify import TOLERANCE, table_configurations
+from app.kinematics.certify import TOLERANCE
 from app.kinematics.certify_motion import motion_scales
 from app.kinematics.ik.null_space import Objective, objective_gradients
-from app.kinematics.jacobian import Reference, jacobians, ranks, singular_values
-from app.kinematics.kernels import chain_jacobians
-from app.kinematics.linear_inverse import Inversion, Rule, invert
-from app.kinematics.task_space import FULL_SPACE, TaskSpace
+from app.kinematics.jacobian import Reference, jacobians
+from app.kinematics.linear_inverse import Inversion, Rule, decompose, invert
+from app.kinematics.subspaces import rounding
+from app.kinematics.task_space import FULL_SPACE, TaskSpace, hessians_in_reference, jacobians_with_terms
 from app.kinematics.velocity import TipMotion, in_reference, jacobian_derivatives, product_rule, tip_motion
 from app.model.arrays import Array
 from app.model.chain import Chain, joints_on_the_way
@@ -25,8 +24,8 @@ from app.model.robot import Robot
 
 _SLACK = 1e-9
 """How far beyond a limit counts as at it, relatively."""
-_TRIALS, _STRUCTURAL = 8, 1e-9
-"""Random configurations at which the rank is the one that the arm has nearly everywhere, and its tolerance."""
+_EDGE = 0.05
+"""Share of a joint's range from which on the objective of the limits pushes no harder."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,6 @@ def inverse_motion(
     rule: Rule,
     *,
     space: TaskSpace = FULL_SPACE,
-    reference: Reference = "local_world_aligned",
     null_motion: Array | None = None,
 ) -> InverseMotion:
     """The next derivative of q for a twist (no rates given), an acceleration (q̇ given) or a jerk (q̇ and q̈ given).
@@ -76,52 +74,52 @@ def inverse_motion(
         rates: q̇, q̈ as far as they are known; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
         targets: What the tip is to do in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].
         rule: Which inverse.
-        space: The rows of the Jacobian in `reference` that count, and the length that makes radians metres.
-        reference: Of targets and rows, see `tip_motion`.
+        space: The rows of the Jacobian that count, their reference, of targets too, and the length that makes radians
+            metres.
         null_motion: ξ, whose part in ker J is added; shape (N, n).
 
     Raises:
         CertificationFailed: Pinocchio's tip moves otherwise.
     """
-    found = jacobians(robot, chain, qs, reference=reference)
+    found = jacobians(robot, chain, qs, reference=space.reference)
     asked = targets
     if len(rates):
-        asked = targets - _bias_in_reference(chain, qs, rates, found.poses, reference)[:, space.rows]
+        asked = targets - _bias_in_reference(chain, qs, rates, found.poses, space.reference)[:, space.rows]
     limits = velocity_limits(robot, chain) if len(rates) == 0 else None
-    inversion = invert(found.values[:, space.rows], asked, rule, space.scales, null_motion, limits)
+    least = rounding(jacobians_with_terms(chain, qs, space.reference)[1])
+    inversion = invert(found.values[:, space.rows], asked, rule, space.scales, null_motion, limits, least)
     complete = np.concatenate((rates, inversion.xs[None]))
-    motion = tip_motion(robot, chain, qs, complete, reference)
+    motion = tip_motion(robot, chain, qs, complete, space.reference)
     residuals = targets - motion.derivatives[-1][:, space.rows]
     _demand_same(residuals, inversion.residuals, motion_scales(robot, chain, qs, complete)[-1], targets)
     return InverseMotion(inversion, residuals, motion)
 
 
-def descent(
-    robot: Robot, chain: Chain, qs: Array, objective: Objective, gain: float, space: TaskSpace, reference: Reference
-) -> Array:
+def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: TaskSpace) -> Array:
     """Joint velocities ξ = -gain · gradient of an objective; shape (N, n), [rad/s or m/s].
+
+    Away from the limits no faster than a twentieth of the range before them.
 
     Of `manipulability`, the logarithm of the measure √det JJᵀ of the directions that count, the derivative by q_j is
     Σ (J#)_ik ∂J_ki/∂q_j, which no scale of J's rows changes.
     """
     if objective.name == "manipulability":
-        found = jacobians(robot, chain, qs, reference=reference, derivatives=True)
-        if found.hessians is None:
-            return np.zeros(qs.shape)
-        inverses = np.linalg.pinv(found.values[:, space.rows], rcond=1e-10)
-        climb: Array = np.einsum("bik,bkij->bj", inverses, found.hessians[:, space.rows])
+        Js, terms = jacobians_with_terms(chain, qs, space.reference)
+        parts = decompose(Js[:, space.rows], Rule(), np.ones(len(space)), rounding(terms))
+        few = parts.sigmas.shape[1]
+        gains = parts.gains(np.zeros(len(qs)))
+        inverses = np.einsum("bir,bi,bki->brk", parts.right[:, :few], gains, parts.left[:, :, :few])
+        Hs = hessians_in_reference(chain, qs, space.reference)[:, space.rows]
+        climb: Array = np.einsum("bik,bkij->bj", inverses, Hs)
         return gain * climb
-    # The other objectives look at the joints alone.
+    # The other objectives look at the joints alone. That of the limits grows beyond all bounds towards them.
+    if objective.name == "limits":
+        edges = _EDGE * (chain.upper - chain.lower)
+        limited = np.isfinite(edges)
+        low, high = np.where(limited, chain.lower + edges, -np.inf), np.where(limited, chain.upper - edges, np.inf)
+        qs = np.clip(qs, low, high)
     nowhere = Poses(np.zeros((len(qs), 3)), np.broadcast_to(np.eye(3), (len(qs), 3, 3)))
     return -gain * objective_gradients(chain, nowhere, qs, objective, space.task)
-
-
-@lru_cache(maxsize=256)
-def structural_rank(chain: Chain, space: TaskSpace, reference: Reference) -> int:
-    """The rank that the rows that count have at random configurations: where it is less, the chain is singular."""
-    qs = table_configurations(chain, _TRIALS)
-    columns = columns_in_reference(chain, qs, reference)[:, space.rows]
-    return int(ranks(singular_values(columns * space.scales[:, None]), _STRUCTURAL).max())
 
 
 def velocity_limits(robot: Robot, chain: Chain) -> Array:
@@ -146,14 +144,6 @@ def exceeded(chain: Chain, speeds: Array, limits: Array) -> list[Exceeded]:
         Exceeded(chain.joint_names[i], float(speeds[i]), float(limits[i]), float(abs(speeds[i]) / limits[i]))
         for i in np.flatnonzero(np.abs(speeds) > limits * (1.0 + _SLACK))
     ]
-
-
-def columns_in_reference(chain: Chain, qs: Array, reference: Reference) -> Array:
-    """Jacobians in a reference, each column a twist of its own; shape (N, 6, n)."""
-    positions, rotations, Js = chain_jacobians(chain.flat, qs)
-    poses = Poses(positions, rotations)
-    columns = [in_reference(poses, (Js[:, :, i],), reference)[0] for i in range(Js.shape[2])]
-    return np.stack(columns, axis=-1) if columns else Js
 
 
 def _bias_in_reference(chain: Chain, qs: Array, rates: Array, poses: Poses, reference: Reference) -> Array:

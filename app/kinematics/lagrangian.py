@@ -22,7 +22,7 @@ class State:
     Attributes:
         qs: Configurations; shape (N, n), [rad or m].
         speeds: q̇; shape (N, n), [rad/s or m/s].
-        held: Jᵀγ, torques that the wrench at the tip takes; shape (N, n), [Nm or N].
+        held: Jᵀγ, torques that the wrench at the tip takes; shape (N, n), [N m or N].
     """
 
     qs: Array
@@ -37,12 +37,12 @@ class DynamicsCertificate:
     Attributes:
         samples: Configurations that were recomputed.
         max_mass_error: Of an entry of M.
-        max_coriolis_error: Of C q̇, [Nm or N].
+        max_coriolis_error: Of C q̇, [N m or N].
         max_skew_error: Of an entry of C + Cᵀ - Ṁ, which is zero where Ṁ - 2C is skew.
-        max_gravity_error: Of g, [Nm or N].
+        max_gravity_error: Of g, [N m or N].
         max_energy_error: Of T and U, [J].
-        max_torque_error: Of M q̈ + C q̇ + g + Jᵀγ - τ, [Nm or N].
-        max_round_trip_error: Of the torques that inverse dynamics give for the accelerations of forward dynamics, [Nm
+        max_torque_error: Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].
+        max_round_trip_error: Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m
             or N].
         seed: Of the choice of samples.
     """
@@ -110,7 +110,7 @@ class Lagrangian:
         return None if Ms is None else agreed("the mass matrix", Ms - self._Ms, self._mass_scale)
 
     def coriolis_error(self, torques: Array | None) -> float | None:
-        """Of C q̇, [Nm or N]."""
+        """Of C q̇, [N m or N]."""
         return None if torques is None else agreed("a Coriolis torque", torques - self._by_speed, self._bias_scale)
 
     def skew_error(self, Cs: Array | None) -> float | None:
@@ -121,7 +121,7 @@ class Lagrangian:
         return agreed("the mass matrix's derivative", Cs + Cs.swapaxes(1, 2) - M_dots, self._speed_scale)
 
     def gravity_error(self, torques: Array | None) -> float | None:
-        """Of g, [Nm or N]."""
+        """Of g, [N m or N]."""
         return None if torques is None else agreed("a gravity torque", torques - self._by_gravity, self._gravity_scale)
 
     def energy_error(self, kinetic: Array | None, potential: Array | None) -> float | None:
@@ -136,7 +136,7 @@ class Lagrangian:
         return max(error, agreed("the potential energy", potential - expected, float(weights)))
 
     def torque_error(self, accelerations: Array, torques: Array) -> float:
-        """Of M q̈ + C q̇ + g + Jᵀγ - τ, [Nm or N]."""
+        """Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
         by_mass = (self._Ms @ accelerations[..., None])[..., 0]
         expected = by_mass + self._by_speed + self._by_gravity + self._state.held
         return agreed("a torque", torques - expected, self.scale(accelerations))

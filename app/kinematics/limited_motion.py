@@ -97,13 +97,17 @@ def _at(
     """One configuration; `range_` holds an orthonormal basis of range(J), `plane` one of the plane of all motion."""
     reduced, shares = range_.T @ J, along @ range_
     moves = inside & (np.linalg.norm(along - shares @ range_.T, axis=1) <= _WITHIN)
+    # Of a direction that is lost rounding alone is left, which would be drawn out into a polygon.
+    flat = None if plane is None else plane.T @ range_ @ reduced
     has_velocity, has_effort = not np.isnan(bounds.velocity).any(), not np.isnan(bounds.effort).any()
     return LimitedMotion(
         _velocities(reduced, bounds.velocity, shares, moves) if has_velocity else None,
-        velocity_polygon(plane.T @ J, bounds.velocity) @ plane.T if has_velocity and plane is not None else None,
+        velocity_polygon(flat, bounds.velocity) @ plane.T
+        if has_velocity and plane is not None and flat is not None
+        else None,
         _forces(reduced, bounds.effort, shares, moves) if has_effort else None,
-        force_polygon(plane.T @ J, bounds.effort) @ plane.T
-        if has_effort and plane is not None and len(reduced) == 2
+        force_polygon(flat, bounds.effort) @ plane.T
+        if has_effort and plane is not None and flat is not None and len(reduced) == 2
         else None,
     )
 

@@ -63,6 +63,7 @@ class Decomposition:
         sigmas: σ, largest first; shape (N, min(k, n)), units mixed unless a length is given.
         right: Rows v_iᵀ; shape (N, n, n).
         ranks: How many σ count; shape (N,).
+        least: σ of no more than this are rounding, which no damping makes count; shape (N,).
         row_scales: The diagonal of S; shape (k,).
         column_scales: The diagonal of W^(-1/2); shape (n,).
     """
@@ -71,6 +72,7 @@ class Decomposition:
     sigmas: Array
     right: Array
     ranks: Indices
+    least: Array
     row_scales: Array
     column_scales: Array
 
@@ -93,7 +95,7 @@ class Decomposition:
         """By what each uᵢᵀSb is multiplied: σ/(σ² + λ), or 1/σ of those that count where λ = 0; (N, min(k, n))."""
         dampings = np.reshape(damping, (-1, 1))
         counts = np.arange(self.sigmas.shape[1]) < self.ranks[:, None]
-        usable = np.where(dampings > 0.0, self.sigmas > _ROUNDING * self.sigmas[:, :1], counts)
+        usable = np.where(dampings > 0.0, self.sigmas > self.least[:, None], counts)
         # σ² may vanish where σ does not.
         denominators = self.sigmas + dampings / np.where(usable, self.sigmas, 1.0)
         return np.where(usable, 1.0 / np.where(usable, denominators, 1.0), 0.0)
@@ -135,21 +137,31 @@ class Inversion:
     decomposition: Decomposition
 
 
-def decompose(Js: Array, rule: Rule, row_scales: Array) -> Decomposition:
+def decompose(Js: Array, rule: Rule, row_scales: Array, least: Array | None = None) -> Decomposition:
     """Singular values of A = S J W^(-1/2) at each configuration.
 
     Args:
         Js: The rows that count; shape (N, k, n).
         rule: Weights and rank tolerance.
         row_scales: The diagonal of S; shape (k,).
+        least: Entries of Js that may be none but the rounding of what they are sums of; shape (N,). None if left out.
     """
     column_scales = np.ones(Js.shape[2]) if rule.weights is None else 1.0 / np.sqrt(rule.weights)
     left, sigmas, right = np.linalg.svd(row_scales[:, None] * Js * column_scales)
-    return Decomposition(left, sigmas, right, ranks(sigmas, rule.rank_tolerance), row_scales, column_scales)
+    floors = np.zeros(len(Js)) if least is None else least * (row_scales.max() * column_scales.max(initial=1.0))
+    floors = np.maximum(floors, _ROUNDING * sigmas[:, :1].sum(axis=1))
+    counted = np.minimum(ranks(sigmas, rule.rank_tolerance), np.sum(sigmas > floors[:, None], axis=1))
+    return Decomposition(left, sigmas, right, counted, floors, row_scales, column_scales)
 
 
 def invert(
-    Js: Array, bs: Array, rule: Rule, row_scales: Array, null_motion: Array | None = None, limits: Array | None = None
+    Js: Array,
+    bs: Array,
+    rule: Rule,
+    row_scales: Array,
+    null_motion: Array | None = None,
+    limits: Array | None = None,
+    least: Array | None = None,
 ) -> Inversion:
     """Solve J x = b at N configurations.
 
@@ -160,8 +172,9 @@ def invert(
         row_scales: The diagonal of S; shape (k,).
         null_motion: ξ, whose part in ker J is added; shape (N, n).
         limits: Largest |x| of each joint that the adaptive damping is to keep; shape (n,), inf where there is none.
+        least: Entries of Js that may be none but rounding; shape (N,).
     """
-    parts = decompose(Js, rule, row_scales)
+    parts = decompose(Js, rule, row_scales, least)
     dampings = _dampings(parts, rule)
     xs = parts.apply(parts.gains(dampings), bs)
     adaptive = rule.inverse == "damped" and rule.damping is None and limits is not None
@@ -195,7 +208,7 @@ def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, li
     """
     sigmas = parts.sigmas[row]
     few = len(sigmas)
-    counted = np.where(sigmas > _ROUNDING * sigmas[:1], sigmas, 0.0)
+    counted = np.where(sigmas > parts.least[row], sigmas, 0.0)
     shares = counted * (parts.left[row, :, :few].T @ (b * parts.row_scales))
     joints = parts.right[row, :few] * parts.column_scales
 

@@ -11,7 +11,7 @@ found at random configurations, and a singularity is where a semi-axis of those 
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal, TypeAlias, cast
 
@@ -19,7 +19,10 @@ import numpy as np
 
 from app.kinematics.certify import JacobianCertificate, certify_jacobians
 from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_hessians, chain_jacobians
+from app.kinematics.subspaces import rounding
+from app.kinematics.task_space import hessians_in_reference, jacobians_with_terms, random_configurations
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
 from app.model.errors import CertificationFailed, InvalidField
@@ -33,8 +36,8 @@ ELLIPSOID_TOLERANCE = 10.0 * STRUCTURAL_TOLERANCE
 """Allowed relative difference between JJᵀ and what the ellipsoids say of it, motion that is none included."""
 WITHIN = 1e-9
 """How far a unit vector may be from a space that it is said to be in."""
-NOTHING = 1e-100
-"""Motion of no more than this, [m or rad] per [rad or m], is none: its square would leave the range of a double."""
+_ROUNDING = 1e-14
+"""Share of a unit vector in a direction, or of a torque in the largest, that is none."""
 
 _SAMPLES = 8
 
@@ -48,11 +51,13 @@ class Space:
         basis: Orthonormal columns that span the velocities of all configurations together; shape (k, e).
         dimension: Rank of these rows of J at almost every configuration; at most e, and less where the tip keeps to
             a surface that is not flat.
+        components: How many numbers a vector of the part has: 3, or 6 of translation and rotation together.
     """
 
     rows: tuple[int, ...]
     basis: Array
     dimension: int
+    components: int = 3
 
     @property
     def is_plane(self) -> bool:
@@ -61,9 +66,8 @@ class Space:
 
     def spread(self, vectors: Array) -> Array:
         """Vectors by rows (..., k) → by all components, (..., 3), or (..., 6) of translation and rotation together."""
-        components = 6 if min(self.rows) < 3 <= max(self.rows) else 3
-        full = np.zeros((*vectors.shape[:-1], components))
-        full[..., [row % components for row in self.rows]] = vectors
+        full = np.zeros((*vectors.shape[:-1], self.components))
+        full[..., [row % self.components for row in self.rows]] = vectors
         return full
 
 
@@ -107,8 +111,8 @@ class ManipulabilityCertificate:
 
     Attributes:
         jacobians: How far Pinocchio's Jacobians are from those behind them.
-        max_ellipsoid_error: Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to σ₁²: also
-            what motion there is along an axis that is said not to be one.
+        max_ellipsoid_error: Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to σ₁² or the
+            square of the largest entry of J: also what motion there is along an axis that is said not to be one.
     """
 
     jacobians: JacobianCertificate
@@ -121,7 +125,7 @@ class Manipulability:
 
     Attributes:
         parts: Those that the task has rows of.
-        Js: Geometric Jacobians; shape (N, 6, n).
+        Js: Jacobians in the reference; shape (N, 6, n).
         certificate: How good they are.
     """
 
@@ -136,6 +140,7 @@ def manipulability(
     qs: Array,
     *,
     task: Sequence[Direction] = DIRECTIONS,
+    reference: Reference = "local_world_aligned",
     characteristic_length: float | None = None,
     rank_tolerance: float = 1e-10,
     gradient: bool = False,
@@ -146,7 +151,8 @@ def manipulability(
         robot: The robot.
         chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
-        task: The directions that count, in the base's axes.
+        task: The directions that count, in the axes of the reference.
+        reference: In whose axes all vectors are, `local_world_aligned` (the base's) or `local` (the tip's).
         characteristic_length: L > 0 of the combined ellipsoid, [m]; without it there is none.
         rank_tolerance: A semi-axis vanishes where it is no longer than this times the longest.
         gradient: Whether the gradients of Yoshikawa's measure are wanted.
@@ -156,9 +162,9 @@ def manipulability(
         CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids are not those of the Jacobians.
     """
     rows = task_rows(task)
-    _, _, Js = chain_jacobians(chain.flat, qs)
-    Hs = chain_hessians(chain.flat, qs) if gradient else None
-    certified = certify_jacobians(robot, chain, qs, Js, Hs)
+    Js, terms = jacobians_with_terms(chain, qs, reference)
+    certified = _certified(robot, chain, qs, Js, reference, derivatives=gradient)
+    Hs = hessians_in_reference(chain, qs, reference) if gradient else None
     wanted: list[tuple[Part, tuple[int, ...], float]] = [
         ("translation", tuple(row for row in rows if row < 3), 1.0),
         ("rotation", tuple(row for row in rows if row >= 3), 1.0),
@@ -169,9 +175,21 @@ def manipulability(
     worst = 0.0
     for part, some, length in wanted:
         if some:
-            parts[part], error = _ellipsoids(space_of(chain, some, length), Js, Hs, length, rank_tolerance)
+            space = space_of(chain, some, length, reference, components=6 if part == "combined" else 3)
+            stretched = terms * _stretches(some, length).max()
+            parts[part], error = _ellipsoids(space, Js, Hs, length, stretched, rank_tolerance)
             worst = max(worst, error)
     return Manipulability(parts, Js, ManipulabilityCertificate(certified, worst))
+
+
+def _certified(
+    robot: Robot, chain: Chain, qs: Array, values: Array, reference: Reference, *, derivatives: bool
+) -> JacobianCertificate:
+    """The geometric Jacobians, which those in the tip's axes are compared with too, and their derivatives."""
+    Hs = chain_hessians(chain.flat, qs) if derivatives else None
+    if reference == "local_world_aligned":
+        return certify_jacobians(robot, chain, qs, values, Hs)
+    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2], Hs, reference, values)
 
 
 def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
@@ -185,27 +203,40 @@ def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
     return tuple(row for row, direction in enumerate(DIRECTIONS) if direction in task)
 
 
-def space_of(chain: Chain, rows: tuple[int, ...], length: float = 1.0) -> Space:
-    """The directions among some rows of J in which a chain moves at all, angular rows times a length [m]."""
-    space = _structure(chain, rows)
+def space_of(
+    chain: Chain,
+    rows: tuple[int, ...],
+    length: float = 1.0,
+    reference: Reference = "local_world_aligned",
+    components: int = 3,
+) -> Space:
+    """The directions among some rows of J in which a chain moves at all, angular rows times a length [m].
+
+    Args:
+        chain: Base and tip.
+        rows: Which rows count.
+        length: What angular ones are multiplied by, [m].
+        reference: Whose rows they are.
+        components: How many numbers a vector of the part has, 3 or 6.
+    """
+    space = _structure(chain, rows, reference)
     if length == 1.0 or space.basis.shape[1] == len(rows):
-        return space
+        return replace(space, components=components)
     stretched = _stretches(rows, length)[:, None] * space.basis
     left = np.linalg.svd(stretched, full_matrices=False)[0]
-    return Space(rows, _aligned_basis(left @ left.T, left.shape[1]), space.dimension)
+    return Space(rows, _aligned_basis(left @ left.T, left.shape[1]), space.dimension, components)
 
 
 @lru_cache(maxsize=1024)
-def _structure(chain: Chain, rows: tuple[int, ...]) -> Space:
+def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Space:
     """From random configurations: turning joints all the way round, sliding ones within a metre."""
-    slides = set(chain.flat.joints[chain.flat.joints[:, 0] == 1, 1].tolist())
-    reach = np.array([1.0 if i in slides else math.pi for i in range(len(chain))])
-    qs = np.random.default_rng(0).uniform(-reach, reach, (_SAMPLES, len(chain)))
-    Js = chain_jacobians(chain.flat, qs)[2][:, rows]
-    if not np.abs(Js).max(initial=0.0) > NOTHING:
-        return Space(rows, np.zeros((len(rows), 0)), 0)
+    whole, terms = jacobians_with_terms(chain, random_configurations(chain, _SAMPLES), reference)
+    Js, least = whole[:, rows], float(rounding(terms).max())
     sigmas = np.linalg.svd(Js, compute_uv=False)
-    dimension = int(np.sum(sigmas > STRUCTURAL_TOLERANCE * sigmas.max(), axis=1).max())
+    largest = float(sigmas.max(initial=0.0))
+    if largest <= least:
+        return Space(rows, np.zeros((len(rows), 0)), 0)
+    dimension = int(np.sum(sigmas > STRUCTURAL_TOLERANCE * largest, axis=1).max())
     left, sizes, _ = np.linalg.svd(np.concatenate(list(Js), axis=1), full_matrices=False)
     span = left[:, sizes > STRUCTURAL_TOLERANCE * sizes[0]]
     return Space(rows, _aligned_basis(span @ span.T, span.shape[1]), dimension)
@@ -231,9 +262,9 @@ def _stretches(rows: tuple[int, ...], length: float) -> Array:
 
 
 def _ellipsoids(
-    space: Space, Js: Array, Hs: Array | None, length: float, rank_tolerance: float
+    space: Space, Js: Array, Hs: Array | None, length: float, terms: Array, rank_tolerance: float
 ) -> tuple[Ellipsoids, float]:
-    """The ellipsoids of a part, and their largest relative error."""
+    """The ellipsoids of a part, and their largest relative error; semi-axes no longer than terms' rounding vanish."""
     d, stretches = space.dimension, _stretches(space.rows, length)
     Js = Js[:, space.rows] * stretches[:, None]
     if d == 0:
@@ -241,8 +272,8 @@ def _ellipsoids(
         return Ellipsoids(space, np.zeros((len(Js), 0)), np.zeros((*Js.shape[:2], 0)), gradients), 0.0
     left, sigmas, right = np.linalg.svd(space.basis.T @ Js, full_matrices=False)
     axes, sigmas, right = _signed(space.basis @ left[:, :, :d]), sigmas[:, :d], right[:, :d]
-    error = _ellipsoid_error(Js, axes, sigmas)
-    counted = np.where(sigmas > np.maximum(rank_tolerance * sigmas[:, :1], NOTHING), sigmas, 0.0)
+    error = _ellipsoid_error(Js, axes, sigmas, np.abs(terms).max(axis=(1, 2), initial=0.0))
+    counted = np.where(sigmas > np.maximum(rank_tolerance * sigmas[:, :1], rounding(terms)[:, None]), sigmas, 0.0)
     gradients = None
     if Hs is not None:
         # The signs of the columns that the pseudo-inverse is made of must be those of the decomposition.
@@ -266,14 +297,17 @@ def _signed(axes: Array) -> Array:
     return axes * np.where(signs == 0.0, 1.0, signs)
 
 
-def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array) -> float:
-    """How far Σ u_i σ_i² u_iᵀ is from JJᵀ, relative to the square of the largest semi-axis.
+def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> float:
+    """How far Σ u_i σ_i² u_iᵀ is from JJᵀ, relative to the square of the largest semi-axis or entry of the whole J.
+
+    Where all rows of a part nearly vanish, what the structure calls no direction is as large as they are.
 
     Raises:
         CertificationFailed: By more than rounding.
     """
     squares = (Js @ Js.transpose(0, 2, 1)) - (axes * sigmas[:, None, :] ** 2) @ axes.transpose(0, 2, 1)
-    scales = np.where(sigmas[:, 0] > NOTHING, sigmas[:, 0] ** 2, 1.0)
+    largest = np.maximum(sigmas[:, 0], sizes)
+    scales = np.where(largest > 0.0, largest, 1.0) ** 2
     error = float((np.abs(squares).max(axis=(1, 2)) / scales).max(initial=0.0))
     if not error <= ELLIPSOID_TOLERANCE:
         raise CertificationFailed("an ellipsoid", error, ELLIPSOID_TOLERANCE)
@@ -310,5 +344,6 @@ def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: fl
     speeds = np.linalg.norm(np.divide(shares, sigmas, out=np.zeros_like(shares), where=sigmas > 0.0), axis=2)
     largest = ellipsoids.sigmas.max(axis=1, initial=0.0)[:, None]
     velocities = np.divide(1.0, speeds, out=np.zeros_like(speeds), where=(lost <= WITHIN) & (speeds > 0.0))
-    forces = np.divide(1.0, torques, out=np.full_like(torques, np.nan), where=torques > tolerance * largest)
+    felt = torques > max(tolerance, _ROUNDING) * largest
+    forces = np.divide(1.0, torques, out=np.full_like(torques, np.nan), where=felt)
     return velocities, forces

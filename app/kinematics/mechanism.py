@@ -141,11 +141,11 @@ class PinocchioDynamics:
         return self._reduced(np.asarray(C).reshape(self._square))
 
     def gravity_torques(self, q: Array) -> Array:
-        """g(q); shape (n,), [Nm or N]."""
+        """g(q); shape (n,), [N m or N]."""
         return self._torques(pin.computeGeneralizedGravity(self._model, self._data, self._full(q)))
 
     def inverse(self, q: Array, v: Array, a: Array) -> Array:
-        """τ = M q̈ + C q̇ + g by the recursive Newton-Euler algorithm [Featherstone2008, 5.3]; shape (n,), [Nm or N]."""
+        """τ = M q̈ + C q̇ + g by the recursive Newton-Euler algorithm [Featherstone2008, 5.3]; shape (n,), [N m or N]."""
         matrix = self._matrix
         return self._torques(pin.rnea(self._model, self._data, self._full(q), matrix @ v, matrix @ a))
 
@@ -172,7 +172,7 @@ class PinocchioDynamics:
             q: Configuration; shape (n,).
             v: Joint velocities; shape (n,).
             point: Where the force acts, in the base frame; shape (3,), [m].
-            wrench: Force and moment in the base's axes; shape (6,), [N] and [Nm].
+            wrench: Force and moment in the base's axes; shape (6,), [N] and [N m].
         """
         model, data, full_q = self._model, self._data, self._full(q)
         pin.forwardKinematics(model, data, full_q, self._matrix @ v)

@@ -12,10 +12,12 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
-from app.model.arrays import Array
+from app.model.arrays import Array, Flags
 
 _PARALLEL = 1e-12
 """Sine of the angle, or determinant of unit vectors, below which directions are taken as dependent."""
+_NEXT_TO_NOTHING = 1e-14
+"""Share of the longest column below which one is rounding."""
 _ON = 1e-9
 """By how much of a strip's width a vertex may be beyond it, being computed."""
 
@@ -84,8 +86,7 @@ def largest_force_components(J: Array, limits: Array, directions: Array) -> Arra
 
 def velocity_polygon(J: Array, limits: Array) -> Array:
     """Vertices of the zonotope of a planar J, anticlockwise; shape (2, n) → (V, 2), a segment's two ends if flat."""
-    segments = (J * limits).T
-    segments = segments[np.linalg.norm(segments, axis=1) > 0.0]
+    segments = (J * limits).T[_felt(J)]
     below = (segments[:, 1] < 0.0) | ((segments[:, 1] == 0.0) & (segments[:, 0] < 0.0))
     segments[below] *= -1.0
     merged: list[Array] = []
@@ -105,8 +106,7 @@ def velocity_polygon(J: Array, limits: Array) -> Array:
 
 def force_polygon(J: Array, limits: Array) -> Array:
     """Vertices of the forces within the limits of a planar J of rank 2, anticlockwise; shape (2, n) → (V, 2)."""
-    strips = (J / limits).T
-    strips = strips[np.linalg.norm(strips, axis=1) > 0.0]
+    strips = (J / limits).T[_felt(J)]
     corners = []
     for a, b in combinations(strips, 2):
         if _sine(a, b) < _PARALLEL:
@@ -135,6 +135,12 @@ def _normals(J: Array) -> Array:
     sines = np.linalg.norm(normals, axis=1)
     kept = sines > _PARALLEL
     return cast(Array, normals[kept] / sines[kept, None])
+
+
+def _felt(J: Array) -> Flags:
+    """Which columns of a planar J, shape (2, n), are more than rounding beside the longest; shape (n,)."""
+    lengths = np.linalg.norm(J, axis=0)
+    return np.asarray(lengths > _NEXT_TO_NOTHING * lengths.max(initial=0.0))
 
 
 def _sine(a: Array, b: Array) -> float:

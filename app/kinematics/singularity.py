@@ -17,6 +17,8 @@ from app.model.chain import Chain
 RANK_TOLERANCE = 1e-10
 _INVOLVED = 1e-6
 """Share of a joint in a motion, relative to the largest, above which it takes part."""
+_REPEATED = 1e-6
+"""Relative gap below which two singular values are the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,7 @@ class SingularityReport:
         joints: Indices of the joints whose columns are dependent here and not elsewhere.
         kinds: What the singularity is called, where the geometry tells.
         exit: Joint motion of unit length along which `smallest` grows fastest; shape (n,). None where it does not to
-            first order.
+            first order, as where the singular value is repeated: one of the two falls along nearly every way.
         exit_rate: How fast it grows along that, per [rad or m].
     """
 
@@ -67,7 +69,6 @@ class SingularityReport:
 def singularity_report(
     chain: Chain,
     q: Array,
-    J: Array | None = None,
     tolerance: float = RANK_TOLERANCE,
     space: TaskSpace = FULL_SPACE,
 ) -> SingularityReport:
@@ -79,23 +80,20 @@ def singularity_report(
     Args:
         chain: Base and tip.
         q: Configuration; shape (n,), [rad or m].
-        J: The Jacobian of `space` there, where it is known already; shape (m, n).
         tolerance: A singular value counts where it exceeds this times the largest.
         space: The rows that count.
     """
-    if J is None:
-        J = space.jacobians(chain, q[None])[0]
-    fixed = structure(chain, space.task)
-    parts = _split_at_rank(J, tolerance, fixed.rank)
+    Js, least = space.with_rounding(chain, q[None])
+    fixed = structure(chain, space.task, space.reference)
+    parts = _split_at_rank(Js[0], tolerance, float(least[0]), fixed.rank)
     H = space.hessians(chain, q[None])[0]
     defect = fixed.rank - parts.rank
     T = np.einsum("ka,kij,ib->ajb", parts.left_kernel, H, parts.kernel)
-    never = fixed.never
-    if space.characteristic_length is not None:
-        never = np.linalg.qr(never / space.scales[:, None])[0]
-    lost = _ordered(parts.left_kernel, never, T, defect)
+    lost = _ordered(parts.left_kernel, space.never(fixed), T, defect)
     free = _ordered(parts.kernel, fixed.idle, T.transpose(2, 0, 1), defect)
-    exit_, rate = _way_out(T, defect, parts.sigmas[0]) if defect else _gradient(parts, H, fixed.rank)
+    # Slopes that are rounding beside the Jacobian's own numbers are none.
+    slight = max(STRUCTURAL_TOLERANCE * float(parts.sigmas.max(initial=0.0)), float(least[0]))
+    exit_, rate = _way_out(T, defect, slight) if defect else _gradient(parts, H, fixed.rank, slight)
     return SingularityReport(
         parts.rank,
         fixed.rank,
@@ -106,16 +104,17 @@ def singularity_report(
         space.wrenches(lost, chain, q),
         free,
         _involved(free[:, :defect], max(_INVOLVED, tolerance)),
-        singularity_kinds(chain, q, space.task, tolerance) if defect else (),
+        singularity_kinds(chain, q, space, tolerance) if defect else (),
         exit_,
         rate,
     )
 
 
-def _split_at_rank(J: Array, tolerance: float, most: int) -> Subspaces:
+def _split_at_rank(J: Array, tolerance: float, least: float, most: int) -> Subspaces:
     """The subspaces of J, whose rank is no more than structural: what rounding adds to that is none."""
     parts = subspaces(J, tolerance)
-    return replace(parts, rank=most) if parts.rank > most else parts
+    rank = min(parts.rank, int(np.sum(parts.sigmas > least)), most)
+    return replace(parts, rank=rank)
 
 
 def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array:
@@ -144,15 +143,20 @@ def _involved(motions: Array, least: float) -> tuple[int, ...]:
     return tuple(np.flatnonzero(shares > least * shares.max(initial=0.0)).tolist())
 
 
-def _gradient(parts: Subspaces, H: Array, rank: int) -> tuple[Array | None, float]:
-    """Where σ grows at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v of its singular vectors."""
+def _gradient(parts: Subspaces, H: Array, rank: int, slight: float) -> tuple[Array | None, float]:
+    """Where σ grows at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v of its singular vectors.
+
+    A singular value that is repeated has a kink: its singular vectors are any of a plane, and no such number.
+    """
     if rank == 0:
         return None, 0.0
+    if rank > 1 and parts.sigmas[rank - 2] - parts.sigmas[rank - 1] <= _REPEATED * parts.sigmas[rank - 2]:
+        return None, 0.0
     gradient = np.einsum("k,kij,i->j", parts.left[:, rank - 1], H, parts.right[:, rank - 1])
-    return _direction(gradient, float(parts.sigmas[0]))
+    return _direction(gradient, slight)
 
 
-def _way_out(T: Array, defect: int, scale: float) -> tuple[Array | None, float]:
+def _way_out(T: Array, defect: int, slight: float) -> tuple[Array | None, float]:
     """Where σ grows at a singular configuration, to either side alike.
 
     To first order what grows along d are the singular values of M(d) = Σ_j d_j Uᵀ ∂J/∂q_j V, U and V those of the two
@@ -166,10 +170,10 @@ def _way_out(T: Array, defect: int, scale: float) -> tuple[Array | None, float]:
         candidates = np.array([*vectors, *(np.array(sums) / np.sqrt(2.0))])
     rates = np.linalg.svd(np.einsum("cj,ajb->cab", candidates, T), compute_uv=False)[:, defect - 1]
     best = candidates[np.argmax(rates)]
-    return _direction(rates.max() * best * np.sign(best[np.argmax(np.abs(best))]), scale)
+    return _direction(rates.max() * best * np.sign(best[np.argmax(np.abs(best))]), slight)
 
 
-def _direction(gradient: Array, scale: float) -> tuple[Array | None, float]:
-    """Unit vector and length of a gradient; no direction where it is rounding beside numbers of that scale."""
+def _direction(gradient: Array, slight: float) -> tuple[Array | None, float]:
+    """Unit vector and length of a gradient; no direction where it is no longer than rounding."""
     length = float(np.linalg.norm(gradient))
-    return (gradient / length + 0.0, length) if length > STRUCTURAL_TOLERANCE * scale else (None, 0.0)
+    return (gradient / length + 0.0, length) if length > slight else (None, 0.0)

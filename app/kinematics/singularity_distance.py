@@ -87,6 +87,11 @@ def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search
     return min(found, key=lambda singularity: singularity.distance, default=None)
 
 
+def can_lose(chain: Chain, space: TaskSpace) -> bool:
+    """Whether any joint has a say in what the tip can do in the rows that count."""
+    return structure(chain, space.task, space.reference).rank > 0 and bool(_deciding_joints(chain, space))
+
+
 def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tuple[Array, Array]:
     """F as rows, which is zero where the chain has less than a rank, and its derivative by the joints.
 
@@ -133,9 +138,9 @@ class _Projection:
     @classmethod
     def to_singular_set(cls, chain: Chain, q: Array, space: TaskSpace, search: Search) -> "_Projection | None":
         """None where no joint has a say in what the chain can do."""
-        rank = structure(chain, space.task).rank
-        if rank == 0 or not _deciding_joints(chain, space):
+        if not can_lose(chain, space):
             return None
+        rank = structure(chain, space.task, space.reference).rank
         free = np.full(len(q), np.inf)
         bounds = (chain.lower, chain.upper) if search.respect_limits else (-free, free)
         return cls(chain, q, space, rank, search, *bounds)
@@ -213,9 +218,11 @@ class _Projection:
 
     def judged(self, xs: Array) -> NearestSingularity | None:
         """The nearest of those that are singular indeed."""
-        sigmas = np.linalg.svd(self.space.jacobians(self.chain, xs), compute_uv=False)
+        Js, least = self.space.with_rounding(self.chain, xs)
+        sigmas = np.linalg.svd(Js, compute_uv=False)
         distances = np.linalg.norm(xs - self.q, axis=1)
-        good = (sigmas[:, self.rank - 1] <= self.search.tolerance * sigmas[:, 0]) & (distances <= self.search.radius)
+        vanished = sigmas[:, self.rank - 1] <= np.maximum(self.search.tolerance * sigmas[:, 0], least)
+        good = vanished & (distances <= self.search.radius)
         if not good.any():
             return None
         i = int(np.argmin(np.where(good, distances, np.inf)))
@@ -245,7 +252,7 @@ def _minima(projection: _Projection, radius: float, seed: int) -> Array:
 def _measures(projection: _Projection, xs: Array) -> Array:
     """What vanishes where a direction is lost; shape (N,)."""
     space, chain = projection.space, projection.chain
-    if space.turns in {1, 2} or projection.rank < min(len(space), len(chain)):
+    if not space.is_of_the_geometric_rows or projection.rank < min(len(space), len(chain)):
         sigmas = np.linalg.svd(space.jacobians(chain, xs), compute_uv=False)
         return np.asarray(sigmas[:, projection.rank - 1])
     return np.asarray(chain_measures(chain.flat, np.ascontiguousarray(xs), np.array(space.rows, dtype=np.int64))[2])
@@ -255,10 +262,12 @@ def _measures(projection: _Projection, xs: Array) -> Array:
 def _deciding_joints(chain: Chain, space: TaskSpace) -> tuple[int, ...]:
     """The joints that have a say in what is lost: those about the first axis and the like have none."""
     xs = random_configurations(chain, _TRIALS)
-    rank = structure(chain, space.task).rank
-    left, _, right = np.linalg.svd(space.jacobians(chain, xs))
+    rank = structure(chain, space.task, space.reference).rank
+    Js, least = space.with_rounding(chain, xs)
+    left, _, right = np.linalg.svd(Js)
     slopes = np.einsum("nk,nkij,ni->nj", left[:, :, rank - 1], space.hessians(chain, xs), right[:, rank - 1])
-    return tuple(np.flatnonzero(np.abs(slopes).max(axis=0) > STRUCTURAL_TOLERANCE * np.abs(slopes).max()).tolist())
+    slight = max(STRUCTURAL_TOLERANCE * float(np.abs(slopes).max()), float(least.max()))
+    return tuple(np.flatnonzero(np.abs(slopes).max(axis=0) > slight).tolist())
 
 
 @lru_cache(maxsize=256)

@@ -13,14 +13,16 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from app.kinematics.ik.task import Task
+from app.kinematics.ik.task import Direction, Task
+from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_jacobians
-from app.kinematics.task_space import random_configurations
+from app.kinematics.task_space import TaskSpace, random_configurations, structure
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain
 
 Kind: TypeAlias = Literal["wrist", "elbow", "shoulder"]
 
+_LINEAR: tuple[Direction, ...] = ("x", "y", "z")
 _TRIALS = 4
 _SAME = 1e-6
 """Distance relative to the arm at which lines meet, sine at which they are parallel."""
@@ -67,16 +69,16 @@ Factors: TypeAlias = Callable[[Lines], dict[Kind | None, float]]
 """The factors of a determinant by the name of what vanishes with them, each of the size of one; None has no name."""
 
 
-def singularity_kinds(chain: Chain, q: Array, task: Task, tolerance: float) -> tuple[Kind, ...]:
+def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float) -> tuple[Kind, ...]:
     """The names of what makes a configuration singular; none where the geometry of the arm does not tell.
 
     Args:
         chain: Base and tip.
         q: A singular configuration; shape (n,), [rad or m].
-        task: The directions that count.
+        space: The rows that count.
         tolerance: Relative size at which a singular value counted as zero.
     """
-    factors = _factors(chain, task)
+    factors = _factors(chain, space.task, space.reference)
     if factors is None:
         return ()
     values = factors(Lines.of(chain_jacobians(chain.flat, q[None])[2][0]))
@@ -85,16 +87,23 @@ def singularity_kinds(chain: Chain, q: Array, task: Task, tolerance: float) -> t
 
 
 @lru_cache(maxsize=1024)
-def _factors(chain: Chain, task: Task) -> Factors | None:
+def _factors(chain: Chain, task: Task, reference: Reference) -> Factors | None:
     """How the singularities of a chain are told apart; None where they are not."""
     flat = chain.flat
     own = len(flat.joints) == len(chain) and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
     if not own or len(chain) == 0:
         return None
-    trials = [Lines.of(J) for J in chain_jacobians(chain.flat, random_configurations(chain, _TRIALS))[2]]
     n, wanted = len(chain), frozenset(task.directions)
+    if reference == "world" and len(wanted) < 6 and wanted != {"rx", "ry", "rz"}:
+        # The point that passes the base's origin is no part of the arm.
+        return None
+    trials = [Lines.of(J) for J in chain_jacobians(chain.flat, random_configurations(chain, _TRIALS))[2]]
     if _is_planar(trials):
-        return _planar if trials[0].turning.sum() >= 2 else None
+        # With a part of the plane other rows lose rank for other reasons.
+        linear: Task = Task(tuple(direction for direction in task.directions if direction in _LINEAR))
+        whole = structure(chain, Task(_LINEAR), reference).rank
+        in_plane = len(linear) > 0 and structure(chain, linear, reference).rank == whole
+        return _planar if in_plane and trials[0].turning.sum() >= 2 else None
     if n == 3 and wanted == frozenset("xyz"):
         return _positioning(trials, n, with_wrist=False)
     if _meet(trials, n - 3, n) and (len(wanted) == 6 or (n == 3 and wanted == {"rx", "ry", "rz"})):

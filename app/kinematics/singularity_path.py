@@ -54,12 +54,12 @@ def places_along(chain: Chain, qs: Array, space: TaskSpace, tolerance: float, th
         tolerance: A singular value counts where it exceeds this times the largest.
         threshold: Minima of a larger share of the largest singular value are left out.
     """
-    line = _Line(chain, qs, space, structure(chain, space.task).rank)
+    line = _Line(chain, qs, space, structure(chain, space.task, space.reference).rank)
     if line.rank == 0 or len(qs) == 0:
         return ()
     stations = _stations(qs)
-    sigmas, largest = line.sigmas(stations)
-    sigmas = np.where(sigmas <= tolerance * largest, 0.0, sigmas)
+    sigmas, largest, least = line.sigmas(stations)
+    sigmas = np.where(sigmas <= np.maximum(tolerance * largest, least), 0.0, sigmas)
     first, last = _valleys(sigmas, _FLAT * float(largest.max()))
     points = np.flatnonzero((first == last) & (sigmas[first] > 0.0))
     starts, ends = stations[first], stations[last]
@@ -68,11 +68,13 @@ def places_along(chain: Chain, qs: Array, space: TaskSpace, tolerance: float, th
     # Two valleys beside each other may have the same bottom.
     own = np.append(True, np.diff(starts) > _APART)
     starts, ends = starts[own], ends[own]
-    sigmas, largest = line.sigmas(starts)
+    sigmas, largest, least = line.sigmas(starts)
+    # Of one row the smallest value is the largest too: where it is rounding it has vanished.
+    shares = np.where(sigmas > least, sigmas / np.where(sigmas > least, largest, 1.0), 0.0)
     return tuple(
-        Place(float(start), float(end), line.at(start[None])[0], float(sigma), float(sigma / most) if most else 0.0)
-        for start, end, sigma, most in zip(starts, ends, sigmas, largest, strict=True)
-        if sigma <= threshold * most
+        Place(float(start), float(end), line.at(start[None])[0], float(sigma), float(share))
+        for start, end, sigma, share in zip(starts, ends, sigmas, shares, strict=True)
+        if share <= threshold
     )
 
 
@@ -99,10 +101,11 @@ class _Line:
         part = (s - segment)[:, None]
         return np.asarray((1.0 - part) * self.qs[segment] + part * self.qs[following])
 
-    def sigmas(self, s: Array) -> tuple[Array, Array]:
-        """The smallest singular value that can be other than zero, and the largest; shape (k,) each."""
-        values = np.linalg.svd(self.space.jacobians(self.chain, self.at(s)), compute_uv=False)
-        return np.asarray(values[:, self.rank - 1]), np.asarray(values[:, 0])
+    def sigmas(self, s: Array) -> tuple[Array, Array, Array]:
+        """The smallest singular value that can be other than zero, the largest, and what is rounding; (k,) each."""
+        Js, least = self.space.with_rounding(self.chain, self.at(s))
+        values = np.linalg.svd(Js, compute_uv=False)
+        return np.asarray(values[:, self.rank - 1]), np.asarray(values[:, 0]), least
 
     def bottoms(self, low: Array, high: Array) -> Array:
         """Where the smallest singular value is least between some bounds; shape (k,)."""

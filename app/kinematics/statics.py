@@ -31,7 +31,7 @@ class StaticsCertificate:
     Attributes:
         samples: Configurations that were recomputed through Pinocchio.
         max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
-            external force), [Nm or N].
+            external force), [N m or N].
         max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
         seed: Of the choice of samples, of q̇ and of a wrench that tries the whole Jacobian.
     """
@@ -54,9 +54,10 @@ class Statics:
         rows: Which of their six components count; shape (m,).
         places: Where the frame is in the base.
         Js: The rows of the Jacobian there that count; shape (N, m, n).
+        terms: All of its rows, and what they are sums of: what is no more than their rounding is zero; shape (N, 9, n).
         gravity: In the root's axes, [m/s²]; None where weight is left out.
         load: On the tip.
-        gravity_torques: g(q); shape (N, n), [Nm or N], zero where weight is left out.
+        gravity_torques: g(q); shape (N, n), [N m or N], zero where weight is left out.
         gravity_scale: Largest term of the sums that these are.
     """
 
@@ -67,19 +68,20 @@ class Statics:
     rows: Indices
     places: Poses
     Js: Array
+    terms: Array
     gravity: Array | None
     load: Load | None
     gravity_torques: Array
     gravity_scale: float
 
     def wrench_torques(self, wrenches: Array) -> Array:
-        """Jᵀγ; shape (N, m) → (N, n), [Nm or N]."""
+        """Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
         torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
         return torques
 
     def subspaces(self, tolerance: float) -> list[Subspaces]:
         """The four subspaces at each configuration."""
-        return [subspaces(J, tolerance) for J in self.Js]
+        return [subspaces(J, tolerance, terms) for J, terms in zip(self.Js, self.terms, strict=True)]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,8 +89,8 @@ class Balance:
     """The wrench of least norm that comes nearest to explaining joint torques.
 
     Attributes:
-        wrenches: γ; shape (N, m), [N] and [Nm].
-        residuals: τ - g - Jᵀγ, which no wrench balances: it accelerates the robot; shape (N, n), [Nm or N].
+        wrenches: γ; shape (N, m), [N] and [N m].
+        residuals: τ - g - Jᵀγ, which no wrench balances: it accelerates the robot; shape (N, n), [N m or N].
         splits: The subspaces; ker(Jᵀ) may be added to γ.
     """
 
@@ -120,10 +122,9 @@ def statics(
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        FrameNotOnChain: A frame of the wrench also moves with joints that the chain does not have.
         InvalidField: The frame contradicts itself.
     """
-    places, Js = frame_jacobians(robot, chain, qs, frame)
+    places, Js, sums = frame_jacobians(robot, chain, qs, frame)
     torques, scale = np.zeros_like(qs), 0.0
     if gravity is not None and len(chain):
         carried = mechanism(robot, chain).carried(load)
@@ -132,7 +133,8 @@ def statics(
             moving = motions(carried, qs[first : first + size])
             torques[first : first + size] = moving.gravity_torques(gravity)
             scale = max(scale, moving.gravity_scale(gravity))
-    return Statics(robot, chain, qs, frame, rows, places, Js[:, rows], gravity, load, torques, scale)
+    terms = np.concatenate((Js, sums), axis=1)
+    return Statics(robot, chain, qs, frame, rows, places, Js[:, rows], terms, gravity, load, torques, scale)
 
 
 def balance(still: Statics, torques: Array, tolerance: float) -> Balance:
@@ -140,7 +142,7 @@ def balance(still: Statics, torques: Array, tolerance: float) -> Balance:
 
     Args:
         still: The robot at rest.
-        torques: Of the motors; shape (N, n), [Nm or N].
+        torques: Of the motors; shape (N, n), [N m or N].
         tolerance: A singular value counts where it exceeds this times the largest.
     """
     splits = still.subspaces(tolerance)
@@ -176,7 +178,7 @@ def overloaded_joints(robot: Robot, chain: Chain, torques: Array) -> list[list[s
     Args:
         robot: The robot.
         chain: The chain.
-        torques: Shape (N, n), [Nm or N].
+        torques: Shape (N, n), [N m or N].
     """
     given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
     limits = np.array([limit or np.inf for limit in given])
@@ -192,8 +194,8 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
 
     Args:
         still: The robot at rest.
-        wrenches: Shape (N, m), [N] and [Nm].
-        torques: Weight included; shape (N, n), [Nm or N].
+        wrenches: Shape (N, m), [N] and [N m].
+        torques: Weight included; shape (N, n), [N m or N].
         seed: Of the samples, the joint velocities and a further wrench that tries the whole Jacobian.
 
     Raises:
@@ -204,9 +206,10 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
     if not rows:
         return StaticsCertificate(0, 0.0, 0.0, seed)
     rng = np.random.default_rng(seed)
-    places = still.frame.poses(chain, lambda name: pinocchio_poses(robot, chain, name, qs, rows))
+    found = mechanism(robot, chain)
+    places = still.frame.poses(chain, lambda name: pinocchio_poses(found.robot, found.chain, name, qs, rows))
     gravity = np.zeros(3) if still.gravity is None else still.gravity
-    judge = PinocchioDynamics(mechanism(robot, chain), gravity, still.load)
+    judge = PinocchioDynamics(found, gravity, still.load)
     others = rng.uniform(-1.0, 1.0, (len(rows), len(still.rows)))
     by_others = np.einsum("kij,ki->kj", still.Js[rows], others) + still.gravity_torques[rows]
     worst, worst_work = 0.0, 0.0

@@ -11,6 +11,9 @@ import numpy as np
 
 from app.model.arrays import Array
 
+_ROUNDING = 1e-14
+"""Share of the largest entry that the rounding of sines and sums along a chain may come to."""
+
 
 @dataclass(frozen=True, slots=True)
 class Subspaces:
@@ -55,13 +58,21 @@ class Subspaces:
         return inverse
 
 
-def subspaces(J: Array, tolerance: float) -> Subspaces:
+def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspaces:
     """The four subspaces of a matrix.
 
     Args:
         J: Rows that count, columns the joints; shape (m, n), m or n may be 0.
         tolerance: A singular value counts where it exceeds this times the largest.
+        whole: The Jacobian that the rows are of, where they are not all: if all of them vanish, what is left is the
+            rounding of the others, and none counts.
     """
     left, sigmas, right = np.linalg.svd(J)
-    rank = int(np.sum((sigmas > tolerance * sigmas[:1]) & (sigmas > 0.0)))
-    return Subspaces(sigmas, rank, left, right.T)
+    counts = (sigmas > tolerance * sigmas[:1]) & (sigmas > rounding(J if whole is None else whole))
+    return Subspaces(sigmas, int(np.sum(counts)), left, right.T)
+
+
+def rounding(Js: Array) -> Array:
+    """What may be none but rounding of the entries of Jacobians; shape (…, 6, n) → (…,)."""
+    largest: Array = _ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0)
+    return largest

@@ -30,15 +30,15 @@ class Measures:
         least: The smallest.
         mean: Their mean.
         most: The largest.
-        position: Where the tip is there; shape (3,), [m].
-        joint_positions: The configuration; shape (n,), [rad or m].
+        position: Where the tip is there; shape (3,), [m]. None where all measures are zero.
+        joint_positions: The configuration, likewise; shape (n,), [rad or m].
     """
 
     least: float
     mean: float
     most: float
-    position: Array
-    joint_positions: Array
+    position: Array | None
+    joint_positions: Array | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,6 +149,8 @@ class Survey:
 
     def _statistics(self) -> Measures:
         least, most, total = self._measures
+        if most == 0.0:
+            return Measures(0.0, 0.0, 0.0, None, None)
         q = self._plan.sampling.configurations(self._best, 1)
         position = self._plan.measured(q)[0][0]
         return Measures(least, total / self._count, most, position, q[0])

@@ -7,6 +7,7 @@ import numpy as np
 
 from app.kinematics.kernels import chain_jacobians, chain_poses
 from app.kinematics.sampling import Ranges, Sampling
+from app.kinematics.subspaces import rounding
 from app.model.arrays import Array
 from app.model.chain import Chain, FlatChain
 
@@ -31,7 +32,8 @@ class Motion:
         # Directions are a matter of structure, and a few samples of their own tell them even where one is asked for.
         probes = replace(sampling, sequence="random", seed=0).configurations(0, _DIRECTIONS)
         self.positions = chain_poses(chain.flat, qs)[0]
-        self._velocities = chain_jacobians(chain.flat, probes)[2].transpose(1, 0, 2).reshape(6, -1)
+        self._Js = chain_jacobians(chain.flat, probes)[2]
+        self._velocities = self._Js.transpose(1, 0, 2).reshape(6, -1)
         self.farthest = _farthest(chain, sampling.ranges)
 
     @cached_property
@@ -58,20 +60,55 @@ class Motion:
         moving = np.flatnonzero(still > _STRUCTURAL * max(float(still.max()), np.finfo(float).tiny))
         return moving.tolist() if len(moving) == self.dimensions else None
 
+    @cached_property
+    def local_dimensions(self) -> int:
+        """Of what the tip keeps to: less than `dimensions` where that is a curve or a surface that is not flat."""
+        if self.dimensions == 0:
+            return 0
+        velocities = self._velocities[:3].reshape(3, _DIRECTIONS, -1).transpose(1, 0, 2)
+        return int(np.linalg.matrix_rank(velocities, tol=_STRUCTURAL * float(np.abs(velocities).max())).max())
+
+    @property
+    def kept_to(self) -> str | None:
+        """`curve` or `surface`, where the tip keeps to one that is not flat."""
+        if self.local_dimensions == self.dimensions:
+            return None
+        return "surface" if self.local_dimensions == 2 else "curve"
+
     def notes(self) -> list[str]:
         """What is special about where the tip gets."""
         if self.dimensions == 0:
             return ["the tip does not move"]
-        velocities = self._velocities[:3].reshape(3, _DIRECTIONS, -1).transpose(1, 0, 2)
-        local = int(np.linalg.matrix_rank(velocities, tol=_STRUCTURAL * float(np.abs(velocities).max())).max())
-        if local == self.dimensions:
+        if self.kept_to is None:
             return []
-        what = "surface" if local == 2 else "curve"
         note = (
-            f"the tip keeps to a {what}: the voxels that it meets have a volume that shrinks with their size, and the "
-            f"measure of more than {local} directions vanishes everywhere"
+            f"the tip keeps to a {self.kept_to}: the voxels that it meets have a volume that shrinks with their size, "
+            f"and the measure of more than {self.local_dimensions} directions vanishes everywhere"
         )
         return [note]
+
+    def slice_notes(self, normal: Array) -> list[str]:
+        """Why a slice with this unit normal, shape (3,), has no area, where it has none."""
+        crosses = bool(np.abs(normal @ self.axes[:, : self.dimensions]).max(initial=0.0) > _STRUCTURAL)
+        left = self.local_dimensions - crosses
+        if left >= 2 or self.dimensions == 0:
+            return []
+        what = "points" if left == 0 else "a line" if self.kept_to is None else "a curve"
+        return [f"the slice meets where the tip gets in {what} only: the area of its voxels shrinks with their size"]
+
+    def is_singular(self, rows: list[int], turn: Array | None) -> bool:
+        """Whether some of the Jacobian's rows depend on each other wherever the chain is: their measure is zero.
+
+        Args:
+            rows: Which rows count.
+            turn: Along which axes, as columns, shape (3, 3); the base's where None.
+        """
+        Js = self._Js
+        if turn is not None:
+            Js = np.concatenate((turn.T @ Js[:, :3], turn.T @ Js[:, 3:]), axis=1)
+        if not rows or Js.shape[2] == 0:
+            return True
+        return bool((np.linalg.svd(Js[:, rows], compute_uv=False)[:, -1] <= rounding(Js)).all())
 
     @cached_property
     def turning(self) -> tuple[Array, int]:

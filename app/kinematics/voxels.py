@@ -36,6 +36,11 @@ class Grid:
     dimensions: int
     size: float
 
+    @property
+    def cell(self) -> float:
+        """Volume of a cell, [m³], in a plane [m²], on a line [m]; a point has none."""
+        return self.size**self.dimensions if self.dimensions else 0.0
+
     def keys(self, positions: Array) -> Indices:
         """The cell of each position, as one number; shape (N, 3) → (N,)."""
         places = (positions - self.origin) @ self.axes[:, : self.dimensions]

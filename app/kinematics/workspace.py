@@ -85,6 +85,7 @@ class Plan:
         sampling: The configurations.
         plane: To what positions are restricted.
         grid: The cells.
+        is_singular: Whether the measure is zero wherever the chain is; what is computed is rounding then.
         keeps_points: Whether the positions themselves are wanted.
         extent: No position is further from the base's origin, [m].
         notes: What was assumed and what is special about the chain, one sentence each.
@@ -96,6 +97,7 @@ class Plan:
     sampling: Sampling
     plane: Plane | None
     grid: Grid
+    is_singular: bool
     keeps_points: bool
     extent: float
     notes: tuple[str, ...]
@@ -108,8 +110,8 @@ class Plan:
     def measured(self, qs: Array) -> tuple[Array, Array]:
         """Positions in the base, shape (N, 3), [m], and measures, shape (N,)."""
         positions, _, measures = chain_measures(self.flat, qs, self.rows)
-        if len(self.rows) == 0 or qs.shape[1] == 0:
-            # Yoshikawa's product of nothing would be one: a tip that does not move is not manipulable.
+        if self.is_singular:
+            # Also where there are no rows or joints: Yoshikawa's product of nothing would be one.
             measures = np.zeros(len(qs))
         return (positions if self.turn is None else positions @ self.turn.T), measures
 
@@ -137,9 +139,10 @@ def plan(chain: Chain, wish: Wish) -> tuple[Plan, Motion]:
         sampling,
         wish.plane,
         _grid(motion, wish),
+        motion.is_singular(rows, turn),
         wish.kind == "cloud",
         motion.farthest,
-        (*ranges.notes, *motion.notes()),
+        (*ranges.notes, *motion.notes(), *(() if wish.plane is None else motion.slice_notes(wish.plane.normal))),
     ), motion
 
 
@@ -149,7 +152,7 @@ def _grid(motion: Motion, wish: Wish) -> Grid:
     Raises:
         InvalidField: So many along an axis that they cannot be told apart.
     """
-    if wish.plane is not None:
+    if wish.plane is not None and motion.dimensions:
         origin, axes, dimensions = wish.plane.origin, plane_axes(wish.plane.normal), 2
     elif motion.dimensions == 3:
         origin, axes, dimensions = np.zeros(3), np.eye(3), 3

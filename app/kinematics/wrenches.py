@@ -11,6 +11,7 @@ import numpy as np
 
 from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_jacobians, chain_poses
+from app.kinematics.mechanism import mechanism
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.errors import InvalidField
@@ -64,21 +65,21 @@ class WrenchFrame:
         return Poses(points, axes)
 
 
-def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array]:
+def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
     """Where a wrench frame is, and the Jacobian there.
 
     Args:
-        robot: The robot.
+        robot: The robot; joints that the chain does not have stand at zero.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Point and axes.
 
     Returns:
-        Point and axes in the base frame, and Jacobians of shape (N, 6, n), linear before angular.
+        Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and what their linear
+        rows are sums of, to which rounding is relative; shape (N, 3, n).
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        FrameNotOnChain: A frame also moves with joints that the chain does not have.
         InvalidField: The frame contradicts itself.
     """
     frame.check()
@@ -88,15 +89,18 @@ def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -
     def poses_of(name: str) -> Poses:
         if name == chain.tip_frame:
             return tip
-        part, columns = robot.frame_on(chain, name)
+        found = mechanism(robot, chain)
+        part, columns = found.robot.frame_on(found.chain, name)
         return Poses(*chain_poses(part.flat, np.ascontiguousarray(qs[:, columns])))
 
     places = frame.poses(chain, poses_of)
     if places.positions is not positions:
         levers = (places.positions - positions)[:, :, None]
         Js[:, :3] += np.cross(Js[:, 3:], levers, axis=1)
+    far = np.linalg.norm(positions, axis=1) + np.linalg.norm(places.positions, axis=1)
+    terms = Js[:, 3:] * far[:, None, None]
     inverse = places.rotations.swapaxes(1, 2)
-    return places, np.concatenate((inverse @ Js[:, :3], inverse @ Js[:, 3:]), axis=1)
+    return places, np.concatenate((inverse @ Js[:, :3], inverse @ Js[:, 3:]), axis=1), terms
 
 
 def in_base_axes(places: Poses, rows: Indices, wrenches: Array) -> Array:

@@ -66,7 +66,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Bounds of a joint: position [rad or m], velocity [rad/s or m/s], effort [Nm or N]; None where not given."""
+    """Bounds of a joint: position [rad or m], velocity [rad/s or m/s], effort [N m or N]; None where not given."""
 
     lower: float | None = None
     upper: float | None = None

@@ -37,7 +37,7 @@ MAX_MULTIPLIER = 1e6
 class DhJoint:
     """One row. The joint's position adds to `theta` (revolute) or `d` (prismatic); lengths [m], angles [rad].
 
-    Limits are of the position alone, without the offset; velocity in [rad/s or m/s], effort in [Nm or N]. The
+    Limits are of the position alone, without the offset; velocity in [rad/s or m/s], effort in [N m or N]. The
     position is a variable of the table, unless the row follows another joint: then it is `mimic`'s to say.
     """
 

@@ -31,6 +31,8 @@
     ├── JobNotFinished               a job that has no result yet
     ├── JobCancelled                 a job that will have none
     ├── JobFailed                    something went wrong in a job
+    ├── JobInterrupted               a job that the end of the service has ended
+    ├── ServiceStopping              the service takes no more work
     ├── JobTookTooLong               a job that was ended
     ├── TooManyJobs                  so many wait that another one has to be asked for later
     └── CertificationFailed          two computations of the same number disagree: never sent
@@ -199,7 +201,10 @@ class InvalidArray(InvalidInput):
         return self.reason
 
 
-def _configuration(index: int | None) -> str:
+def _configuration(index: int | None, field: str) -> str:
+    """What has not one number a joint, in words; of other fields than positions their name."""
+    if field != "joint_positions":
+        return quoted(field) if index is None else f"entry {index} of {quoted(field)}"
     return "a configuration" if index is None else f"configuration {index}"
 
 
@@ -215,7 +220,7 @@ class WrongJointCount(InvalidInput):
     @property
     def detail(self) -> str:
         """Both counts, and the names in order."""
-        which = _configuration(self.index)
+        which = _configuration(self.index, self.field)
         return (
             f"{which} has {self.given} numbers where the chain has {len(self.expected)} joints, "
             f"in this order: {listed(self.expected)}"
@@ -234,7 +239,7 @@ class MissingJoint(InvalidInput):
     @property
     def detail(self) -> str:
         """The joint that is missing."""
-        return f"{_configuration(self.index)} gives no value for joint {quoted(self.joint)} of the chain"
+        return f"{_configuration(self.index, self.field)} gives no value for joint {quoted(self.joint)} of the chain"
 
 
 @dataclass(eq=False)
@@ -250,8 +255,8 @@ class UnknownJoint(InvalidInput):
     def detail(self) -> str:
         """The joint, and those that are allowed."""
         return (
-            f"{_configuration(self.index)} gives a value for {quoted(self.joint)}, which is no joint of the robot; "
-            f"the chain's joints are {listed(self.expected)}"
+            f"{_configuration(self.index, self.field)} gives a value for {quoted(self.joint)}, which is no joint of "
+            f"the robot; the chain's joints are {listed(self.expected)}"
         )
 
 
@@ -354,15 +359,22 @@ class UnknownRobot(NotFound):
 
 @dataclass(eq=False)
 class UnknownFrame(NotFound):
-    """The robot has no frame of this name."""
+    """The robot has no frame of this name; in which field, where that is known."""
 
     frame: str
     known: tuple[str, ...]
+    field: str | None = None
 
     @property
     def detail(self) -> str:
         """The name, and the frames that exist."""
-        return f"the robot has no frame {quoted(self.frame)}; its frames are {listed(self.known)}"
+        where = "" if self.field is None else f"{quoted(self.field)}: "
+        return f"{where}the robot has no frame {quoted(self.frame)}; its frames are {listed(self.known)}"
+
+    def facts(self) -> dict[str, object]:
+        """The field only where it is known."""
+        facts: dict[str, object] = {"frame": self.frame, "known": self.known}
+        return facts if self.field is None else {**facts, "field": self.field}
 
 
 @dataclass(eq=False)
@@ -497,6 +509,28 @@ class JobFailed(KinematicsError):
     def detail(self) -> str:
         """The reason."""
         return self.reason
+
+
+@dataclass(eq=False)
+class JobInterrupted(KinematicsError):
+    """A job whose result is asked for did not come to its end before the service, or its process of it, did."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """The reason, and what to do."""
+        return f"the job has no result: {self.reason}; POST it again"
+
+
+@dataclass(eq=False)
+class ServiceStopping(KinematicsError):
+    """The service is shutting down and takes no more work."""
+
+    @property
+    def detail(self) -> str:
+        """What to do."""
+        return "the service is shutting down: ask again when it is back"
 
 
 @dataclass(eq=False)

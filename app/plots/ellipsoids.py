@@ -11,11 +11,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Ellipse, Polygon
-from matplotlib.typing import LineStyleType
 
-from app.kinematics.manipulability import Ellipsoids
+from app.kinematics.limited_motion import LimitedMotion
+from app.kinematics.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.plots.arm import ArmLine, arm_line
@@ -24,76 +22,82 @@ from app.plots.figure import (
     INK,
     LINE,
     LINK,
-    QUIET,
-    TITLE,
     VELOCITY,
     PictureFormat,
     as_bytes,
     metric_axes,
     new_figure,
     plain,
-    write,
+)
+from app.plots.legend import Entry, configuration_lines, legend, legend_height, write_head, write_legend
+from app.plots.shadows import (
+    DASHED,
+    SOLID,
+    Arrow,
+    Outline,
+    Quantity,
+    draw_arrow,
+    draw_outline,
+    draw_quantity,
 )
 
 View: TypeAlias = tuple[Array, str, str]
 """Two unit vectors of a plane of projection as rows, shape (2, 3), and what its axes are called."""
 
-_SOLID: LineStyleType = "-"
-_DASHED: LineStyleType = (0.0, (5.0, 1.6))
-
-_DIGITS = {1: 4, 2: 4, 3: 3}
-_SHAPES = {1: "segment", 2: "ellipse", 3: "ellipsoid"}
-
 _LARGEST = 0.38
 """Semi-axis of the larger extent of an ellipse, in fractions of the arm's extent."""
-_NARROWEST = 0.004
-"""A semi-axis is drawn no narrower than this fraction of the extent: a vanishing one is a line then."""
+_ARROW = 0.46
+"""Length of an arrow likewise."""
 _MARGIN = 0.08
-_FAR = 1e3
-"""Where a strip without ends is cut off, in extents: far outside the picture."""
+_TITLE_HEIGHT, _AXES_WIDTH, _AXES_HEIGHT, _LABELS_HEIGHT = 0.55, 5.3, 4.8, 0.65
+"""Of a picture in a plane, [inch]."""
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
-    """An ellipsoid to be drawn.
+class Asked:
+    """What a picture is to show beside the ellipsoids.
 
     Attributes:
-        name: Of what.
-        unit: Of its semi-axes.
-        color: Of its line.
-        dashes: Of its line.
-        axes: Principal axes as unit columns; shape (3, d).
-        sizes: Semi-axes, infinite where unbounded; shape (d,).
-        scale: Metres of paper a unit.
+        directions: Unit vectors; shape (D, 3).
+        tolerance: Of the force along one that is unbounded.
+        limited: What the joints can do within their limits, where polytopes were asked for.
     """
 
-    name: str
-    unit: str
-    color: str
-    dashes: LineStyleType
-    axes: Array
-    sizes: Array
-    scale: float
+    directions: Array
+    tolerance: float
+    limited: LimitedMotion | None
+
+
+NOTHING_MORE = Asked(np.zeros((0, 3)), 0.0, None)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """All that is drawn.
+
+    Attributes:
+        arm: The arm.
+        extent: Its size, [m].
+        quantities: Ellipsoids at its tip.
+        outlines: Polytopes.
+        arrows: Directions.
+    """
+
+    arm: ArmLine
+    extent: float
+    quantities: tuple[Quantity, ...]
+    outlines: tuple[Outline, ...]
+    arrows: tuple[Arrow, ...]
 
     @property
-    def bounded(self) -> Array:
-        """Drawn semi-axes as columns, those that have an end; shape (3, c), [m of paper]."""
-        ends = np.isfinite(self.sizes)
-        return np.asarray(self.axes[:, ends] * self.sizes[ends] * self.scale)
-
-    @property
-    def unbounded(self) -> Array:
-        """Directions without an end, as columns."""
-        return np.asarray(self.axes[:, ~np.isfinite(self.sizes)])
-
-    @property
-    def halves(self) -> Array:
-        """Half its extent along x, y and z, as far as it has an end; shape (3,), [m of paper]."""
-        return np.asarray(np.linalg.norm(self.bounded, axis=1))
+    def halves(self) -> list[Array]:
+        """Half the extents of what is at the tip along x, y and z, shape (3,) each, [m of paper]."""
+        arrows: list[Array] = [np.abs(arrow.direction) * 1.1 * _ARROW * self.extent for arrow in self.arrows]
+        return [*(one.halves for one in self.quantities), *(one.halves for one in self.outlines), *arrows]
 
 
 def manipulability_picture(
-    name: str, chain: Chain, q: Array, translation: Ellipsoids | None, kind: PictureFormat
+    name: str, chain: Chain, q: Array, translation: Ellipsoids | None, kind: PictureFormat, asked: Asked = NOTHING_MORE
 ) -> bytes:
     """The picture.
 
@@ -101,38 +105,96 @@ def manipulability_picture(
         name: Of the robot.
         chain: Base and tip.
         q: One configuration; shape (n,), [rad or m].
-        translation: Ellipsoids of translation at this configuration alone; None where the task has no direction of it.
+        translation: Ellipsoids of translation at this configuration alone, in the base's axes; None where the task has
+            no direction of it.
         kind: What the bytes are.
+        asked: What else is to be seen.
     """
     arm = arm_line(chain, q)
     extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)
-    quantities = [] if translation is None else _quantities(chain, translation, extent)
-    in_plane = translation is not None and translation.space.is_plane and len(translation.space.rows) > 1
-    if translation is not None and in_plane:
-        figure = _in_its_plane(arm, quantities, translation.space.spread(translation.space.basis.T), extent)
-    else:
-        figure = _in_projections(arm, quantities, extent)
+    quantities = () if translation is None else _quantities(chain, translation, extent)
+    outlines = () if translation is None or asked.limited is None else _outlines(translation, asked.limited, extent)
+    plane = _plane(chain, translation)
+    arrows = _arrows(translation, quantities, asked)
+    scene = Scene(arm, extent, quantities, outlines, arrows)
+    entries = legend(quantities, outlines, arrows, translation)
     title = f"{plain(name)}: {plain(chain.base_frame)} → {plain(chain.tip_frame)}"
-    write(figure, 0.06, 0.975, [title], size=TITLE)
-    _write_legend(figure, (0.06, 0.205) if in_plane else (0.57, 0.42), quantities, translation)
+    figure = (
+        _in_projections(scene, title, chain, q, entries)
+        if plane is None
+        else _in_plane(scene, plane, title, chain, q, entries)
+    )
     return as_bytes(figure, kind)
 
 
-def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> list[Quantity]:
+def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
+    """Two unit vectors of the plane that the picture is in: that of all motion, else of the task; shape (2, 3)."""
+    space = space_of(chain, (0, 1, 2))
+    if space.is_plane:
+        return space.spread(space.basis.T)
+    if translation is not None and translation.space.is_plane:
+        return translation.space.spread(translation.space.basis.T)
+    return None
+
+
+def _units(chain: Chain) -> tuple[str, str]:
+    """Of joint velocities and of joint forces."""
+    kinds = frozenset(chain.flat.joints[:, 0].tolist())
+    named = {frozenset({0}): ("rad/s", "N m"), frozenset({1}): ("m/s", "N")}
+    return named.get(kinds, ("joint velocity", "joint effort"))
+
+
+def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Quantity, ...]:
     """The velocity and the force ellipsoid; none where the tip has no translation."""
     sigmas = translation.sigmas[0]
     if not len(sigmas):
-        return []
+        return ()
     axes = translation.space.spread(translation.axes[0].T).T
-    kinds = set(chain.flat.joints[:, 0].tolist())
-    joint_velocity, joint_force = {frozenset({0}): ("rad/s", "N m"), frozenset({1}): ("m/s", "N")}.get(
-        frozenset(kinds), ("joint velocity", "joint effort")
-    )
+    velocity, force = _units(chain)
     inverses = np.divide(1.0, sigmas, out=np.full_like(sigmas, np.inf), where=sigmas > 0.0)
-    return [
-        Quantity("Velocity", f"m/s per {joint_velocity}", VELOCITY, _SOLID, axes, sigmas, _scale(sigmas, extent)),
-        Quantity("Force", f"N per {joint_force}", FORCE, _DASHED, axes, inverses, _scale(inverses, extent)),
-    ]
+    return (
+        Quantity("Velocity", f"m/s per {velocity}", VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
+        Quantity("Force", f"N per {force}", FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
+    )
+
+
+def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
+    found = []
+    for name, unit, color, numbers, vertices in (
+        ("Velocity", "m/s", VELOCITY, limited.velocities, limited.velocity_vertices),
+        ("Force", "N", FORCE, limited.forces, limited.force_vertices),
+    ):
+        missing = f"not every joint has {'a velocity' if name == 'Velocity' else 'an effort'} limit"
+        if numbers is not None:
+            missing = "unbounded"
+        scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
+        corners = None if vertices is None else translation.space.spread(vertices)
+        found.append(Outline(name, unit, color, corners, scale, missing))
+    return tuple(found)
+
+
+def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Asked) -> tuple[Arrow, ...]:
+    """The directions; the legend has their components as they were given."""
+    directions = asked.directions
+    inside, ratios = np.zeros(len(directions), dtype=bool), np.full((2, len(directions)), np.nan)
+    if translation is not None and quantities and len(directions):
+        inside = is_within_task(translation.space, directions)
+        ratios = np.array(transmission_ratios(translation, directions, asked.tolerance)).reshape(2, -1)
+    arrows = []
+    for i, direction in enumerate(directions):
+        words = f"({', '.join(f'{component + 0.0:.3g}' for component in np.round(direction, 9))}): "
+        if not inside[i]:
+            arrows.append(Arrow(i + 1, direction, (), words + "not in the task"))
+            continue
+        values = [float(ratio) for ratio in ratios[:, i]]
+        texts = [f"{value:.4g}" if np.isfinite(value) else "unbounded" for value in values]
+        ends = tuple(
+            (quantity.color, value * quantity.scale)
+            for quantity, value in zip(quantities, values, strict=True)
+            if np.isfinite(value)
+        )
+        arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))
+    return tuple(arrows)
 
 
 def _scale(sizes: Array, extent: float) -> float:
@@ -145,29 +207,39 @@ def _scale(sizes: Array, extent: float) -> float:
     return float(max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted))
 
 
-def _in_its_plane(arm: ArmLine, quantities: Sequence[Quantity], plane: Array, extent: float) -> Figure:
-    figure = new_figure(6.4, 7.6)
-    axes = figure.add_axes((0.13, 0.29, 0.83, 0.63))
+def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
+    width = 6.4
+    lines = configuration_lines(chain, q, width)
+    top, bottom = _TITLE_HEIGHT + len(lines) * LINE, _LABELS_HEIGHT + legend_height(entries)
+    height = top + _AXES_HEIGHT + bottom
+    figure = new_figure(width, height)
+    axes = figure.add_axes((0.13, bottom / height, _AXES_WIDTH / width, _AXES_HEIGHT / height))
     view = (plane, f"{_axis_name(plane[0], 1)} / m", f"{_axis_name(plane[1], 2)} / m")
-    points = arm.points @ plane.T
-    halves = [np.linalg.norm(plane @ quantity.bounded, axis=1) for quantity in quantities]
-    middle, half = _box(points, halves, extent)
-    _draw(axes, view, arm, quantities, extent)
+    halves = [np.abs(plane) @ half for half in scene.halves]
+    middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
+    _draw(axes, view, scene)
     # The narrower of the two is widened, so that the axes fill their place.
     _look_at(axes, middle, np.maximum(half, half[::-1] * _shape(axes) ** np.array([1.0, -1.0])))
+    write_head(figure, title, lines)
+    write_legend(figure, (0.06, (bottom - _LABELS_HEIGHT) / height), entries)
     return figure
 
 
-def _in_projections(arm: ArmLine, quantities: Sequence[Quantity], extent: float) -> Figure:
+def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
     """Front and side above, the view from above below the front, on one scale."""
-    figure = new_figure(9.0, 9.0)
+    width, side = 9.0, 3.6
+    lines = configuration_lines(chain, q, width)
+    height = _TITLE_HEIGHT + len(lines) * LINE + 2.0 * (side + _LABELS_HEIGHT)
+    figure = new_figure(width, height)
     names, e = ("x / m", "y / m", "z / m"), np.eye(3)
-    middle, half = _box(arm.points, [quantity.halves for quantity in quantities], extent)
-    places = {(0, 2): (0.08, 0.53, 0.40, 0.40), (1, 2): (0.57, 0.53, 0.40, 0.40), (0, 1): (0.08, 0.06, 0.40, 0.40)}
-    for (i, j), place in places.items():
-        axes = figure.add_axes(place)
-        _draw(axes, (e[[i, j]], names[i], names[j]), arm, quantities, extent)
+    middle, half = _box(scene.arm.points, scene.halves, scene.extent)
+    upper = side + 2.0 * _LABELS_HEIGHT
+    for (i, j), left, bottom in (((0, 2), 0.72, upper), ((1, 2), 5.13, upper), ((0, 1), 0.72, _LABELS_HEIGHT)):
+        axes = figure.add_axes((left / width, bottom / height, side / width, side / height))
+        _draw(axes, (e[[i, j]], names[i], names[j]), scene)
         _look_at(axes, middle[[i, j]], np.full(2, half.max()))
+    write_head(figure, title, lines)
+    write_legend(figure, (5.13 / width, (side + 0.35) / height), entries)
     return figure
 
 
@@ -180,7 +252,7 @@ def _axis_name(direction: Array, number: int) -> str:
 
 
 def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, Array]:
-    """Middle and half the size of what holds the arm and the ellipses at its tip."""
+    """Middle and half the size of what holds the arm and what is at its tip."""
     everything = np.concatenate([points, *(points[-1:] + sign * half for half in halves for sign in (1.0, -1.0))])
     lower, upper = everything.min(axis=0), everything.max(axis=0)
     return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
@@ -197,39 +269,18 @@ def _look_at(axes: Axes, middle: Array, half: Array) -> None:
     axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
 
 
-def _draw(axes: Axes, view: View, arm: ArmLine, quantities: Sequence[Quantity], extent: float) -> None:
+def _draw(axes: Axes, view: View, scene: Scene) -> None:
     plane, x_label, y_label = view
     metric_axes(axes, x_label, y_label)
-    points = arm.points @ plane.T
-    for quantity in quantities:
-        _draw_quantity(axes, plane, points[-1], quantity, extent)
-    _draw_arm(axes, points, arm)
-
-
-def _draw_quantity(axes: Axes, plane: Array, tip: Array, quantity: Quantity, extent: float) -> None:
-    """The shadow of an ellipsoid, or of what is left of it without ends."""
-    look: dict[str, Any] = {
-        "facecolor": (quantity.color, 0.10),
-        "edgecolor": quantity.color,
-        "linestyle": quantity.dashes,
-        "linewidth": 1.6,
-        "joinstyle": "round",
-        "zorder": 4,
-    }
-    endless, sizes, _ = np.linalg.svd(np.hstack((plane @ quantity.unbounded, np.zeros((2, 2)))))
-    ways = int(np.sum(sizes > 1e-6))
-    if ways == 2:
-        return
-    if ways == 1:
-        along, across = endless[:, 0], endless[:, 1]
-        half = max(float(np.linalg.norm(across @ plane @ quantity.bounded)), _NARROWEST * extent)
-        corners = [tip + _FAR * extent * a * along + half * b * across for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
-        axes.add_patch(Polygon(np.array(corners), **look))
-        return
-    left, sizes, _ = np.linalg.svd(np.hstack((plane @ quantity.bounded, np.zeros((2, 2)))))
-    width, height = 2.0 * np.maximum(sizes[:2], _NARROWEST * extent)
-    angle = float(np.degrees(np.arctan2(left[1, 0], left[0, 0])))
-    axes.add_patch(Ellipse((float(tip[0]), float(tip[1])), width, height, angle=angle, **look))
+    points = scene.arm.points @ plane.T
+    tip = points[-1]
+    for quantity in scene.quantities:
+        draw_quantity(axes, plane, tip, quantity, scene.extent)
+    for outline in scene.outlines:
+        draw_outline(axes, plane, tip, outline)
+    _draw_arm(axes, points, scene.arm)
+    for arrow in scene.arrows:
+        draw_arrow(axes, plane, tip, arrow, _ARROW * scene.extent)
 
 
 def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
@@ -241,28 +292,3 @@ def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
         some = points[1:-1][arm.slides == slides]
         axes.plot(some[:, 0], some[:, 1], marker, markersize=size, **edge)
     axes.plot(*points[-1], marker="o", markersize=5.0, color=INK, zorder=5)
-
-
-def _write_legend(
-    figure: Figure, place: tuple[float, float], quantities: Sequence[Quantity], translation: Ellipsoids | None
-) -> None:
-    left, top = place
-    line, swatch = LINE / figure.get_figheight(), 0.36 / figure.get_figwidth()
-    if translation is None or not quantities:
-        write(figure, left, top, ["The tip has no translation here."], color=QUIET)
-        return
-    sigmas, d = translation.sigmas[0], translation.space.dimension
-    for quantity in quantities:
-        ends = ", ".join("unbounded" if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
-        across, up = [left, left + swatch], [top - line / 2.0] * 2
-        figure.add_artist(Line2D(across, up, color=quantity.color, linewidth=1.6, linestyle=quantity.dashes))
-        name = f"{quantity.name} {_SHAPES[d]}"
-        lines = [f"{name}, semi-axes {ends}", f"1 {quantity.unit} is drawn as {quantity.scale:g} m"]
-        write(figure, left + 1.35 * swatch, top, lines)
-        top -= 2.35 * line
-    isotropy = sigmas[-1] / sigmas[0] if sigmas[0] > 0.0 else 0.0
-    lines = [
-        f"Yoshikawa's measure {translation.measures[0]:.4g}, isotropy {isotropy:.3g}",
-        f"Rank {translation.ranks[0]} of {d}",
-    ]
-    write(figure, left + 1.35 * swatch, top, lines)

@@ -37,6 +37,9 @@ _MOST_ELEMENTS, _FEWEST_ELEMENTS = 160, 24
 _MOST_VOXELS = 400
 """Those of a grid; where it has more, several voxels share an element."""
 _MARGIN = 0.06
+_TITLE_LENGTH = 66
+"""Letters of a title that fit into one line."""
+_ROUNDING = 1e-12
 _COLORS = "viridis"
 
 
@@ -47,6 +50,7 @@ class Picture:
     Attributes:
         rows: Positions and values; shape (N, k), the first three columns x y z, [m].
         columns: What the columns are.
+        robot: Its name.
         ends: Base and tip.
         notes: Lines beside it.
         origin: Centre of a voxel; shape (3,), [m].
@@ -57,6 +61,7 @@ class Picture:
 
     rows: Array
     columns: tuple[str, ...]
+    robot: str
     ends: tuple[str, str]
     notes: tuple[str, ...]
     origin: Array
@@ -73,10 +78,13 @@ class Picture:
     def element(self) -> float:
         """Edge of a picture element, [m]: a voxel's or several, or such that most have some samples behind them."""
         longest = float(np.ptp(self.rows[:, :3], axis=0).max()) if len(self.rows) else 1.0
+        if _is_one_place(self.rows[:, :3]):
+            lower, upper = _corners(self.rows[:, :3])
+            return float((upper - lower).max()) / _FEWEST_ELEMENTS
         if not self.is_cloud:
             return self.cell * max(1.0, float(np.ceil(longest / (self.cell * _MOST_VOXELS))))
         count = np.clip(np.sqrt(len(self.rows)) / 2.0, _FEWEST_ELEMENTS, _MOST_ELEMENTS)
-        return max(longest, 1e-6) / float(count)
+        return longest / float(count)
 
     @property
     def values(self) -> Array:
@@ -107,7 +115,11 @@ def picture_bytes(picture: Picture, kind: PictureFormat) -> bytes:
     ends = Normalize(0.0, 1.0 if picture.columns[-1] == "dexterity" else largest or 1.0)
     figure = _in_its_plane(picture, ends) if picture.is_flat else _in_projections(picture, ends)
     base_frame, tip_frame = picture.ends
-    write(figure, 0.06, 0.975, [f"Workspace: {plain(base_frame)} → {plain(tip_frame)}"], size=TITLE)
+    robot, chain = f"Workspace of {plain(picture.robot)}", f"{plain(base_frame)} → {plain(tip_frame)}"
+    if len(robot) + len(chain) < _TITLE_LENGTH:
+        write(figure, 0.06, 0.975, [f"{robot}: {chain}"], size=TITLE)
+    else:
+        write(figure, 0.06, 0.99, [robot, chain], size=TITLE)
     return as_bytes(figure, kind)
 
 
@@ -164,15 +176,30 @@ def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
 
 def _box(points: Array, element: float) -> tuple[Array, float]:
     """Middle and half the edge of a cube that holds all points, and the base where it is not far away."""
-    lower, upper = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)
-    if not len(points):
-        lower, upper = np.full(3, -0.5), np.full(3, 0.5)
-    longest = float((upper - lower).max())
-    near = np.clip(0.0, lower - 0.5 * longest, upper + 0.5 * longest) == 0.0
-    if near.all():
-        lower, upper = np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+    lower, upper = _corners(points)
     half = 0.5 * float((upper - lower).max()) * (1.0 + 2.0 * _MARGIN) + element
     return 0.5 * (lower + upper), half
+
+
+def _corners(points: Array) -> tuple[Array, Array]:
+    """Smallest and largest coordinates, of the base too where it is not far away, or nothing else gives a scale."""
+    if not len(points):
+        return np.full(3, -0.5), np.full(3, 0.5)
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    longest = float((upper - lower).max())
+    near = np.clip(0.0, lower - 0.5 * longest, upper + 0.5 * longest) == 0.0
+    if near.all() or _is_one_place(points):
+        lower, upper = np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+    if not (upper > lower).any():
+        lower, upper = lower - 0.5, upper + 0.5
+    return lower, upper
+
+
+def _is_one_place(points: Array) -> bool:
+    """Whether all points are one, but for rounding."""
+    if not len(points):
+        return False
+    return bool(np.ptp(points, axis=0).max() <= _ROUNDING * np.abs(points).max())
 
 
 def elements(places: Array, values: Array, count: int) -> Array:

@@ -41,7 +41,7 @@ class DhJointRow(Payload):
     lower: float | None = Field(None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out.")
     upper: float | None = Field(None, description="Upper limit of the position, [rad or m]; π or 1 m if left out.")
     velocity: float | None = Field(None, ge=0, description="Velocity limit, [rad/s or m/s].")
-    effort: float | None = Field(None, ge=0, description="Effort limit, [Nm or N].")
+    effort: float | None = Field(None, ge=0, description="Effort limit, [N m or N].")
     mimic: MimicPayload | None = Field(
         None, description="The joint that this one follows; left out, its position is a variable of the table."
     )

@@ -40,12 +40,12 @@ class DynamicsRequest(DynamicsOptions, WrenchRequest):
     )
     torques: Configurations | None = Field(
         default=None,
-        description="For forward dynamics: τ of the motors, one entry a configuration, [Nm], [N] of a sliding joint.",
+        description="For forward dynamics: τ of the motors, one entry a configuration, [N m], [N] of a sliding joint.",
     )
     wrenches: Wrenches | None = Field(
         default=None,
-        description="γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [Nm]: a list "
-        "of one for all configurations or of one each.",
+        description="γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [N m]: a "
+        "list of one for all configurations or of one each.",
     )
 
 
@@ -54,15 +54,15 @@ class DynamicsCertificateInfo(Answer):
 
     samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
     max_mass_error: float | None = Field(description="Of M = Σ m J_vᵀJ_v + J_ωᵀIJ_ω, [kg m², kg m or kg].")
-    max_coriolis_error: float | None = Field(description="Of C q̇, [Nm or N].")
+    max_coriolis_error: float | None = Field(description="Of C q̇, [N m or N].")
     max_skew_error: float | None = Field(
         description="Of C + Cᵀ - dM/dt, which is zero where dM/dt - 2C is skew, [kg m², kg m or kg] per second."
     )
-    max_gravity_error: float | None = Field(description="Of g = -Σ m J_vᵀg₀, [Nm or N].")
+    max_gravity_error: float | None = Field(description="Of g = -Σ m J_vᵀg₀, [N m or N].")
     max_energy_error: float | None = Field(description="Of kinetic and potential energy, [J].")
-    max_torque_error: float | None = Field(description="Of M q̈ + C q̇ + g + Jᵀγ - τ, [Nm or N].")
+    max_torque_error: float | None = Field(description="Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].")
     max_round_trip_error: float | None = Field(
-        description="Of the torques that inverse dynamics give for the accelerations of forward dynamics, [Nm or N]."
+        description="Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m or N]."
     )
     seed: int = Field(description="Of the choice of samples.")
 
@@ -83,10 +83,10 @@ class DynamicsAnswer(Answer):
         description="C(q, q̇), of the many with these C q̇ one with dM/dt - 2C skew, [kg m², kg m or kg] per second.",
     )
     coriolis_torques: list[list[float]] | None = Field(
-        None, description="C q̇, Coriolis and centrifugal torques, [Nm or N]."
+        None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."
     )
     gravity_torques: list[list[float]] | None = Field(
-        None, description="g(q), what the motors give to hold the weight, [Nm or N]."
+        None, description="g(q), what the motors give to hold the weight, [N m or N]."
     )
     kinetic_energies: list[float] | None = Field(None, description="½ q̇ᵀM q̇, [J].")
     potential_energies: list[float] | None = Field(
@@ -94,9 +94,9 @@ class DynamicsAnswer(Answer):
         description="Of all that the chain's joints move, [J]: zero where its centre of mass is level with the origin "
         "of the root link.",
     )
-    wrench_torques: list[list[float]] | None = Field(None, description="Jᵀγ, where wrenches were given, [Nm or N].")
+    wrench_torques: list[list[float]] | None = Field(None, description="Jᵀγ, where wrenches were given, [N m or N].")
     torques: list[list[float]] | None = Field(
-        None, description="By inverse dynamics, where `joint_accelerations` were given, [Nm or N]."
+        None, description="By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
     )
     joint_accelerations: list[list[float]] | None = Field(
         None, description="By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
@@ -104,5 +104,5 @@ class DynamicsAnswer(Answer):
     overloaded_joints: list[list[str]] | None = Field(
         None, description="By inverse dynamics: joints whose torque is beyond the effort limit of the description."
     )
-    notes: list[str] = Field(description="What the numbers leave out, such as links without mass.")
+    notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or stand on.")
     certificate: DynamicsCertificateInfo

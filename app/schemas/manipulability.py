@@ -26,8 +26,14 @@ class ManipulabilityOptions(ChainOptions):
         default=list(DIRECTIONS),
         min_length=1,
         max_length=6,
-        description="The directions of the tip that count, along and about the base's axes; all six if left out.",
+        description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",
         examples=[["x", "y"]],
+    )
+    reference: Literal["local_world_aligned", "local"] = Field(
+        "local_world_aligned",
+        description="In whose axes all vectors are, those of `task` and `directions` too. `local_world_aligned`: the "
+        "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
+        "is about; an image has the base's only.",
     )
     characteristic_length: float | None = Field(
         None,
@@ -40,7 +46,8 @@ class ManipulabilityOptions(ChainOptions):
         1e-10,
         gt=0,
         lt=1,
-        description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest.",
+        description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest, "
+        "or than the rounding of the whole Jacobian; no unit.",
     )
     gradient: bool = Field(False, description="Whether the gradient of Yoshikawa's measure is wanted.")
     polytopes: bool = Field(
@@ -70,7 +77,7 @@ class ManipulabilityRequest(ManipulabilityOptions):
         None,
         min_length=1,
         max_length=MAX_DIRECTIONS,
-        description="Vectors in the base's axes along which transmission ratios are wanted; only the direction "
+        description="Vectors in the axes of `reference` along which transmission ratios are wanted; only the direction "
         "counts, their length has no unit.",
         examples=[[[1.0, 0.0, 0.0]]],
     )
@@ -85,9 +92,9 @@ class SpaceInfo(Answer):
         description="Axes of its ellipsoids: the rank of these rows of the Jacobian at almost every configuration."
     )
     basis: list[list[float]] = Field(
-        description="Orthonormal vectors in the base's axes that span the motion of all configurations together; two "
-        "of a planar arm; no unit. More than `dimension` where the tip keeps to a surface that is not flat. In the "
-        "combined part: (v, L ω)."
+        description="Orthonormal vectors in the axes of `reference` that span the motion of all configurations "
+        "together; two of a planar arm; no unit. More than `dimension` where the tip keeps to a surface that is not "
+        "flat. In the combined part: six numbers, (v, L ω)."
     )
     velocity_unit: str = Field(description="Of the semi-axes of velocity ellipsoids.")
     force_unit: str = Field(description="Of the semi-axes of force ellipsoids.")
@@ -98,8 +105,8 @@ class EllipsoidInfo(Answer):
     """An ellipsoid by its principal axes."""
 
     axes: list[list[float]] = Field(
-        description="Unit vectors in the base's axes, square to each other, the largest component of each positive; "
-        "no unit. The same for velocity and force."
+        description="Unit vectors in the axes of `reference`, square to each other, the largest component of each "
+        "positive; no unit. The same for velocity and force. Three numbers each, of the combined part six."
     )
     semi_axes: list[float | None] = Field(
         description="One an axis, in their order; unit: see `spaces`. Velocity: σ_i, largest first, 0 where the "
@@ -111,7 +118,7 @@ class EllipsoidInfo(Answer):
 class Transmission(Answer):
     """How far the ellipsoids reach along one direction; null where the direction is not in the task."""
 
-    direction: list[float] = Field(description="The direction as a unit vector in the base's axes; no unit.")
+    direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
     velocity: float | None = Field(
         description="[uᵀ(JJᵀ)#u]^(-½): the largest velocity along u alone of joint velocities of norm one; 0 where the "
         "tip cannot move along u alone; unit: `velocity_unit`."
@@ -126,7 +133,7 @@ class Transmission(Answer):
 class VelocityLimit(Answer):
     """Velocities along one direction with every joint within its velocity limit."""
 
-    direction: list[float] = Field(description="The direction as a unit vector in the base's axes; no unit.")
+    direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
     alone: float = Field(
         description="Largest velocity along it with no other component of this part: where the ray leaves the "
         "polytope, [m/s or rad/s]."
@@ -139,7 +146,7 @@ class VelocityLimit(Answer):
 class ForceLimit(Answer):
     """Forces along one direction with every joint within its effort limit; null where unbounded."""
 
-    direction: list[float] = Field(description="The direction as a unit vector in the base's axes; no unit.")
+    direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
     alone: float | None = Field(
         description="Largest force along it with no other component of this part: where the ray leaves the polytope, "
         "[N or N m]."
@@ -154,7 +161,7 @@ class VelocityPolytope(Answer):
 
     along: list[VelocityLimit] = Field(description="In each direction that is in the task.")
     vertices: list[list[float]] | None = Field(
-        description="Where all motion keeps to one plane: its vertices in order, in the base's axes, "
+        description="Where all motion keeps to one plane: its vertices in order, in the axes of `reference`, "
         "[m/s or rad/s]; else null."
     )
 
@@ -165,7 +172,7 @@ class ForcePolytope(Answer):
     along: list[ForceLimit] = Field(description="In each direction that is in the task.")
     vertices: list[list[float]] | None = Field(
         description="Where all motion keeps to one plane and the polytope is bounded in it: its vertices in order, in "
-        "the base's axes, [N or N m]; else null."
+        "the axes of `reference`, [N or N m]; else null."
     )
 
 
@@ -216,8 +223,9 @@ class EllipsoidCertificateInfo(JacobianCertificateInfo):
     """How far the Jacobians behind the ellipsoids are from Pinocchio's, and the ellipsoids from the Jacobians."""
 
     max_ellipsoid_error: float = Field(
-        description="Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to the largest σ²; no "
-        "unit. It is also what motion there is in a direction that is said to have none."
+        description="Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to the largest σ² "
+        "or the square of the largest entry of the whole Jacobian; no unit. It is also what motion there is in a "
+        "direction that is said to have none."
     )
 
 
@@ -225,10 +233,13 @@ class ManipulabilityAnswer(Answer):
     """Manipulability, one entry a configuration, in order."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Frame in whose axes all vectors are.")
+    base_frame: str = Field(description="Frame against which the tip moves.")
     tip_frame: str = Field(description="Frame whose motion it is.")
-    task: list[Direction] = Field(description="The directions that count.")
-    rank_tolerance: float = Field(description="Relative to the longest semi-axis.")
+    reference: Literal["local_world_aligned", "local"] = Field(
+        description="In whose axes all vectors are: the base's, or the tip's."
+    )
+    task: list[Direction] = Field(description="The directions that count, in the order as given.")
+    rank_tolerance: float = Field(description="Relative to the longest semi-axis; no unit.")
     characteristic_length: float | None = Field(description="Of the combined part, [m].")
     spaces: list[SpaceInfo] = Field(description="Of each part that there is.")
     joints_without_velocity_limit: list[str] | None = Field(

@@ -104,7 +104,7 @@ class LimitsInfo(Answer):
     lower: float | None = Field(description="[rad or m]")
     upper: float | None = Field(description="[rad or m]")
     velocity: float | None = Field(description="[rad/s or m/s]")
-    effort: float | None = Field(description="[Nm or N]")
+    effort: float | None = Field(description="[N m or N]")
 
 
 class MimicInfo(Answer):

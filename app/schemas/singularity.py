@@ -1,6 +1,7 @@
 """Requests and answers of the singularity report."""
 
 import math
+from typing import Literal
 
 from pydantic import Field
 
@@ -28,10 +29,16 @@ class SingularityOptions(ChainOptions):
         None,
         min_length=1,
         max_length=6,
-        description="The directions that count; all six if left out. `x y z` along the base's axes; `rx ry rz` about "
-        "these too where all three count, else about the tip's. Of a planar arm nothing is lost in all six: its "
-        "singularities are those of `x y`.",
+        description="The directions that count, rows of the Jacobian in `reference`; all six if left out. Of a planar "
+        "arm nothing is lost in all six: its singularities are those of `x y`.",
         examples=[["x", "y", "z"]],
+    )
+    reference: Literal["local_world_aligned", "local", "world"] = Field(
+        "local_world_aligned",
+        description="Whose directions those of `task` are. `local_world_aligned`: along and about the base's axes, at "
+        "the tip (the course's). `local`: the tip's axes, which is what an `ik` task that leaves a turn about the "
+        "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
+        "What is lost is told in the base's axes, at the tip, with each.",
     )
     characteristic_length: float | None = Field(
         None,
@@ -41,7 +48,11 @@ class SingularityOptions(ChainOptions):
         "metres and radians are mixed where both count.",
     )
     rank_tolerance: float = Field(
-        1e-10, ge=1e-14, lt=1, description="A singular value counts where it exceeds this times the largest; no unit."
+        1e-10,
+        gt=0,
+        lt=1,
+        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
+        "Jacobian; no unit.",
     )
     respect_limits: bool = Field(
         False,
@@ -138,7 +149,8 @@ class SingularityInfo(Answer):
         "first axis. Empty where the arm has no such parts, or the singularity no such name."
     )
     exit: ExitInfo | None = Field(
-        description="Which way leads out of the singularity, or away from it; null where none does to first order."
+        description="Which way leads out of the singularity, or away from it; null where none does to first order, as "
+        "where the smallest singular value is repeated (a relative gap below 1e-6): then one of the two falls."
     )
 
 
@@ -183,13 +195,27 @@ class SingularPathInfo(Answer):
     omitted: int = Field(description="How many more there are; told are the 500 that are nearest to singular.")
 
 
+class SingularityCertificateInfo(JacobianCertificateInfo):
+    """How far the Jacobians are from Pinocchio's, and what these make of the motions and directions that are told."""
+
+    max_internal_motion: float = Field(
+        description="Largest ‖J v‖ over the internal motions v of the same configurations, J the rows that count of "
+        "Pinocchio's Jacobian: rounding, or what `rank_tolerance` lets pass; in the unit of the singular values."
+    )
+    max_lost_direction: float = Field(
+        description="Largest ‖uᵀ J‖ over the lost directions u, unit vectors of these rows; likewise."
+    )
+
+
 class SingularityAnswer(Answer):
     """Singularity reports, one entry a configuration, in order."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str
     tip_frame: str
-    task: list[Direction] = Field(description="The directions that count.")
+    reference: Literal["local_world_aligned", "local", "world"] = Field(description="Whose directions they are.")
+    task: list[Direction] = Field(description="The directions that count, in the order as given.")
+    rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
     characteristic_length: float | None = Field(description="What angular rows were multiplied by, [m].")
     units_mixed: bool = Field(
         description="Whether metres and radians stand side by side in the rows or in the columns of the Jacobian: then "
@@ -198,4 +224,4 @@ class SingularityAnswer(Answer):
     )
     singularities: list[SingularityEntry]
     path: SingularPathInfo | None = Field(None, description="Where asked for.")
-    certificate: JacobianCertificateInfo
+    certificate: SingularityCertificateInfo

@@ -59,9 +59,13 @@ class WrenchOptions(ChainOptions):
         "at the base origin.",
     )
     expressed_in: FrameName | None = Field(
-        None, description="Frame whose axes are taken instead of those of `reference`."
+        None,
+        description="Frame whose axes are taken instead of those of `reference`: any of the robot, where joints that "
+        "the chain does not have stand at zero.",
     )
-    point_frame: FrameName | None = Field(None, description="Frame of `point`; the tip if left out.")
+    point_frame: FrameName | None = Field(
+        None, description="Frame of `point`, any of the robot likewise; the tip if left out."
+    )
     respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
 
 
@@ -114,23 +118,23 @@ class StaticsRequest(StaticsOptions, WrenchRequest):
     joint_positions: Configurations
     wrenches: Wrenches | None = Field(
         default=None,
-        description="γ, exerted by the tip on its surroundings, force before moment, [N] and [Nm]: a list of one for "
+        description="γ, exerted by the tip on its surroundings, force before moment, [N] and [N m]: a list of one for "
         "all configurations or of one each.",
         examples=[[[10.0, 0.0, -5.0, 0.0, 0.0, 0.0]]],
     )
     torques: Configurations | None = Field(
         default=None,
-        description="τ of the motors, [Nm] or [N] of a sliding joint, in exchange for `wrenches`: one for all "
+        description="τ of the motors, [N m] or [N] of a sliding joint, in exchange for `wrenches`: one for all "
         "configurations or one each.",
     )
     test_twists: _Vectors | None = Field(
         default=None, description="Tip velocities to be split into range(J) and ker(Jᵀ), [m/s] and [rad/s]."
     )
     test_wrenches: _Vectors | None = Field(
-        default=None, description="Wrenches to be split into range(J) and ker(Jᵀ), [N] and [Nm]."
+        default=None, description="Wrenches to be split into range(J) and ker(Jᵀ), [N] and [N m]."
     )
     test_torques: _Vectors | None = Field(
-        default=None, description="Joint torques to be split into range(Jᵀ) and ker(J), [Nm or N]."
+        default=None, description="Joint torques to be split into range(Jᵀ) and ker(J), [N m or N]."
     )
     test_joint_velocities: _Vectors | None = Field(
         default=None, description="Joint velocities to be split into range(Jᵀ) and ker(J), [rad/s or m/s]."
@@ -154,7 +158,7 @@ class SubspacesInfo(Answer):
     left_kernel: Matrix = Field(
         description="ker(Jᵀ): wrenches that need no torque, and tip velocities that are lost, [m] and [rad] mixed."
     )
-    row_space: Matrix = Field(description="range(Jᵀ): torques that a wrench balances, [Nm or N] mixed.")
+    row_space: Matrix = Field(description="range(Jᵀ): torques that a wrench balances, [N m or N] mixed.")
     kernel: Matrix = Field(description="ker(J): joint velocities that leave the tip at rest, [rad or m] mixed.")
     twists: list[SplitInfo] | None = Field(None, description="Of `test_twists`.")
     wrenches: list[SplitInfo] | None = Field(None, description="Of `test_wrenches`.")
@@ -167,7 +171,7 @@ class StaticsCertificateInfo(Answer):
 
     samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
     max_torque_error: float = Field(
-        description="Largest difference from Newton-Euler at rest with the wrench as an external force, [Nm or N]."
+        description="Largest difference from Newton-Euler at rest with the wrench as an external force, [N m or N]."
     )
     max_virtual_work_error: float = Field(
         description="Largest |τᵀq̇ - γᵀv| at random joint velocities q̇, the tip's twist v by Pinocchio, [W]."
@@ -181,10 +185,10 @@ class BalanceInfo(Answer):
     is_balanced: list[bool] = Field(description="Whether a wrench explains the torques, by `membership_tolerance`.")
     is_unique: list[bool] = Field(description="Whether only one does: ker(Jᵀ) is empty.")
     residual_torques: list[list[float]] = Field(
-        description="τ - g - Jᵀγ, in ker(J): no wrench balances it, the robot would move; [Nm or N]."
+        description="τ - g - Jᵀγ, in ker(J): no wrench balances it, the robot would move; [N m or N]."
     )
     free_wrenches: list[Matrix] = Field(
-        description="Orthonormal basis of ker(Jᵀ), a wrench a row, [N] and [Nm]: any sum of them may be added to γ, "
+        description="Orthonormal basis of ker(Jᵀ), a wrench a row, [N] and [N m]: any sum of them may be added to γ, "
         "which is the one of least norm (metres count as radians)."
     )
 
@@ -198,20 +202,22 @@ class StaticsAnswer(Answer):
     root_frame: str = Field(description="The root link, in whose axes gravity is given.")
     gravity: list[float] | None = Field(description="In the axes of the root link, [m/s²]; null where left out.")
     task: list[Direction] = Field(description="The components of a wrench.")
+    rank_tolerance: float = Field(description="By which singular values counted, relative to the largest; no unit.")
+    membership_tolerance: float = Field(description="By which vectors lay in subspaces, relative to them; no unit.")
     wrenches: list[list[float]] | None = Field(
-        description="γ, exerted by the tip on its surroundings, as given or as the torques tell, [N] and [Nm]; null "
+        description="γ, exerted by the tip on its surroundings, as given or as the torques tell, [N] and [N m]; null "
         "where there is none."
     )
     torques: list[list[float]] = Field(
-        description="τ = Jᵀγ + g(q), which the motors give, [Nm], or [N] of a sliding joint; or as they were given."
+        description="τ = Jᵀγ + g(q), which the motors give, [N m], or [N] of a sliding joint; or as they were given."
     )
     gravity_torques: list[list[float]] | None = Field(
-        None, description="g(q), the part of `torques` that holds the weight, [Nm or N]."
+        None, description="g(q), the part of `torques` that holds the weight, [N m or N]."
     )
     balance: BalanceInfo | None = Field(None, description="Where `torques` were given.")
     overloaded_joints: list[list[str]] = Field(
         description="Joints whose torque is beyond the effort limit of the description."
     )
     subspaces: list[SubspacesInfo] | None = Field(None, description="Where they were asked for.")
-    notes: list[str] = Field(description="What the numbers leave out, such as links without mass.")
+    notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or stand on.")
     certificate: StaticsCertificateInfo

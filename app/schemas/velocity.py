@@ -31,7 +31,7 @@ Damping = Annotated[
     Discriminator(_kind),
 ]
 
-_SIX = "Each six numbers, linear before angular, or as many as `task` names directions, in the order x y z rx ry rz."
+_SIX = "Each as many numbers as `task` names directions, in its order, or six, linear before angular."
 
 
 class NullSpace(Payload):
@@ -47,8 +47,9 @@ class NullSpace(Payload):
     objective: ObjectiveName | None = Field(
         None,
         description="With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come "
-        "nearer to `posture` or to the middle of the ranges, to keep away from the limits, or to be more manipulable "
-        "(the logarithm of √det JJᵀ of the directions that count).",
+        "nearer to `posture` (the objective is ½‖q - posture‖²) or to mid-range (½Σ((q - mid)/range)²), "
+        "to keep away from the limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
+        "range), or to be more manipulable (the logarithm of √det JJᵀ of the directions that count).",
     )
     gain: float = Field(1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
     posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
@@ -58,6 +59,8 @@ class NullSpace(Payload):
         given = [self.joint_velocities, self.joint_accelerations, self.objective]
         if sum(motion is not None for motion in given) != 1:
             raise ValueError("exactly one of `joint_velocities`, `joint_accelerations` and `objective`")
+        if self.objective is None and "gain" in self.model_fields_set:
+            raise ValueError("`gain`: goes with an `objective` only")
         if (self.posture is not None) != (self.objective == "posture"):
             raise ValueError("`posture` goes with the objective of that name, and that with it")
         return self
@@ -79,8 +82,8 @@ class VelocityOptions(ChainOptions):
         None,
         min_length=1,
         max_length=6,
-        description="The directions that count, rows of the Jacobian in `reference`; all six if left out. An arm with "
-        "fewer joints than directions leaves a residual.",
+        description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
+        "left out. An arm with fewer joints than directions leaves a residual.",
         examples=[["x", "y"]],
     )
     inverse: InverseName = Field(
@@ -102,7 +105,11 @@ class VelocityOptions(ChainOptions):
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: float = Field(
-        1e-10, ge=1e-15, lt=1, description="A singular value counts where it exceeds this times the largest."
+        1e-10,
+        gt=0,
+        lt=1,
+        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
+        "Jacobian; no unit.",
     )
     characteristic_length: float | None = Field(
         None,
@@ -118,8 +125,7 @@ class VelocityOptions(ChainOptions):
     singularity_reports: bool = Field(
         False,
         description="Whether each entry also has the whole report of what is lost, which joints are dependent and "
-        f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of `local_world_aligned`; "
-        "rotations of which not all count are about the tip's axes there.",
+        f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of the same rows.",
     )
     respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
 
@@ -155,7 +161,7 @@ class VelocityRequest(VelocityOptions):
     )
     weights: Configuration | None = Field(
         default=None,
-        description="Diagonal of W, one positive number a joint, between 1e-9 and 1e9, no unit: a joint of larger "
+        description="Diagonal of W, one positive number a joint, between 1e-6 and 1e6, no unit: a joint of larger "
         "weight moves less. The pseudo-inverse is W⁻¹Jᵀ(JW⁻¹Jᵀ)⁻¹.",
     )
     null_space: NullSpace | None = Field(
@@ -253,7 +259,7 @@ class VelocityAnswer(Answer):
     tip_frame: str
     reference: Literal["local_world_aligned", "local", "world"]
     task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
-    rank_tolerance: float = Field(description="Relative to the largest singular value.")
+    rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
     twists: _Rows | None = Field(None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
     accelerations: _Rows | None = Field(
         None, description="Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²]."

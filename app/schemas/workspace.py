@@ -67,13 +67,16 @@ class WorkspaceRequest(ChainOptions):
         "their limits; without limits a turning joint goes once round and a sliding one 1 m to either side.",
     )
     orientations: int = Field(
-        32, ge=1, le=1000, description="With `dexterity`: how many orientations are asked for at each voxel; no unit."
+        32,
+        ge=1,
+        le=1000,
+        description="With `dexterity` only: how many orientations are asked for at each voxel; no unit.",
     )
     orientations_over: Literal["rotations", "approach_directions"] = Field(
         "rotations",
-        description="With `dexterity`, over what these are spread evenly: over all rotations, or over the directions "
-        "of the tip's z axis, with any turn about it. Of an arm that turns about one direction only, as planar arms "
-        "and SCARAs, they are turns about that one.",
+        description="With `dexterity` only, over what these are spread evenly: over all rotations, or over the "
+        "directions of the tip's z axis, with any turn about it. Of an arm that turns about one direction only, as "
+        "planar arms and SCARAs, they are turns about that one.",
     )
     job_id: JobName | None = Field(None)
 
@@ -107,7 +110,7 @@ class VoxelsInfo(Answer):
     inner_count: int = Field(description="Those of them that have a neighbour on every side; no unit.")
     volume: float = Field(
         description="Of all of them, [m³], in a plane [m²], on a line [m]: a little more than that of the workspace, "
-        "because those on its border count whole."
+        "because those on its border count whole. 0 where the tip does not move."
     )
     inner_volume: float = Field(
         description="Of the inner ones, [m³, m² or m]: with enough samples a little less than the workspace's."
@@ -121,7 +124,7 @@ class VoxelsInfo(Answer):
 class MeasureInfo(Answer):
     """Yoshikawa's measure, the product of the singular values of the Jacobian's rows that count.
 
-    Null where no sample counts.
+    Null where no sample counts. Zero where the directions that count depend on each other at every configuration.
     """
 
     directions: list[list[float]] = Field(
@@ -130,8 +133,10 @@ class MeasureInfo(Answer):
     min: float | None = Field(description="Smallest; one factor [m or rad] per [rad or m] a direction.")
     mean: float | None = Field(description="Mean of the samples that count, likewise.")
     max: float | None = Field(description="Largest, likewise.")
-    position: list[float] | None = Field(description="Where the tip is then, [m].")
-    joint_positions: list[float] | None = Field(description="The configuration there, [rad or m].")
+    position: list[float] | None = Field(description="Where the tip is then, [m]; null if all are zero.")
+    joint_positions: list[float] | None = Field(
+        description="The configuration there, [rad or m]; null if all are zero."
+    )
 
 
 class DexterityInfo(Answer):
@@ -174,15 +179,25 @@ class WorkspaceCertificateInfo(Answer):
     )
 
 
+class PlaneInfo(Answer):
+    """A slice of space."""
+
+    origin: list[float] = Field(description="A point of the plane, in the base frame, [m].")
+    normal: list[float] = Field(description="Its unit normal, in the base frame, no unit.")
+    thickness: float = Field(description="Positions within half of it to either side of the plane count, [m].")
+
+
 class WorkspaceAnswer(Answer):
     """What the samples tell of a workspace."""
 
+    robot: str = Field(description="Name of the robot.")
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame in which positions are expressed.")
     tip_frame: str = Field(description="Frame whose positions they are.")
     kind: Literal["cloud", "grid", "dexterity"]
     samples: int = Field(description="Configurations that were computed; no unit.")
     samples_counted: int = Field(description="Those of them whose position counts: all without a plane; no unit.")
+    plane: PlaneInfo | None = Field(description="The slice that positions are restricted to; null without one.")
     sequence: Literal["random", "low_discrepancy"]
     random_seed: int = Field(description="Of the samples; no unit.")
     joint_ranges: list[list[float]] = Field(description="Between what each joint was sampled, [rad or m].")

@@ -78,6 +78,21 @@ def test_a_hand_whose_fingers_follow(client: TestClient) -> None:
     assert answer["joint_accelerations"][0][0] * answer["mass_matrices"][0][0][0] == pytest.approx(1.0)
 
 
+def test_the_masses_of_a_table_are_called_placeholders(client: TestClient) -> None:
+    assert "placeholders" in ask(client, {"joint_positions": [[0.3, 0.8]]}, "planar_2r")["notes"][0]
+    assert ask(client, MOVING)["notes"] == []
+
+
+def test_a_frame_that_other_joints_move_and_one_that_is_none(client: TestClient) -> None:
+    body = {**MOVING, "wrenches": [[1, 2, 3, 4, 5, 6]], "tip_frame": "panda_hand", "terms": []}
+    by_finger = ask(client, {**body, "expressed_in": "panda_leftfinger"})
+    by_hand = ask(client, {**body, "reference": "local"})
+    assert by_finger["wrench_torques"][0] == pytest.approx(by_hand["wrench_torques"][0])
+    for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
+        answer = client.post("/v1/robots/panda/dynamics", json={**body, field: "nose"})
+        assert (answer.status_code, answer.json()["pointer"]) == (404, f"#/{field}")
+
+
 def test_an_arm_without_inertia(client: TestClient) -> None:
     text = (
         '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/>'
@@ -145,7 +160,12 @@ def test_npy_of_accelerations_and_of_nothing(client: TestClient) -> None:
         ({"gravity": [0, 0, 9.81, 0]}, "gravity"),
         ({"terms": ["friction"]}, "terms"),
         ({"reference": "world", "point": [0, 0, 0]}, "point"),
-        ({"expressed_in": "panda_leftfinger", "wrenches": [[1] * 6]}, "panda_finger_joint1"),
+        ({"terms": ["mass_matrix", "mass_matrix"]}, "each term at most once"),
+        ({"reference": "local"}, "#/reference"),
+        ({"expressed_in": "panda_link3"}, "#/expressed_in"),
+        ({"point": [0, 0, 0.1]}, "#/point"),
+        ({"joint_positions": [], "joint_velocities": [[0] * 7]}, "#/joint_positions"),
+        ({"joint_positions": [], "torques": [[0] * 7]}, "#/joint_positions"),
         ({"joint_positions": [[4] * 7], "respect_limits": True}, "panda_joint1"),
         ({"friction": True}, "friction"),
     ],

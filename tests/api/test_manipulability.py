@@ -94,7 +94,7 @@ def test_a_batch_has_one_entry_a_configuration(client: TestClient) -> None:
 
 def test_the_task_selects_directions(client: TestClient) -> None:
     answer = ask(client, joint_positions=[READY], task=["y", "x"], directions=np.eye(3).tolist())
-    assert answer["task"] == ["x", "y"]
+    assert answer["task"] == ["y", "x"]
     (entry,) = answer["results"]
     assert entry["rotation"] is None
     assert len(entry["translation"]["velocity_ellipsoid"]["semi_axes"]) == 2
@@ -113,6 +113,65 @@ def test_a_characteristic_length_makes_metres_of_radians(client: TestClient) -> 
     assert axes @ axes.T == pytest.approx(np.eye(6), abs=1e-14)
     assert answer["spaces"][2]["velocity_unit"] == "m/s per rad/s"
     assert "transmission" not in part
+
+
+@pytest.mark.parametrize("task", [["x", "y"], ["rz"], ["x", "rz"]])
+def test_vectors_of_the_combined_part_have_six_numbers(client: TestClient, task: list[str]) -> None:
+    answer = ask(client, "planar_2r", joint_positions=[[0.3, 0.8]], task=task, characteristic_length=0.5)
+    assert {len(vector) for vector in answer["spaces"][-1]["basis"]} == {6}
+    (entry,) = answer["results"]
+    assert {len(axis) for axis in entry["combined"]["velocity_ellipsoid"]["axes"]} == {6}
+    lone = answer["spaces"][0]["part"]
+    assert {len(axis) for axis in entry[lone]["velocity_ellipsoid"]["axes"]} == {3}
+
+
+def test_all_vectors_are_in_the_axes_of_the_reference(client: TestClient) -> None:
+    call: dict[str, Any] = {"joint_positions": [[0.3, 0.8]], "polytopes": True, "limits": LIMITS}
+    base = ask(client, "planar_2r", **call, directions=[[np.cos(1.1), np.sin(1.1), 0.0]])
+    tip = ask(client, "planar_2r", **call, directions=[[1.0, 0.0, 0.0]], reference="local")
+    assert (base["reference"], tip["reference"]) == ("local_world_aligned", "local")
+    ours, theirs = tip["results"][0]["translation"], base["results"][0]["translation"]
+    for name in ("velocity", "force"):
+        assert ours["transmission"][0][name] == pytest.approx(theirs["transmission"][0][name])
+        for size in ("alone", "component"):
+            values = [part[f"{name}_polytope"]["along"][0][size] for part in (ours, theirs)]
+            assert values[0] == pytest.approx(values[1])
+    c, s = np.cos(1.1), np.sin(1.1)
+    vertices = np.array(theirs["velocity_polytope"]["vertices"]) @ [[c, -s, 0], [s, c, 0], [0, 0, 1]]
+    found = np.array(ours["velocity_polytope"]["vertices"])
+    assert np.array(sorted(np.round(found, 9).tolist())) == pytest.approx(
+        np.array(sorted(np.round(vertices, 9).tolist()))
+    )
+
+
+def test_an_image_is_in_the_bases_axes(client: TestClient) -> None:
+    call = {"joint_positions": [[0.3, 0.8]], "reference": "local"}
+    answer = client.post(PATH.format("planar_2r"), json=call, headers={"accept": SVG})
+    assert (answer.status_code, answer.json()["pointer"]) == (422, "#/reference")
+
+
+def test_a_vanished_row_has_an_unbounded_force(client: TestClient) -> None:
+    answer = ask(client, "planar_2r", joint_positions=[[np.pi, 0.0]], task=["x"], directions=[[1.0, 0.0, 0.0]])
+    part = answer["results"][0]["translation"]
+    assert (part["rank"], part["singular"], part["measure"]) == (0, True, 0.0)
+    assert part["force_ellipsoid"]["unbounded"] == [True]
+    assert part["transmission"][0]["force_unbounded"]
+
+
+@pytest.mark.parametrize(
+    ("limits", "words"),
+    [
+        ({"joint_velocity": {"joint_1": 1.0}}, "limits/joint_velocity' gives no value for joint 'joint_2'"),
+        ({"joint_effort": [1.0]}, "limits/joint_effort' has 1 numbers where the chain has 2 joints"),
+        ({"joint_effort": {"nose": 1.0}}, "limits/joint_effort' gives a value for 'nose'"),
+    ],
+)
+def test_limits_that_are_none_are_called_limits(client: TestClient, limits: dict[str, Any], words: str) -> None:
+    call = {"joint_positions": [[0.3, 0.8]], "polytopes": True, "limits": limits}
+    answer = client.post(PATH.format("planar_2r"), json=call)
+    assert answer.status_code == 422
+    assert words in answer.json()["detail"]
+    assert "configuration" not in answer.json()["detail"]
 
 
 def test_mixed_joints_say_that_their_units_are_mixed(client: TestClient) -> None:
@@ -281,6 +340,7 @@ BAD: list[tuple[str, dict[str, Any]]] = [
     ("#/characteristic_length", {"characteristic_length": 1e300}),
     ("#/rank_tolerance", {"rank_tolerance": 0.0}),
     ("#/rank_tolerance", {"rank_tolerance": 1.0}),
+    ("#/reference", {"reference": "world"}),
     ("#/directions", {"directions": []}),
     ("#/directions", {"directions": [[1.0, 0.0, 0.0]] * 65}),
     ("#/directions/1", {"directions": [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]}),
@@ -338,7 +398,8 @@ def test_arms_of_odd_lengths(client: TestClient, lengths: tuple[float, float]) -
     assert added.status_code == 201, added.text
     call = {"joint_positions": [[0.3, 0.8]], "directions": [[1, 2, 0]], "polytopes": True, "gradient": True}
     ask(client, "odd", **call)
-    assert client.post(PATH.format("odd"), json=call, headers={"accept": SVG}).status_code == 200
+    drawn = {**call, "polytopes": False}
+    assert client.post(PATH.format("odd"), json=drawn, headers={"accept": SVG}).status_code == 200
     assert client.delete(added.headers["location"]).status_code == 204
 
 

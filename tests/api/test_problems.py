@@ -97,6 +97,8 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.JobNotFinished: lambda: result_of({}),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
     errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
+    errors.JobInterrupted: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobInterrupted("gone"))}),
+    errors.ServiceStopping: lambda: on_a_shelf(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
     errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "") for _ in range(3)]),
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
@@ -123,6 +125,12 @@ def result_of(state: dict[str, object]) -> None:
         Runner(shelf, workers=1, running=1, seconds=1.0).result(job.id, "result.json")
 
     on_a_shelf(ask)
+
+
+def submitted_too_late(shelf: Shelf) -> None:
+    runner = Runner(shelf, workers=1, running=1, seconds=1.0)
+    runner.close()
+    runner.submit("workspace", "", lambda _: {})
 
 
 def refused_by_the_system(number: int) -> None:

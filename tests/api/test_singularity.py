@@ -58,6 +58,17 @@ def test_the_wrist_of_the_ur5(client: TestClient) -> None:
     assert "path" not in answer
     assert answer["certificate"]["samples"] == 2
     assert answer["certificate"]["max_error"] < 1e-12
+    assert answer["certificate"]["max_internal_motion"] < 1e-14
+    assert answer["certificate"]["max_lost_direction"] < 1e-14
+    assert answer["rank_tolerance"] == first["rank_tolerance"] == 1e-10
+
+
+def test_what_tolerance_lets_pass_is_in_the_certificate(client: TestClient) -> None:
+    answer = ask(client, joint_positions=[Q], rank_tolerance=0.2)
+    (entry,) = answer["singularities"]
+    counted, passed = entry["rank"], answer["certificate"]["max_internal_motion"]
+    assert counted < 6
+    assert 1e-3 < passed <= entry["singular_values"][counted] + 1e-12
 
 
 def test_the_wrench_is_what_no_joint_feels(client: TestClient) -> None:
@@ -75,7 +86,7 @@ def test_of_a_planar_arm_only_the_plane_is_lost(client: TestClient) -> None:
     assert [direction["lost_here"] for direction in entry["lost_directions"]] == [False] * 4
     plane = ask(client, "planar_2r", joint_positions=[[0.3, 0.0]], task=["y", "x"])
     (entry,) = plane["singularities"]
-    assert (plane["task"], plane["units_mixed"]) == (["x", "y"], False)
+    assert (plane["task"], plane["units_mixed"]) == (["y", "x"], False)
     assert (entry["rank"], entry["kinds"]) == (1, ["elbow"])
 
 
@@ -85,6 +96,37 @@ def test_the_units_are_mixed_unless_a_length_is_given_or_joints_slide(client: Te
     assert (scaled["units_mixed"], scaled["characteristic_length"]) == (False, 0.5)
     assert not ask(client, joint_positions=[Q], task=["x", "y", "z"])["units_mixed"]
     assert ask(client, "scara", joint_positions=[[0.1, 0.2, 0.1, 0.3]], task=["x", "y", "z"])["units_mixed"]
+
+
+def test_every_task_has_the_axes_of_the_reference(client: TestClient) -> None:
+    J = {
+        reference: np.array(
+            client.post("/v1/robots/ur5_dh/jacobian", json={"joint_positions": [Q], "reference": reference}).json()[
+                "jacobians"
+            ][0]
+        )
+        for reference in ("local_world_aligned", "local", "world")
+    }
+    for task, rows in ((["ry", "x", "rx"], [4, 0, 3]), (["z", "rx", "ry"], [2, 3, 4]), (["y"], [1])):
+        for reference, whole in J.items():
+            answer = ask(client, joint_positions=[Q], task=task, reference=reference)
+            assert (answer["task"], answer["reference"]) == (task, reference)
+            expected = np.linalg.svd(whole[rows], compute_uv=False)
+            assert answer["singularities"][0]["singular_values"] == pytest.approx(expected, abs=1e-14)
+        assert ask(client, joint_positions=[Q], task=task) == ask(
+            client, joint_positions=[Q], task=task, reference="local_world_aligned"
+        )
+
+
+def test_internal_motions_of_a_human(client: TestClient) -> None:
+    frames: dict[str, Any] = {"base_frame": "middle_pelvis", "tip_frame": "right_hand"}
+    q = (0.1 + 0.1 * np.arange(13)).tolist()
+    J = client.post("/v1/robots/human/jacobian", json={"joint_positions": [q], **frames}).json()["jacobians"][0]
+    answer = ask(client, "human", joint_positions=[q], task=["z"], **frames)
+    motions = [motion["joint_velocities"] for motion in answer["singularities"][0]["internal_motions"]]
+    assert len(motions) == 12
+    np.testing.assert_allclose(np.array(motions) @ J[2], 0.0, atol=1e-14)
+    assert answer["certificate"]["max_internal_motion"] < 1e-14
 
 
 def test_redundancy_is_no_singularity(client: TestClient) -> None:
@@ -127,10 +169,21 @@ def test_where_there_is_none_the_answer_says_why(client: TestClient) -> None:
     call = {"joint_positions": [[0.3, 1.0]], "nearest": True, "task": ["x", "y"]}
     (entry,) = ask(client, "planar_2r", **call, search_radius=0.5)["singularities"]
     assert entry["nearest"] is None
-    assert "radius of 0.5" in entry["nearest_reason"]
+    assert entry["nearest_reason"].endswith("radius of 0.5")
     (entry,) = ask(client, "planar_2r", **call)["singularities"]
     assert entry["nearest"]["distance"] == pytest.approx(1.0, abs=1e-10)
     assert "nearest_reason" not in entry
+
+
+def test_where_nothing_can_be_lost_the_answer_says_what_to_ask_for(client: TestClient) -> None:
+    call: dict[str, Any] = {"joint_positions": [[0.3, 1.0]], "nearest": True}
+    (entry,) = ask(client, "planar_2r", **call)["singularities"]
+    assert "6 directions the tip has 2 at most" in entry["nearest_reason"]
+    assert "`task` x y" in entry["nearest_reason"]
+    (entry,) = ask(client, "planar_2r", **call, task=["z"])["singularities"]
+    assert entry["nearest_reason"].startswith("nothing can be lost: the tip has none")
+    (entry,) = ask(client, "planar_2r", **call, task=["rz"])["singularities"]
+    assert entry["nearest_reason"].startswith("nothing can be lost: of these directions")
 
 
 def test_a_path_through_a_singularity(client: TestClient) -> None:
@@ -176,6 +229,7 @@ def test_chains_of_no_joint_and_of_many(client: TestClient) -> None:
         ({"characteristic_length": 1e300}, "#/characteristic_length"),
         ({"rank_tolerance": 0.0}, "#/rank_tolerance"),
         ({"rank_tolerance": 1.0}, "#/rank_tolerance"),
+        ({"reference": "tool"}, "#/reference"),
         ({"search_radius": 0.0}, "#/search_radius"),
         ({"search_radius": 11.0}, "#/search_radius"),
         ({"path_threshold": 0.0}, "#/path_threshold"),
@@ -225,3 +279,5 @@ def test_the_largest_numbers_give_numbers(client: TestClient, robot: str) -> Non
     far = [[sign * 1e6] * len(names) for sign in (1.0, -1.0)]
     for length in (1e-6, 1e6):
         ask(client, robot, joint_positions=far, nearest=True, path=True, characteristic_length=length)
+    for reference in ("local", "world"):
+        ask(client, robot, joint_positions=far, nearest=True, path=True, reference=reference, rank_tolerance=1e-300)

@@ -113,6 +113,28 @@ def test_overload_and_joints_by_name(client: TestClient) -> None:
     assert answer["overloaded_joints"] == [["panda_joint7"]]
 
 
+def test_a_frame_that_other_joints_move(client: TestClient) -> None:
+    """A finger at zero has the axes of the hand."""
+    body = {"joint_positions": [READY], "wrenches": [[1, 2, 3, 4, 5, 6]], "tip_frame": "panda_hand"}
+    by_finger = ask(client, {**body, "expressed_in": "panda_leftfinger"})
+    assert by_finger["torques"][0] == pytest.approx(ask(client, {**body, "reference": "local"})["torques"][0])
+
+
+def test_rounding_is_no_rank_and_tolerances_are_told(client: TestClient) -> None:
+    body = {"joint_positions": [[np.pi, 0.0]], "task": ["x"], "subspaces": True}
+    answer = ask(client, body, "planar_2r")
+    assert answer["subspaces"][0]["rank"] == 0
+    assert (answer["rank_tolerance"], answer["membership_tolerance"]) == (1e-10, 1e-9)
+
+
+def test_the_masses_of_a_table_are_called_placeholders(client: TestClient) -> None:
+    weighed = ask(client, {"joint_positions": [[0.3, 0.8]], "gravity": True}, "planar_2r")
+    assert "placeholders" in weighed["notes"][0]
+    assert "URDF" in weighed["notes"][0]
+    pushed = ask(client, {**PLANAR, "wrenches": [[1, 2]]}, "planar_2r")
+    assert pushed["notes"] == []
+
+
 def test_links_without_mass_are_told(client: TestClient) -> None:
     text = (
         '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/>'
@@ -177,8 +199,12 @@ def test_npy(client: TestClient) -> None:
         ({"reference": "world", "point": [0, 0, 0]}, "point"),
         ({"point_frame": "panda_link0"}, "point_frame"),
         ({"point": [0, 0]}, "point"),
-        ({"expressed_in": "panda_leftfinger"}, "panda_finger_joint1"),
-        ({"joint_positions": [[4] * 7], "respect_limits": True}, "panda_joint1"),
+        ({"joint_positions": [[4] * 7], "respect_limits": True, "gravity": True}, "panda_joint1"),
+        ({}, "give `wrenches`, `torques` or `gravity`"),
+        ({"gravity": True, "reference": "local"}, "#/reference"),
+        ({"gravity": True, "expressed_in": "panda_link3"}, "#/expressed_in"),
+        ({"gravity": True, "point": [0, 0, 0]}, "#/point"),
+        ({"gravity": True, "task": ["x"]}, "#/task"),
         ({"weight": True}, "weight"),
     ],
 )
@@ -201,8 +227,11 @@ def test_numbers_that_are_none(client: TestClient, number: bytes) -> None:
 
 def test_unknown_frame_and_too_many(client: TestClient) -> None:
     path = "/v1/robots/planar_2r/statics"
-    answer = client.post(path, json={**PLANAR, "expressed_in": "nose"})
-    assert answer.status_code == 404
+    for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
+        answer = client.post(path, json={**PLANAR, field: "nose"})
+        assert answer.status_code == 404
+        assert (answer.json()["field"], answer.json()["pointer"]) == (field, f"#/{field}")
+        assert f"'{field}'" in answer.json()["detail"]
     answer = client.post(path, json={"joint_positions": [[0.0, 0.0]] * 20_001, "subspaces": True})
     assert answer.status_code == 413
 

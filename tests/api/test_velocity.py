@@ -155,10 +155,42 @@ def test_where_there_is_no_inverse_there_is_a_reason(client: TestClient) -> None
 
 def test_six_numbers_or_as_many_as_directions_count(client: TestClient) -> None:
     call: dict[str, Any] = {"joint_positions": [[0.3, 0.8]], "task": ["y", "x"]}
-    short = velocity(client, "planar_2r", **call, twists=[[0.1, 0.3]])
+    short = velocity(client, "planar_2r", **call, twists=[[0.3, 0.1]])
     long = velocity(client, "planar_2r", **call, twists=[[0.1, 0.3, 9.0, 9.0, 9.0, 9.0]])
     assert short == long
-    assert short["task"] == ["x", "y"]
+    assert short["task"] == ["y", "x"]
+    turned = velocity(client, "planar_2r", joint_positions=[[0.3, 0.8]], task=PLANE, twists=[[0.1, 0.3]])
+    np.testing.assert_allclose(short["joint_velocities"], turned["joint_velocities"], atol=1e-14)
+    six = ["rz", "y", "x", "z", "rx", "ry"]
+    ordered = velocity(client, joint_positions=[READY], task=six, twists=[[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]])
+    plain = velocity(client, joint_positions=[READY], twists=[[0.3, 0.2, 0.4, 0.5, 0.6, 0.1]])
+    np.testing.assert_allclose(ordered["joint_velocities"], plain["joint_velocities"], atol=1e-12)
+    assert ordered["task"] == six
+
+
+def test_rows_that_vanish_have_no_inverse_of_rounding(client: TestClient) -> None:
+    """The folded arm along x: its speed along x is 2e-16 of rounding, which is nothing to divide by."""
+    call: dict[str, Any] = {"joint_positions": [[np.pi, 0.0]], "twists": [[0.1]], "task": ["x"]}
+    for options in ({}, {"inverse": "damped", "damping": 1e-30}, {"inverse": "damped"}):
+        answer = velocity(client, "planar_2r", **call, **options)
+        (result,) = answer["results"]
+        assert (result["status"], result["singularity"]["rank"]) == ("approximate", 0)
+        assert answer["joint_velocities"] == [[0.0, 0.0]]
+        assert result["residual"] == pytest.approx([0.1])
+    climbing = velocity(client, "planar_2r", **call, null_space={"objective": "manipulability"})
+    assert climbing["joint_velocities"] == [[0.0, 0.0]]
+    forward = velocity(client, "planar_2r", joint_positions=[[np.pi, 0.0]], joint_velocities=[[1.0, 0.0]], task=["x"])
+    assert forward["results"][0]["singularity"]["rank"] == 0
+
+
+@pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
+def test_the_whole_report_is_of_the_rows_that_are_inverted(client: TestClient, reference: str) -> None:
+    task = ["rx", "z", "y", "ry", "x"]
+    call: dict[str, Any] = {"joint_positions": [READY], "joint_velocities": [[0.1] * 7], "singularity_reports": True}
+    (result,) = velocity(client, **call, task=task, reference=reference)["results"]
+    short, whole = result["singularity"], result["singularity_report"]
+    assert whole["singular_values"] == pytest.approx(short["singular_values"], abs=1e-14)
+    assert (whole["rank"], whole["structural_rank"]) == (short["rank"], short["structural_rank"])
 
 
 def test_too_few_joints_leave_a_residual(client: TestClient) -> None:
@@ -388,3 +420,28 @@ def test_an_answer_beyond_the_limit_is_refused(client: TestClient) -> None:
     answer = client.post(path, content=npy(qs), headers=headers)
     assert answer.status_code == 413
     assert answer.json()["given"] > answer.json()["allowed"]
+
+
+@pytest.mark.parametrize("joint", [2.8973, 2.8973 - 1e-6, -2.8973, -3.3973])
+def test_keeping_away_from_the_limits_stays_bounded_at_them(client: TestClient, joint: float) -> None:
+    call: dict[str, Any] = {
+        "joint_positions": [[joint, *READY[1:]]],
+        "twists": [[0.1, 0.0, 0.0]],
+        "task": ["x", "y", "z"],
+    }
+    null_space = {"objective": "limits", "gain": 0.5}
+    answer = velocity(client, **call, null_space=null_space)
+    assert np.abs(answer["joint_velocities"]).max() < 100.0
+    assert answer["results"][0]["status"] == "solved"
+
+
+def test_a_residual_of_rounding_is_not_blamed_on_the_arm(client: TestClient) -> None:
+    call: dict[str, Any] = {
+        "joint_positions": [[0.3, 1e-9]],
+        "twists": [[0.1, 0.3]],
+        "task": ["x", "y"],
+        "inverse": "pseudo_inverse",
+    }
+    result = velocity(client, "planar_2r", **call)["results"][0]
+    assert result["status"] == "approximate"
+    assert "rounding" in result["reason"]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from app.jobs.workspace_picture import captions
 from app.main import create_app
 from app.model.arrays import Array
 from app.schemas.workspace import WorkspaceAnswer
@@ -158,6 +159,48 @@ def test_an_empty_slice_has_an_answer_and_a_picture(client: TestClient) -> None:
     assert client.get(result, headers={"Accept": PNG}).content.startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("robot", ["spherical_wrist", "double_pendulum_continuous"])
+def test_dexterity_beside_what_the_tip_keeps_to_says_so(client: TestClient, robot: str) -> None:
+    summary = client.get(finished(client, {"kind": "dexterity", "samples": 100, "orientations": 2}, robot)).json()
+    WorkspaceAnswer.model_validate(summary)
+    assert summary["dexterity"]["reached_count"] == 0
+    assert any("middles of the voxels" in note for note in summary["notes"])
+    measure = summary["measure"]
+    assert (measure["max"], measure["position"], measure["joint_positions"]) == (0.0, None, None)
+
+
+def test_a_chain_without_joints_has_no_volume(client: TestClient) -> None:
+    result = finished(client, {"samples": 10, "tip_frame": "panda_link0"})
+    summary = client.get(result).json()
+    WorkspaceAnswer.model_validate(summary)
+    assert (summary["voxels"]["volume"], summary["voxels"]["inner_volume"], summary["voxels"]["count"]) == (0.0, 0.0, 1)
+    assert client.get(result, headers={"Accept": PNG}).content.startswith(b"\x89PNG")
+
+
+PLANE = {"origin": [0.0, 0.0, 0.5], "normal": [0.0, 0.0, 2.0], "thickness": 0.1}
+SLICE = "Slice 0.1 m thick, normal (0, 0, 1), through (0, 0, 0.5) m"
+
+
+@pytest.mark.parametrize(
+    ("call", "lines"),
+    [
+        ({"samples": 1}, ["1 sample", "1 voxel of"]),
+        ({"samples": 20_000}, ["20,000 samples", "voxels of"]),
+        ({"samples": 20_000, "plane": PLANE}, [SLICE, " of 20,000 samples in the slice"]),
+        ({"samples": 100, "plane": {**PLANE, "origin": [0, 0, 50]}}, ["The slice is empty: 0 of 100 samples"]),
+        ({"samples": 1, "plane": {**PLANE, "origin": [0, 0, 50]}}, ["The slice is empty: 0 of 1 sample"]),
+    ],
+    ids=str,
+)
+def test_what_stands_beside_a_picture(client: TestClient, call: dict[str, Any], lines: list[str]) -> None:
+    summary = client.get(finished(client, call)).json()
+    assert summary["robot"] == "panda"
+    assert (summary["plane"] is None) == ("plane" not in call)
+    said = list(captions(summary))
+    assert all(any(line in one for one in said) for line in lines), said
+    assert ("voxel" in "".join(said)) == (summary["samples_counted"] > 0)
+
+
 @pytest.mark.parametrize(
     ("call", "status", "pointer"),
     [
@@ -186,6 +229,10 @@ def test_an_empty_slice_has_an_answer_and_a_picture(client: TestClient) -> None:
         ({"orientations": 0}, 422, "#/orientations"),
         ({"orientations": 1001}, 422, "#/orientations"),
         ({"orientations_over": "moods"}, 422, "#/orientations_over"),
+        ({"orientations": 32}, 422, "#/orientations"),
+        ({"kind": "grid", "orientations": 8}, 422, "#/orientations"),
+        ({"orientations_over": "rotations"}, 422, "#/orientations_over"),
+        ({"kind": "grid", "orientations_over": "approach_directions"}, 422, "#/orientations_over"),
         ({"job_id": "../x"}, 422, "#/job_id"),
         ({"job_id": ""}, 422, "#/job_id"),
         ({"grid": True}, 422, "#/grid"),

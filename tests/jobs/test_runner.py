@@ -14,8 +14,10 @@ from app.model.errors import (
     InvalidField,
     JobCancelled,
     JobFailed,
+    JobInterrupted,
     JobNotFinished,
     JobTookTooLong,
+    ServiceStopping,
     TooLarge,
     UnknownJob,
 )
@@ -191,3 +193,6 @@ def test_the_end_of_the_service_ends_its_jobs(tmp_path: Path) -> None:
         assert end.state == "failed"
         assert end.failure is not None
         assert "shutting down" in end.failure.detail
+        assert type(end.failure.error_again()) is JobInterrupted
+    with pytest.raises(ServiceStopping):
+        runner.submit("workspace", "x", slept([0.0]))

@@ -13,12 +13,11 @@ from app.kinematics.inverse_velocity import (
     descent,
     exceeded,
     inverse_motion,
-    structural_rank,
     velocity_limits,
 )
 from app.kinematics.jacobian import Reference, jacobians
 from app.kinematics.linear_inverse import Rule, invert
-from app.kinematics.task_space import FULL_SPACE, TaskSpace
+from app.kinematics.task_space import FULL_SPACE, TaskSpace, structure
 from app.kinematics.velocity import tip_motion
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -223,7 +222,7 @@ def test_inverting_the_tips_motion_gives_back_the_joints(ends: Ends, reference: 
     qs = samples(chain, 2)
     rates = np.random.default_rng(order).uniform(-1, 1, (order, 2, len(chain)))
     asked = tip_motion(machine, chain, qs, rates, reference).derivatives[-1]
-    found = inverse_motion(machine, chain, qs, rates[:-1], asked, Rule(), reference=reference)
+    found = inverse_motion(machine, chain, qs, rates[:-1], asked, Rule(), space=TaskSpace(reference=reference))
     assert found.inversion.statuses == ("solved", "solved")
     Js = jacobians_of(machine, chain, qs, reference)
     np.testing.assert_allclose(np.einsum("bki,bi->bk", Js, found.inversion.xs - rates[-1]), 0.0, atol=1e-9)
@@ -328,7 +327,7 @@ def test_an_objective_improves_along_its_motion(objective: ObjectiveName) -> Non
     rng = np.random.default_rng(1)
     for q in lower + rng.uniform(0.2, 0.8, (5, 7)) * (upper - lower):
         wanted = Objective(objective, posture if objective == "posture" else None)
-        xi = descent(machine, chain, q[None], wanted, 1.0, FULL_SPACE, "local_world_aligned")
+        xi = descent(chain, q[None], wanted, 1.0, FULL_SPACE)
         # ξ is minus the gradient.
         for j in range(7):
             step = 1e-5 * np.eye(7)[j]
@@ -374,8 +373,8 @@ def test_what_exceeds_its_limit_is_named() -> None:
 )
 def test_ranks_nearly_everywhere(name: str, directions: tuple[Direction, ...], ranks: list[int]) -> None:
     references: tuple[Reference, ...] = ("local_world_aligned", "local", "world")
-    chain, space = robot(name).chain(None, None), TaskSpace(Task(directions))
-    assert [structural_rank(chain, space, reference) for reference in references] == ranks
+    chain = robot(name).chain(None, None)
+    assert [structure(chain, Task(directions), reference).rank for reference in references] == ranks
 
 
 # At the ends of the range
@@ -423,4 +422,4 @@ def test_no_configuration_and_no_joint(inverse: Any) -> None:
     assert still.inversion.xs.shape == (1, 0)
     assert still.residuals.tolist() == [[1.0] * 6]
     assert still.inversion.decomposition.condition_numbers == [None]
-    assert structural_rank(fixed, FULL_SPACE, "local") == 0
+    assert structure(fixed, FULL_SPACE.task, "local").rank == 0

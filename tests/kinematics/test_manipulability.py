@@ -130,6 +130,87 @@ def test_stretched_the_ellipse_is_a_segment_and_the_force_along_the_arm_unbounde
     assert np.isnan(ellipse.gradients).all()
 
 
+# Rounding
+
+VANISHED = [
+    ("planar_2r", None, None, [np.pi, 0.0], ("x",), [0.0]),
+    ("planar_2r", None, None, [np.pi / 2, 0.0], ("y",), [0.0]),
+    ("spherical_wrist", None, None, [0.3, np.pi, 0.2], ("z",), [0.0]),
+    ("hextilt", "flying_arm_5__link_4", "flying_arm_5__gripper", [1.08], ("x", "z", "ry", "rz"), []),
+    ("xarm7", "link6", "link_eef", [1.1], ("x", "z", "ry"), []),
+    ("ur3_dh", "frame_4", "frame_3", [1.5706], ("x", "z", "ry"), []),
+]
+
+
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-300])
+@pytest.mark.parametrize(("name", "base", "tip", "q", "task", "semi_axes"), VANISHED)
+def test_what_is_left_of_rows_that_vanish_is_no_ellipsoid(
+    name: str, base: str, tip: str, q: list[float], task: Any, semi_axes: list[float], tolerance: float
+) -> None:
+    machine = robot(name)
+    found = manipulability(machine, machine.chain(base, tip), np.array([q]), task=task, rank_tolerance=tolerance)
+    ellipsoid = found.parts["translation"]
+    assert ellipsoid.sigmas[0].tolist() == semi_axes
+    forces = transmission_ratios(ellipsoid, np.eye(3)[[0, 2]], tolerance)[1]
+    assert np.isnan(forces).all()
+
+
+def test_a_force_that_no_joint_feels_is_unbounded_with_any_tolerance() -> None:
+    along = np.array([[np.cos(0.3), np.sin(0.3), 0.0]])
+    for tolerance in (1e-10, 1e-300):
+        ellipse = translation(arm(1.0, 0.7), [0.3, 0.0], rank_tolerance=tolerance)
+        velocities, forces = transmission_ratios(ellipse, along, tolerance)
+        assert (ellipse.ranks[0], velocities[0, 0]) == (1, 0.0)
+        assert np.isnan(forces[0, 0])
+
+
+@pytest.mark.parametrize("length", [None, 1e-3, 1e3])
+def test_numbers_of_a_description_that_are_rounded_do_not_fail_the_certificate(length: float | None) -> None:
+    """At zero these rows are 3e-14, and what the structure calls no direction is as large."""
+    machine = robot("anymal_c")
+    chain = machine.chain("LH_hip_fixed", "RH_THIGH")
+    found = manipulability(
+        machine, chain, np.zeros((1, 3)), task=("x", "y", "rx", "ry", "rz"), characteristic_length=length
+    )
+    assert found.certificate.max_ellipsoid_error <= module.ELLIPSOID_TOLERANCE
+
+
+# The axes of the tip
+
+
+@every_robot
+def test_in_the_tips_axes_everything_is_turned(name: str) -> None:
+    """Whole ellipsoids are the same bodies; gradients, which have no axes, the same numbers."""
+    machine = robot(name)
+    chain = machine.chain(None, None)
+    qs = samples(chain, 2)
+    base, tip = (
+        manipulability(machine, chain, qs, reference=reference, gradient=True)
+        for reference in ("local_world_aligned", "local")
+    )
+    R = chain_jacobians(chain.flat, qs)[1]
+    for part, ours in tip.parts.items():
+        theirs = base.parts[part]
+        assert ours.sigmas == pytest.approx(theirs.sigmas, abs=1e-12)
+        bodies = [(body.axes * body.sigmas[:, None, :] ** 2) @ body.axes.transpose(0, 2, 1) for body in (theirs, ours)]
+        assert R.transpose(0, 2, 1) @ bodies[0] @ R == pytest.approx(bodies[1], abs=1e-11)
+        assert ours.gradients == pytest.approx(theirs.gradients, abs=1e-9, nan_ok=True)
+
+
+def test_rows_of_the_tips_axes() -> None:
+    """Along the last link of the blackboard's arm the tip is as fast as the first one turned across: l₁ sin q₂."""
+    ellipse = translation(arm(1.0, 0.7), [0.3, 0.8], task=("x",), reference="local", gradient=True)
+    assert ellipse.sigmas[0] == pytest.approx([np.sin(0.8)], abs=1e-15)
+    assert ellipse.gradients == pytest.approx(np.array([[0.0, np.cos(0.8)]]), abs=1e-15)
+
+
+@pytest.mark.parametrize("task", [("x", "y"), ("x", "rz"), ("rz",)])
+def test_vectors_of_the_combined_part_have_six_numbers(task: Any) -> None:
+    combined = at(arm(1.0, 0.7), [0.3, 0.8], task=task, characteristic_length=0.5).parts["combined"]
+    assert combined.space.spread(combined.axes[0].T).shape == (combined.space.dimension, 6)
+    assert combined.space.spread(combined.space.basis.T).shape[1] == 6
+
+
 # Structure
 
 
@@ -172,7 +253,7 @@ def test_a_structure_that_is_missed_is_not_certified(name: str, monkeypatch: pyt
     chain = machine.chain(None, None)
     right = space_of(chain, (3, 4, 5))
     wrong = module.Space(right.rows, right.basis[:, 1:], max(0, right.dimension - 1))
-    monkeypatch.setattr(module, "space_of", lambda *_: wrong)
+    monkeypatch.setattr(module, "space_of", lambda *_, **__: wrong)
     if wrong.dimension:
         with pytest.raises(CertificationFailed):
             manipulability(machine, chain, samples(chain, 5), task=["rx", "ry", "rz"])
@@ -373,6 +454,26 @@ def test_a_stretched_arm_has_a_flat_velocity_polygon_and_no_force_polygon() -> N
     assert motion.velocity_vertices.shape == (2, 3)
     assert np.linalg.norm(motion.velocity_vertices[0]) == pytest.approx(np.linalg.norm(J, axis=0) @ [1.0, 2.0, 0.5])
     assert motion.force_vertices is None
+
+
+@pytest.mark.parametrize(
+    ("lengths", "q", "corners"),
+    [
+        # The folded arm of equal links: the tip is on the first axis, which leaves rounding of its column.
+        ((1.0, 1.0), [0.3, np.pi], 2),
+        ((1.0, 0.7), [np.pi, 0.0], 2),
+        ((0.5, 0.4, 0.0), [0.2, 0.9, 0.1], 4),
+    ],
+)
+def test_columns_that_vanish_are_no_sides_of_a_polygon(
+    lengths: tuple[float, ...], q: list[float], corners: int
+) -> None:
+    machine = arm(*lengths)
+    result = at(machine, q)
+    bounds = JointBounds(np.full(len(q), 1e3), np.full(len(q), 1e3))
+    motion = limited_motion(result.parts["translation"], result.Js, bounds, X)[0]
+    assert motion.velocity_vertices is not None
+    assert len(motion.velocity_vertices) == corners
 
 
 def test_missing_limits_are_no_limits_of_zero() -> None:

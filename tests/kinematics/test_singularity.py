@@ -1,20 +1,25 @@
 """Singularities against the lecture, against factors of determinants, finite differences and brute force."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
+from app.kinematics.certify_singularity import certify_reports
 from app.kinematics.ik.task import Direction, Task
+from app.kinematics.jacobian import Reference, jacobians
 from app.kinematics.kernels import chain_jacobians
 from app.kinematics.singularity import SingularityReport, singularity_report
-from app.kinematics.singularity_distance import NearestSingularity, Search, nearest_singularity
+from app.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
 from app.kinematics.singularity_path import Place, places_along
 from app.kinematics.task_space import FULL_SPACE, TaskSpace, structure
 from app.model.arrays import Array
 from app.model.chain import Chain
+from app.model.errors import CertificationFailed
 from tests.kinematics.ik.arm_classes import Arm, seven
 from tests.kinematics.ik.arms import DECOUPLED, PUMA, UR5, limited, poses, table_arm
 from tests.oracles import catalogue, dh_columns
@@ -255,23 +260,28 @@ def test_redundancy_and_the_motions_of_a_singularity_are_told_apart() -> None:
 
 
 @pytest.mark.parametrize("name", ["panda", "stanford", "centauro"])
+@pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
 @pytest.mark.parametrize("directions", TASKS, ids=" ".join)
-def test_the_derivative_of_the_rows_that_count(name: str, directions: tuple[Direction, ...]) -> None:
-    chain, space = default_chain(name), TaskSpace(Task(directions), 0.7)
+def test_the_derivative_of_the_rows_that_count(
+    name: str, reference: Reference, directions: tuple[Direction, ...]
+) -> None:
+    chain, space = default_chain(name), TaskSpace(Task(directions), 0.7, reference)
     q = samples(chain, 1, seed=2)[0]
     differences = np.array(derivatives(lambda qs: space.jacobians(chain, qs), q, plain))
     np.testing.assert_allclose(space.hessians(chain, q[None])[0], np.moveaxis(differences, 0, 2), atol=1e-10)
 
 
-@pytest.mark.parametrize("directions", TASKS, ids=" ".join)
-def test_rotations_that_count_are_about_the_axes_of_the_tip(directions: tuple[Direction, ...]) -> None:
+@pytest.mark.parametrize("directions", [*TASKS, ("rz", "y", "x")], ids=" ".join)
+def test_rows_are_those_of_the_reference_in_the_order_as_given(directions: tuple[Direction, ...]) -> None:
     chain = default_chain("ur5_dh")
     table = dh_columns.from_json(catalogue.dh_table("ur5_dh"))
-    J, R = table.jacobian(Q), table.pose(Q)[:3, :3]
-    axes = np.eye(3) if {"rx", "ry", "rz"} <= set(directions) else R.T
+    J, T = table.jacobian(Q), table.pose(Q)
     rows = [["x", "y", "z", "rx", "ry", "rz"].index(direction) for direction in directions]
-    expected = np.vstack((J[:3], axes @ J[3:]))[rows]
-    np.testing.assert_allclose(TaskSpace(Task(directions)).jacobians(chain, Q[None])[0], expected, atol=1e-14)
+    local = np.vstack((T[:3, :3].T @ J[:3], T[:3, :3].T @ J[3:]))
+    world = np.vstack((J[:3] + np.cross(T[:3, 3], J[3:], axisb=0, axisc=0), J[3:]))
+    for reference, expected in (("local_world_aligned", J), ("local", local), ("world", world)):
+        space = TaskSpace(Task(directions), None, reference)  # type: ignore[arg-type]
+        np.testing.assert_allclose(space.jacobians(chain, Q[None])[0], expected[rows], atol=1e-14)
 
 
 def test_a_length_changes_what_is_square_to_the_motions_and_not_what_is_borne() -> None:
@@ -301,6 +311,164 @@ def test_a_chain_without_joints_has_lost_nothing_that_it_had() -> None:
     assert found.twists.shape == (6, 6)
     assert nearest(chain, np.zeros(0)) is None
     assert places_along(chain, np.zeros((2, 0)), FULL_SPACE, 1e-10, 1.0) == ()
+
+
+WIDE: list[tuple[str, str | None, str | None, tuple[Direction, ...]]] = [
+    ("human", "middle_pelvis", "right_hand", ("z",)),
+    ("human", "middle_pelvis", "right_hand", ("ry",)),
+    ("human", "right_foot", "right_hand", ("x", "y")),
+    ("baxter", "left_gripper", "right_gripper", ("x",)),
+]
+
+
+@pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
+@pytest.mark.parametrize(("name", "base", "tip", "directions"), WIDE)
+def test_internal_motions_of_many_joints_leave_the_tip_at_rest(
+    name: str, base: str | None, tip: str | None, directions: tuple[Direction, ...], reference: Reference
+) -> None:
+    """By twists through Pinocchio: of few rows and many joints, all motions at a configuration are not all at each."""
+    machine = robot(name)
+    chain, space = machine.chain(base, tip), TaskSpace(Task(directions), None, reference)
+    q: Array = np.linspace(0.1, 0.1 * len(chain), len(chain))
+    found = report(chain, q, space)
+    motions = found.internal_motions.T
+    assert len(motions) == len(chain) - len(directions)
+    twists = jacobians(machine, chain, q[None], reference=reference).values[0] @ motions.T
+    np.testing.assert_allclose(twists[space.rows], 0.0, atol=1e-13)
+    np.testing.assert_allclose(motions @ motions.T, np.eye(len(motions)), atol=1e-12)
+    certified = certify_reports(machine, chain, space, q[None], [found])
+    assert certified.max_internal_motion < 1e-13
+
+
+@pytest.mark.parametrize("count", [9, 20, 60])
+def test_motions_that_are_idle_everywhere_are_found_among_many_joints(count: int) -> None:
+    """The first two joints turn about one line; nothing else is idle, however many joints there are."""
+    rng = np.random.default_rng(count)
+    rows = [(0.0, 0.0, 0.3, 0.0), *rng.uniform(0.2, 1.0, (count - 1, 4)).tolist()]
+    chain = table_arm(rows, "R" * count)[1]
+    for directions in (("x",), ("x", "y"), FULL_SPACE.task.directions):
+        idle = structure(chain, Task(directions)).idle
+        np.testing.assert_allclose(np.abs(idle[:, 0]), [0.5**0.5, 0.5**0.5, *[0.0] * (count - 2)], atol=1e-14)
+        assert idle.shape == (count, 1)
+
+
+@pytest.mark.parametrize("part", ["internal_motions", "lost_directions"])
+def test_a_motion_that_moves_the_tip_is_not_certified(part: str) -> None:
+    machine, chain, q = robot("panda"), default_chain("panda"), np.zeros(7)
+    found = report(chain, q)
+    wrong = replace(found, **{part: np.roll(getattr(found, part), 1, axis=0)})
+    assert certify_reports(machine, chain, FULL_SPACE, q[None], [found]).max_internal_motion < 1e-14
+    with pytest.raises(CertificationFailed):
+        certify_reports(machine, chain, FULL_SPACE, q[None], [wrong])
+
+
+@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
+def test_what_is_told_of_every_robot_is_what_pinocchios_jacobian_does(name: str, reference: Reference) -> None:
+    machine, chain = robot(name), default_chain(name)
+    qs = np.vstack((np.zeros(len(chain)), samples(chain, 1)))
+    for directions in (FULL_SPACE.task.directions, ("z", "rx"), ("ry", "y", "x")):
+        space = TaskSpace(Task(directions), 0.3, reference)
+        certify_reports(machine, chain, space, qs, [report(chain, q, space) for q in qs])
+        for q in qs:
+            found = report(chain, q, space)
+            # Wrenches of the base's axes at the tip, whatever the reference.
+            J = jacobians(machine, chain, q[None]).values[0]
+            np.testing.assert_allclose(found.wrenches.T @ J, 0.0, atol=1e-9)
+            np.testing.assert_allclose(np.linalg.norm(found.twists, axis=0), 1.0)
+
+
+def test_what_is_lost_at_the_bases_origin_is_told_at_the_tip() -> None:
+    """The point at the base's origin stands still about the first joint: its x and y are no motion of one joint."""
+    chain = table_arm([(1.0, 0.0, 0.0, 0.0)], "R")[1]
+    found = report(chain, [0.4], TaskSpace(Task(("x", "y", "rz")), None, "world"))
+    assert (found.rank, found.structural_rank) == (1, 1)
+    forces = found.wrenches
+    np.testing.assert_allclose(forces[5], -np.cos(0.4) * forces[1] + np.sin(0.4) * forces[0], atol=1e-15)
+
+
+VANISHED: list[tuple[str, list[float], tuple[Direction, ...]]] = [
+    ("planar_2r", [np.pi, 0.0], ("x",)),
+    ("planar_2r", [np.pi / 2, 0.0], ("y",)),
+    ("spherical_wrist", [0.3, np.pi, 0.2], ("z",)),
+]
+
+
+@pytest.mark.parametrize("tolerance", [1e-10, 1e-300])
+@pytest.mark.parametrize(("name", "q", "directions"), VANISHED)
+def test_rows_that_vanish_together_have_no_rank(
+    name: str, q: list[float], directions: tuple[Direction, ...], tolerance: float
+) -> None:
+    """What is left of them is the rounding of sines, which is large beside nothing else."""
+    chain, space = default_chain(name), TaskSpace(Task(directions))
+    found = singularity_report(chain, np.array(q), tolerance, space)
+    assert (found.rank, found.structural_rank, found.defect) == (0, 1, 1)
+    assert found.exit is not None
+    step = smallest(chain, (np.array(q) + 1e-5 * found.exit)[None], space)[0]
+    assert step == pytest.approx(1e-5 * found.exit_rate, rel=1e-3)
+    near = np.array(q) + 0.4 * np.random.default_rng(0).normal(size=len(q))
+    reached = nearest_singularity(chain, near, space, Search(np.pi, tolerance, False))
+    assert reached is not None
+    assert reached.distance <= np.linalg.norm(near - q) + 1e-9
+
+
+NO_ROW: list[tuple[str, str, str, list[float], tuple[Direction, ...]]] = [
+    ("xarm7", "link6", "link_eef", [1.1], ("z", "x")),
+    ("ur3_dh", "frame_4", "frame_3", [0.0], ("x", "z")),
+    ("ur3_dh", "frame_4", "frame_3", [1.5706], ("z", "x")),
+    ("hextilt", "flying_arm_5__link_4", "flying_arm_5__gripper", [1.08], ("x", "z")),
+]
+
+
+@pytest.mark.parametrize(("name", "base", "tip", "q", "directions"), NO_ROW)
+def test_rows_that_vanish_everywhere_are_no_structure(
+    name: str, base: str, tip: str, q: list[float], directions: tuple[Direction, ...]
+) -> None:
+    chain, space = robot(name).chain(base, tip), TaskSpace(Task(directions))
+    found = report(chain, q, space)
+    assert (found.rank, found.structural_rank, found.smallest, found.exit) == (0, 0, None, None)
+    np.testing.assert_allclose(np.abs(found.twists), np.eye(6)[:, space.rows], atol=1e-15)
+    assert not can_lose(chain, space)
+
+
+@pytest.mark.parametrize(("name", "base", "tip", "q", "_"), NO_ROW[:1])
+def test_about_an_axis_of_the_tip_that_is_square_to_the_joints_nothing_turns(
+    name: str, base: str, tip: str, q: list[float], _: Any
+) -> None:
+    chain, space = robot(name).chain(base, tip), TaskSpace(Task(("x", "z", "ry")), None, "local")
+    found = report(chain, q, space)
+    assert (found.rank, found.structural_rank) == (0, 0)
+
+
+def test_what_a_rounded_angle_makes_of_a_missing_direction_is_no_rank() -> None:
+    """A half turn to eleven digits turns the joint by 5e-12 about y, which is all that is left where x and z vanish."""
+    chain, space = robot("ur10").chain("ee_link", "wrist_2_link"), TaskSpace(Task(("ry", "x", "z")))
+    (singular, regular) = (report(chain, [q], space) for q in (0.0, 1.0))
+    assert (singular.rank, singular.structural_rank, singular.twists.shape) == (0, 1, (6, 3))
+    assert (regular.rank, regular.twists.shape) == (1, (6, 2))
+    found = nearest(chain, np.array([1.0]), space)
+    assert found is not None
+    assert found.distance == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_repeated_singular_value_has_no_gradient() -> None:
+    """It falls to both sides of where a choice of singular vectors would have it grow."""
+    chain, space = default_chain("tiago"), TaskSpace(ORIENTATION.task, 2.0)
+    q = np.zeros(len(chain))
+    found = report(chain, q, space)
+    np.testing.assert_allclose(found.sigmas, [12.0**0.5, 8.0**0.5, 8.0**0.5], atol=1e-12)
+    assert (found.exit, found.exit_rate, found.defect) == (None, 0.0, 0)
+    apart = report(chain, samples(chain, 1)[0], space)
+    assert apart.exit is not None
+
+
+def test_links_in_line_are_named_only_where_the_plane_counts() -> None:
+    """Of the speed along x and the turn, what is lost at q₁ = 0 is no elbow's: y₂ = y₁ with q₂ anywhere."""
+    chain = default_chain("planar_2r")
+    found = report(chain, [0.0, 0.8], TaskSpace(Task(("x", "rz"))))
+    assert (found.rank, found.defect, found.kinds) == (1, 1, ())
+    for reference in ("local_world_aligned", "local"):
+        assert report(chain, [0.3, 0.0], TaskSpace(PLANE.task, None, reference)).kinds == ("elbow",)
 
 
 def test_two_joints_about_one_line_are_no_singularity() -> None:
@@ -522,6 +690,13 @@ def test_a_path_that_only_comes_near_has_its_lowest_place_there() -> None:
     assert len(minima) >= 3
     assert [place.start for place in found] == pytest.approx(s[minima].tolist(), abs=3e-5)
     assert all(place.sigma <= value for place, value in zip(found, low[minima], strict=True))
+
+
+def test_a_path_on_which_the_only_row_vanishes_is_singular_there() -> None:
+    """Of one row the smallest singular value is the largest, so that its share of that tells nothing."""
+    (place,) = places(default_chain("planar_2r"), [[-0.1, -0.2], [0.3, 0.6]], TaskSpace(Task(("x",))))
+    assert place.start == pytest.approx(0.25, abs=1e-12)
+    assert places(default_chain("planar_2r"), [[-0.1, -0.3], [0.3, 0.6]], TaskSpace(Task(("x",)))) == ()
 
 
 def test_a_path_of_one_configuration_or_none() -> None:

@@ -1,6 +1,7 @@
 """Forces at rest against virtual work of independent motions, differences of energy, and the course."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -13,7 +14,7 @@ from app.kinematics.statics import Statics, balance, certify_statics, components
 from app.kinematics.wrenches import WrenchFrame
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import CertificationFailed, FrameNotOnChain, InvalidField, UnknownFrame
+from app.model.errors import CertificationFailed, InvalidField, UnknownFrame
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue
@@ -135,8 +136,30 @@ def test_frames_that_cannot_be() -> None:
         assert caught.value.field == field
     with pytest.raises(UnknownFrame):
         statics(panda, chain, qs, WrenchFrame(expressed_in="nose"))
-    with pytest.raises(FrameNotOnChain):
-        statics(panda, chain, qs, WrenchFrame(expressed_in="panda_leftfinger"))
+
+
+@pytest.mark.parametrize(
+    ("ends", "frame"),
+    [
+        (("panda", "panda_link0", "panda_hand"), "panda_leftfinger"),
+        (("talos", "torso_2_link", "arm_left_4_link"), "leg_right_6_link"),
+        (("icub", "chest", "r_hand"), "l_foot"),
+    ],
+)
+def test_a_frame_that_other_joints_move_is_where_they_are_at_zero(ends: Ends, frame: str) -> None:
+    """A pure force of the tip, in the frame's axes through its origin: τᵀq̇ is its power by differences of poses."""
+    machine, chain = chain_of(ends)
+    poses = poses_by_text(machine, chain, ends[0])
+    rng = np.random.default_rng(5)
+    q, q_dot, wrench = samples(chain, 1), rng.uniform(-1, 1, len(chain)), rng.uniform(-1, 1, (1, 6))
+    still = statics(machine, chain, q, WrenchFrame(expressed_in=frame, point=(0.0, 0.0, 0.0), point_frame=frame))
+    torques = certified(still, wrench)
+    T_base_frame, T_base_tip = (poses(name)(q)[0] for name in (frame, chain.tip_frame))
+    twist = along(poses(chain.tip_frame), q[0], q_dot, aligned)
+    velocity = twist[:3] + np.cross(twist[3:], T_base_frame[:3, 3] - T_base_tip[:3, 3])
+    R = T_base_frame[:3, :3]
+    power = wrench[0, :3] @ R.T @ velocity + wrench[0, 3:] @ R.T @ twist[3:]
+    assert torques[0] @ q_dot == pytest.approx(power, abs=1e-9)
 
 
 # The weight
@@ -249,6 +272,34 @@ def test_the_four_subspaces(name: str) -> None:
                 assert np.abs(inside @ inside.T + outside @ outside.T - np.eye(size)).max() < 1e-12
             assert np.abs(J.T @ split.left_kernel).max(initial=0) < 1e-9
             assert np.abs(J @ split.kernel).max(initial=0) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "q", "row"),
+    [
+        ("planar_2r", (np.pi, 0.0), 0),
+        ("planar_2r", (np.pi / 2, 0.0), 1),
+        ("spherical_wrist", (0.3, np.pi, 0.2), 2),
+    ],
+)
+def test_rows_that_vanish_but_for_rounding_have_no_rank(name: str, q: tuple[float, ...], row: int) -> None:
+    machine, chain = chain_of((name, None, None))
+    still = statics(machine, chain, np.array([q]), rows=np.array([row]))
+    assert 0.0 <= np.abs(still.Js).max() < 1e-15
+    assert still.subspaces(1e-10)[0].rank == 0
+    found = balance(still, np.ones((1, len(q))), 1e-10)
+    assert found.wrenches.tolist() == [[0.0]]
+
+
+def test_rounding_is_that_of_the_lever_arm() -> None:
+    """About a point that is 1000 m off and back again, x does not move by more than the rounding of these 1000 m."""
+    machine, chain = chain_of(("planar_2r", None, None))
+    q = np.array([[0.0, 0.0]])
+    tip = statics(machine, chain, q).places.positions[0]
+    at_height = WrenchFrame(point=(1000.0, tip[1], 0.0), point_frame=chain.base_frame)
+    still = statics(machine, machine.chain(chain.base_frame, None), q, at_height, rows=np.array([0]))
+    perturbed = replace(still, Js=still.Js + 1e-13)
+    assert perturbed.subspaces(1e-10)[0].rank == 0
 
 
 def test_membership() -> None:

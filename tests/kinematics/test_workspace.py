@@ -78,6 +78,7 @@ def test_the_measure_of_two_links_is_the_area_that_they_span() -> None:
     assert found.points[:, 3] == pytest.approx(0.7 * np.sqrt(np.maximum(0.0, 1.0 - cosines**2)), abs=1e-7)
     assert found.measures.most == found.points[:, 3].max()
     assert found.measures.mean == pytest.approx(found.points[:, 3].mean())
+    assert found.measures.joint_positions is not None
     assert abs(math.sin(found.measures.joint_positions[1])) * 0.7 == pytest.approx(found.measures.most)
 
 
@@ -185,7 +186,48 @@ def test_a_tip_that_keeps_to_a_sphere_says_so() -> None:
     assert found.reach == pytest.approx((0.1, 0.1), abs=1e-12)
 
 
+@pytest.mark.parametrize("name", ["spherical_wrist", "double_pendulum_continuous"])
+def test_a_measure_that_is_rounding_everywhere_is_zero(name: str) -> None:
+    work, found = whole(robot(name), samples=500)
+    assert work.is_singular
+    assert found.measures is not None
+    assert (found.measures.least, found.measures.mean, found.measures.most) == (0.0, 0.0, 0.0)
+    assert (found.measures.position, found.measures.joint_positions) == (None, None)
+
+
+def test_an_arm_that_its_ranges_keep_stretched_has_no_measure() -> None:
+    stretched = {"ranges": {"joint_2": (0.0, 0.0)}, "samples": 100}
+    assert whole(robot("planar_2r"), **stretched)[0].is_singular
+    assert not whole(robot("planar_2r"), samples=100)[0].is_singular
+    assert not whole(robot("panda"), directions=("x", "y", "z", "rx", "ry", "rz"), samples=100)[0].is_singular
+
+
+def test_what_does_not_move_fills_nothing() -> None:
+    machine = robot("panda")
+    for plane in (None, Plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), 0.1)):
+        work, found = surveyed(machine, machine.chain(None, "panda_link0"), Wish(samples=10, plane=plane))
+        assert (found.count, len(found.voxels), work.grid.cell) == (10, 1, 0.0)
+
+
 # Slices
+
+
+@pytest.mark.parametrize(
+    ("name", "normal", "what"),
+    [
+        ("planar_2r", [1.0, 0.0, 0.0], "a line"),
+        ("planar_2r", [0.6, 0.0, 0.8], "a line"),
+        ("planar_2r", [0.0, 0.0, 1.0], None),
+        ("spherical_wrist", [1.0, 0.0, 0.0], "a curve"),
+        ("double_pendulum_continuous", [0.6, 0.64, 0.48], "points"),
+        ("panda", [1.0, 0.0, 0.0], None),
+    ],
+)
+def test_a_slice_without_an_area_says_so(name: str, normal: list[float], what: str | None) -> None:
+    plane = Plane(np.zeros(3), np.array(normal), 0.05)
+    notes = [note for note in whole(robot(name), samples=500, plane=plane)[0].notes if "slice" in note]
+    assert len(notes) == (what is not None)
+    assert what is None or f"in {what} only" in notes[0]
 
 
 def test_a_slice_holds_what_of_the_cloud_lies_in_it() -> None:

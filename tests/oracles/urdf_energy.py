@@ -38,7 +38,7 @@ class UrdfEnergy:
         return np.asarray(-sum(centers, np.zeros((len(qs), 3))) @ gravity)
 
     def gravity_torques(self, q: Array, gravity: Array) -> Array:
-        """∂U/∂q; shape (n,), [Nm or N]."""
+        """∂U/∂q; shape (n,), [N m or N]."""
         return np.array(derivatives(lambda qs: self.potential(qs, gravity), q, plain))
 
     def mass_matrix(self, q: Array) -> Array:
@@ -52,7 +52,7 @@ class UrdfEnergy:
         return M
 
     def coriolis_torques(self, q: Array, speeds: Array) -> Array:
-        """Ṁ q̇ - ∂T/∂q; shape (n,), [Nm or N]."""
+        """Ṁ q̇ - ∂T/∂q; shape (n,), [N m or N]."""
         rate = along(self._mass_matrices, q, speeds, plain)
         by_position = derivatives(lambda qs: speeds @ self._mass_matrices(qs) @ speeds / 2, q, plain)
         return np.asarray(rate @ speeds - np.array(by_position))
