@@ -30,6 +30,8 @@ from app.schemas.course_components import (
 
 _SAMPLES = 101
 _QUICK_SAMPLES = 1000
+_SAME_VOLTAGE = 1e-6
+"""Relative difference of two back-EMFs that are one, but for the digits they were written with."""
 _OF_A_SPEED = ("torque_constant", "back_emf_constant", "viscous_friction", "load_torque")
 
 
@@ -188,9 +190,7 @@ def _gear_sides(found: Sides) -> dict[str, Any]:
 def _pwm(call: PwmRequest) -> dict[str, Any]:
     motor = _motor_for_speed(call)
     pulses = _pulses(call, motor)
-    back_emf = call.back_emf
-    if back_emf is None:
-        back_emf = 0.0 if motor is None else motor.back_emf_constant * (call.angular_velocity or 0.0)
+    back_emf = _back_emf(call, motor)
     ripple = None
     if call.resistance is not None and call.inductance is not None:
         ripple = pwm.exact_ripple(pulses, call.resistance, call.inductance, back_emf)
@@ -208,6 +208,17 @@ def _pwm(call: PwmRequest) -> dict[str, Any]:
         "steps": [asdict(step) for step in (*wanted, *pwm.pwm_steps(pulses, call.inductance, ripple))],
         "warnings": pwm.pwm_warnings(pulses, ripple),
     }
+
+
+def _back_emf(call: PwmRequest, motor: Motor | None) -> float:
+    """E through the period, [V]; of a wanted speed no other than its own."""
+    if motor is None:
+        return call.back_emf or 0.0
+    of_speed = motor.back_emf_constant * (call.angular_velocity or 0.0)
+    given = of_speed if call.back_emf is None else call.back_emf
+    if abs(given - of_speed) > _SAME_VOLTAGE * max(abs(given), abs(of_speed)):
+        raise InvalidField("back_emf", f"is {of_speed:g} V at this `angular_velocity`, not {given:g} V: leave it out")
+    return of_speed
 
 
 def _motor_for_speed(call: PwmRequest) -> Motor | None:

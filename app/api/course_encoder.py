@@ -13,7 +13,7 @@ from app.model.errors import InvalidField
 from app.schemas.course_encoder import EXAMPLE_ENCODER, EncoderAnswer, EncoderRequest
 
 _FIELDS = {
-    "incremental": ("pulses_per_revolution", "samples", "counter_bits"),
+    "incremental": ("pulses_per_revolution", "samples", "counter_bits", "decoding"),
     "absolute": ("bits", "code", "readings", "values", "table"),
 }
 _QUICK_READINGS = 200
@@ -80,7 +80,9 @@ def _check(call: EncoderRequest) -> None:
     """Refuse what does not go together."""
     other = "absolute" if call.type == "incremental" else "incremental"
     for field in _FIELDS[other]:
-        if getattr(call, field) != EncoderRequest.model_fields[field].default:
+        # The lines of an incremental encoder are told whatever type is looked for.
+        counts = field == "decoding" and call.wanted_resolution is not None
+        if field in call.model_fields_set and getattr(call, field) not in (None, False) and not counts:
             raise InvalidField(field, f"goes with an encoder of type `{other}`")
     main = "pulses_per_revolution" if call.type == "incremental" else "bits"
     if getattr(call, main) is None:

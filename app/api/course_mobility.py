@@ -49,7 +49,8 @@ def mobility_route(library: Library, executor: Executor, max_body_bytes: int) ->
         if isinstance(call.pairs, list):
             names, ground = call.link_names()
             found = mechanism(space, names, ground, call.given_pairs(), call.nodes())
-            return _content(tally(found), found, posture(found, call.output_link(names), call.rank_tolerance))
+            stands = posture(found, call.output_link(names), call.rank_tolerance)
+            return {**_content(tally(found), found, stands), "rank_tolerance": stands and call.rank_tolerance}
         return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
 
     return course_route(
@@ -88,6 +89,7 @@ def _content(
         "mobility_without_idle": None if idle is None else left,
         **_graph(found),
         "posture": None if stands is None else asdict(stands),
+        "rank_tolerance": None,
         "spaces": None if chain is None else _spaces(chain),
         "warnings": warnings(counted, found, stands),
         "steps": [asdict(step) for step in steps(counted, found, stands)],

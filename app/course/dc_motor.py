@@ -31,9 +31,9 @@ class Motor:
     Attributes:
         resistance: R > 0, [Ω].
         inductance: L ≥ 0, [H]; at zero the current follows at once.
-        torque_constant: k_t > 0, [Nm/A].
+        torque_constant: k_t > 0, [N m/A].
         back_emf_constant: k_e > 0, [V s/rad].
-        viscous_friction: b ≥ 0, [Nm s/rad].
+        viscous_friction: b ≥ 0, [N m s/rad].
         inertia: J > 0, [kg m²].
     """
 
@@ -46,7 +46,7 @@ class Motor:
 
     @property
     def stiffness(self) -> float:
-        """R b + k_t k_e, [V Nm s/rad/A]: what voltage and load are divided by in the steady state."""
+        """R b + k_t k_e, [V N m s/rad/A]: what voltage and load are divided by in the steady state."""
         return self.resistance * self.viscous_friction + self.torque_constant * self.back_emf_constant
 
     @property
@@ -67,12 +67,13 @@ class OperatingPoint:
     Attributes:
         angular_velocity: ω, [rad/s].
         current: i, [A].
-        torque: k_t i, [Nm].
+        torque: k_t i, [N m].
         electrical_power: V i, [W].
         shaft_power: τ_L ω, what the load gets, [W].
         copper_loss: R i², [W].
         friction_loss: b ω², [W].
-        efficiency: Useful over spent power, where one is useful and the other is spent.
+        efficiency: Useful over spent power, where one is useful and the other is spent; None also where k_t and k_e
+            differ, because the powers do not add up then.
         regime: Which way power flows.
     """
 
@@ -88,7 +89,7 @@ class OperatingPoint:
 
 
 def operating_point(motor: Motor, voltage: float, load_torque: float) -> OperatingPoint:
-    """The steady state under a constant voltage, [V], and a constant load torque, [Nm].
+    """The steady state under a constant voltage, [V], and a constant load torque, [N m].
 
     ω = (k_t V - R τ_L) / (R b + k_t k_e) and i = (b V + k_e τ_L) / (R b + k_t k_e), which is (V - k_e ω) / R without
     its cancellation.
@@ -100,6 +101,7 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
     current = (motor.viscous_friction * voltage + motor.back_emf_constant * load_torque) / motor.stiffness
     electrical, shaft = voltage * current, load_torque * omega
     regime = _regime(voltage, omega, electrical, shaft)
+    efficiency = _efficiency(regime, electrical, shaft) if _constants_are_one(motor) else None
     return OperatingPoint(
         omega,
         current,
@@ -108,7 +110,7 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
         shaft,
         motor.resistance * current**2,
         motor.viscous_friction * omega**2,
-        _efficiency(regime, electrical, shaft),
+        efficiency,
         regime,
     )
 
@@ -119,7 +121,7 @@ class Balance:
 
     Attributes:
         voltage: V - R i - k_e ω, [V].
-        torque: k_t i - b ω - τ_L, [Nm].
+        torque: k_t i - b ω - τ_L, [N m].
     """
 
     voltage: float
@@ -153,10 +155,16 @@ def _regime(voltage: float, omega: float, electrical: float, shaft: float) -> Re
     return "assisted" if electrical >= 0.0 else "generating"
 
 
+def _constants_are_one(motor: Motor) -> bool:
+    difference = abs(motor.torque_constant - motor.back_emf_constant)
+    return difference <= SAME_CONSTANTS * max(motor.torque_constant, motor.back_emf_constant)
+
+
 def _efficiency(regime: Regime, electrical: float, shaft: float) -> float | None:
+    # Constants that are one but for their last digits may leave a motor without losses a little above 1.
     if regime == "motoring" and electrical > 0.0:
-        return shaft / electrical
-    return electrical / shaft if regime == "generating" else None
+        return min(shaft / electrical, 1.0)
+    return min(electrical / shaft, 1.0) if regime == "generating" else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,9 +174,9 @@ class TorqueSpeedLine:
     Attributes:
         no_load_angular_velocity: ω₀ = k_t V / (R b + k_t k_e), [rad/s].
         no_load_current: b ω₀ / k_t, [A].
-        stall_torque: k_t V / R, [Nm].
+        stall_torque: k_t V / R, [N m].
         stall_current: V / R, [A].
-        slope: dω/dτ_L = -R / (R b + k_t k_e), [rad/s per Nm].
+        slope: dω/dτ_L = -R / (R b + k_t k_e), [rad/s per N m].
         most_power: Largest shaft power, at half the stall torque, [W].
     """
 
@@ -241,16 +249,16 @@ def rates(motor: Motor) -> tuple[float, float, float]:
 def motor_warnings(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[str, ...]:
     """What a reader should know before using the numbers."""
     found = []
-    difference = abs(motor.torque_constant - motor.back_emf_constant)
-    if difference > SAME_CONSTANTS * max(motor.torque_constant, motor.back_emf_constant):
+    if not _constants_are_one(motor):
         found.append(
-            "torque_constant and back_emf_constant differ: in SI, [Nm/A] and [V s/rad], they are the same number; "
-            "with two of them the powers do not add up. Was one given per 1000 rpm, or in another unit?"
+            "torque_constant and back_emf_constant differ: in SI, [N m/A] and [V s/rad], they are the same number; "
+            "with two of them the powers do not add up, so that there is no efficiency. Was one given per 1000 rpm, or "
+            "in another unit?"
         )
     if point.regime == "driven_backwards":
         stall = motor.torque_constant * voltage / motor.resistance
         found.append(
-            f"the load torque of {load_torque:g} Nm is beyond the stall torque of {stall:g} Nm: the load drives the "
+            f"the load torque of {load_torque:g} N m is beyond the stall torque of {stall:g} N m: the load drives the "
             "motor backwards, against its voltage, and both turn into heat"
         )
     texts = {

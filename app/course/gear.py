@@ -39,7 +39,7 @@ class Gear:
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """Speed, [rad/s], torque, [Nm], and power, [W], at the motor and at the load; None where not told.
+    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None where not told.
 
     Torques are those that the motor gives to the gear and the gear to the load.
     """

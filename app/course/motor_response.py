@@ -45,7 +45,7 @@ def step_response(
     Args:
         motor: The motor.
         voltage: V, [V].
-        load_torque: τ_L, [Nm].
+        load_torque: τ_L, [N m].
         times: Since the step, ≥ 0, [s]; shape (T,).
         initial_current: i(0), [A]; without inductance current has no memory, and this is not used.
         initial_speed: ω(0), [rad/s].

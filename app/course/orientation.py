@@ -216,11 +216,12 @@ def wrapped(angle: float) -> float:
 
 
 def _signed(quaternion: Array) -> Array:
-    """The sign that is chosen of the two."""
+    """The sign that is chosen of the two, parts that count as zero at half a turn made so: none of them is -0."""
     if abs(quaternion[3]) > DEGENERATE:
-        return quaternion if quaternion[3] > 0.0 else -quaternion
-    first = next(part for part in quaternion[:3] if abs(part) > DEGENERATE)
-    return quaternion if first > 0.0 else -quaternion
+        return (quaternion if quaternion[3] > 0.0 else -quaternion) + 0.0
+    quaternion = np.where(np.abs(quaternion) > DEGENERATE, quaternion, 0.0)
+    first = next(part for part in quaternion[:3] if part != 0.0)
+    return (quaternion if first > 0.0 else -quaternion) + 0.0
 
 
 def _axis_angle(quaternion: Array) -> AxisAngle:

@@ -62,7 +62,7 @@ def voltage_for_speed(motor: Motor, angular_velocity: float, load_torque: float)
     Args:
         motor: The motor; its inductance and inertia do not count.
         angular_velocity: ω, [rad/s].
-        load_torque: τ_L, [Nm].
+        load_torque: τ_L, [N m].
     """
     torque = motor.viscous_friction * angular_velocity + load_torque
     return motor.back_emf_constant * angular_velocity + motor.resistance * torque / motor.torque_constant

@@ -24,6 +24,8 @@ MAX_LINKS = 64
 _PLANE = [0, 1, 5]
 """Of a twist in the plane: v_x, v_y and ω_z."""
 _DIRECTIONS = 1e-9
+_NOISE = 1e-13
+"""Singular values of no more than this, relative to the largest, are rounding whatever tolerance is asked for."""
 _ROUNDING = 1e-11
 _NEEDS: dict[str, tuple[str, ...]] = {
     "revolute": ("point", "axis"),
@@ -41,6 +43,12 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     "cam": ("point", "axis"),
     "gear": ("point", "axis"),
 }
+_WHERE: dict[str, str] = {
+    "axis": "a {kind} pair has no axis",
+    "second_axis": "only a universal joint has a second axis; this pair is {kind}",
+    "pitch": "only a screw has a pitch; this pair is {kind}",
+}
+"""What is said of a field that a pair does not need; a point says where any pair is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +81,8 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
         tolerance: A singular value counts where it exceeds this times the largest.
 
     Raises:
-        InvalidField: A pair leaves out what others say, or has axes that are not two.
+        InvalidField: A pair leaves out what says where it is, gives what its kind does not have, leaves the plane, or
+            has axes that are not two.
         TooLarge: More than `MAX_LINKS` links.
         CertificationFailed: A motion that is left is not one that the pairs allow.
     """
@@ -86,6 +95,7 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
     size = FREEDOMS[found.space] * (len(found.links) - 1)
     # Of more equations than unknowns the triangular factor says the same in fewer rows.
     _, sigma, Vt = np.linalg.svd(np.linalg.qr(equations, mode="r") if len(equations) > size else equations)
+    tolerance = max(tolerance, _NOISE)
     rank = int(np.sum(sigma > tolerance * max(float(sigma.max(initial=0.0)), 1.0)))
     return Posture(
         size - rank,
@@ -103,6 +113,8 @@ def _freedoms(found: Mechanism) -> list[Array]:
     points = np.array([geometry.point for geometry in complete if geometry.point is not None]).reshape(-1, 3)
     centre = points.mean(axis=0) if len(points) else np.zeros(3)
     size = float(np.abs(points - centre).max(initial=0.0)) or 1.0
+    if found.space == "planar":
+        _refuse_out_of_plane(complete, size)
     twists = []
     for number, (pair, geometry) in enumerate(zip(found.pairs, complete, strict=True)):
         S = _twists(pair.kind, geometry, centre, size)
@@ -121,15 +133,40 @@ def _complete(found: Mechanism, pair: Pair, number: int) -> Geometry:
     if geometry is None and pair.added:
         others = [one.geometry for one in found.pairs if one.joint == pair.joint and one.kind == pair.kind]
         geometry = next((one for one in others if one is not None), None)
+    says = geometry is not None
     geometry = geometry or Geometry()
-    needs = _NEEDS[pair.kind]
+    needs, takes = _NEEDS[pair.kind], _NEEDS[pair.kind]
     if found.space == "planar" and pair.kind in {"revolute", "rolling"}:
-        geometry, needs = replace(geometry, axis=(0.0, 0.0, 1.0)), ("point",)
+        needs, takes = ("point",), ("point", "axis")
+        if geometry.axis is not None and abs(geometry.axis[2]) < 1.0 - _DIRECTIONS:
+            reason = f"{quoted(pair.name)}: in the plane the axis to turn about is z; leave it out, or count in space"
+            raise InvalidField(f"pairs/{number}/axis", reason)
+    for name, reason in _WHERE.items():
+        if name not in takes and getattr(geometry, name) is not None:
+            raise InvalidField(f"pairs/{number}/{name}", f"{quoted(pair.name)}: {reason.format(kind=pair.kind)}")
     for name in needs:
         if getattr(geometry, name) is None:
-            reason = f"{quoted(pair.name)} needs {' and '.join(needs)}, because other pairs say where they are"
+            why = "to say where it is" if says else "because other pairs say where they are"
+            reason = f"{quoted(pair.name)} needs {' and '.join(needs)}{'' if says else ','} {why}"
             raise InvalidField(f"pairs/{number}/{name}", reason)
-    return geometry
+    turns_in_plane = "axis" in takes and "axis" not in needs
+    return replace(geometry, axis=(0.0, 0.0, 1.0)) if turns_in_plane else geometry
+
+
+def _refuse_out_of_plane(complete: Sequence[Geometry], size: float) -> None:
+    """Refuse points at different heights, and slots, guides and normals that lead out of x y.
+
+    Raises:
+        InvalidField: The first of them.
+    """
+    heights = [geometry.point[2] for geometry in complete if geometry.point is not None]
+    for number, geometry in enumerate(complete):
+        if geometry.point is not None and abs(geometry.point[2] - heights[0]) > _DIRECTIONS * size:
+            reason = "a planar linkage moves in a plane of x and y: all its points have the same z"
+            raise InvalidField(f"pairs/{number}/point", reason)
+        if geometry.axis is not None and _DIRECTIONS < abs(geometry.axis[2]) < 1.0 - _DIRECTIONS:
+            reason = "in the plane it has no component along z"
+            raise InvalidField(f"pairs/{number}/axis", reason)
 
 
 def _twists(kind: str, geometry: Geometry, centre: Array, size: float) -> Array:

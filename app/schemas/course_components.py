@@ -42,15 +42,15 @@ class DcMotorRequest(Payload):
 
     resistance: Resistance = Field(description="R of the winding, [Ω].")
     inductance: Inductance = Field(description="L of the winding, [H]; 0, or at least 1e-12.")
-    torque_constant: MachineConstant = Field(description="k_t, [Nm/A].")
+    torque_constant: MachineConstant = Field(description="k_t, [N m/A].")
     back_emf_constant: MachineConstant | None = Field(
         None, description="k_e, [V s/rad]; k_t if left out, which it equals in these units."
     )
-    viscous_friction: Friction = Field(0.0, description="b, [Nm s/rad].")
+    viscous_friction: Friction = Field(0.0, description="b, [N m s/rad].")
     inertia: Inertia = Field(description="J of the rotor and what turns with it, [kg m²].")
     voltage: Voltage = Field(description="V, constant from t = 0 on, [V]; negative turns the other way.")
     load_torque: Torque = Field(
-        0.0, description="τ_L, constant from t = 0 on, [Nm]: it keeps its direction, as a hanging load's does."
+        0.0, description="τ_L, constant from t = 0 on, [N m]: it keeps its direction, as a hanging load's does."
     )
     times: Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)] | None = Field(
         None, description="Times at which the response is wanted, from the step on, [s]. Without them, there is none."
@@ -81,14 +81,15 @@ class SteadyStateInfo(Answer):
 
     angular_velocity: float = Field(description="ω, [rad/s].")
     current: float = Field(description="i, [A].")
-    torque: float = Field(description="k_t i, friction included, [Nm].")
+    torque: float = Field(description="k_t i, friction included, [N m].")
     electrical_power: float = Field(description="V i, [W]: negative where it flows to the supply.")
     shaft_power: float = Field(description="τ_L ω, what the load gets, [W]: negative where the load drives.")
     copper_loss: float = Field(description="R i², [W].")
     friction_loss: float = Field(description="b ω², [W].")
     efficiency: float | None = Field(
         description="Shaft over electrical power where the motor drives, electrical over shaft power where it is a "
-        "generator, in [0, 1]; null where neither is useful."
+        "generator, in [0, 1]; null where neither is useful, and where `back_emf_constant` is not `torque_constant`: "
+        "the powers do not add up then."
     )
     regime: Regime = Field(
         description="`motoring`; `standstill`; `assisted`: the load helps; `generating`: the load is faster than the "
@@ -102,9 +103,9 @@ class TorqueSpeedInfo(Answer):
 
     no_load_angular_velocity: float = Field(description="ω₀ = k_t V / (R b + k_t k_e), [rad/s].")
     no_load_current: float = Field(description="What friction alone takes, [A].")
-    stall_torque: float = Field(description="k_t V / R, [Nm].")
+    stall_torque: float = Field(description="k_t V / R, [N m].")
     stall_current: float = Field(description="V / R, [A].")
-    slope: float = Field(description="dω/dτ_L, [rad/s per Nm].")
+    slope: float = Field(description="dω/dτ_L, [rad/s per N m].")
     most_power: float = Field(description="Largest shaft power, reached at half the stall torque, [W].")
 
 
@@ -140,7 +141,7 @@ class MotorCertificate(Answer):
     """
 
     voltage_residual: float = Field(description="V - R i - k_e ω of the steady state, [V].")
-    torque_residual: float = Field(description="k_t i - b ω - τ_L of the steady state, [Nm].")
+    torque_residual: float = Field(description="k_t i - b ω - τ_L of the steady state, [N m].")
     samples: int = Field(description="Times of the response that were recomputed, at most 16.")
     max_current_difference: float | None = Field(description="Largest difference, [A]; null without a response.")
     max_angular_velocity_difference: float | None = Field(
@@ -172,8 +173,8 @@ class GearRequest(Payload):
     )
     motor_angular_velocity: AngularVelocity | None = Field(None, description="ω_m, [rad/s].")
     load_angular_velocity: AngularVelocity | None = Field(None, description="ω_L, instead of ω_m, [rad/s].")
-    motor_torque: Torque | None = Field(None, description="τ_m, what the motor gives to the gear, [Nm].")
-    load_torque: Torque | None = Field(None, description="τ_L, what the gear gives to the load, instead of τ_m, [Nm].")
+    motor_torque: Torque | None = Field(None, description="τ_m, what the motor gives to the gear, [N m].")
+    load_torque: Torque | None = Field(None, description="τ_L, what the gear gives to the load, instead of τ_m, [N m].")
     motor_inertia: Inertia | None = Field(None, description="J_m of the rotor, [kg m²].")
     load_inertia: Inertia | None = Field(None, description="J_L of the load, [kg m²].")
 
@@ -182,7 +183,7 @@ class GearSideInfo(Answer):
     """One side of the gear; null what was not told."""
 
     angular_velocity: float | None = Field(description="ω, [rad/s].")
-    torque: float | None = Field(description="τ, from the motor towards the load, [Nm].")
+    torque: float | None = Field(description="τ, from the motor towards the load, [N m].")
     power: float | None = Field(description="τ ω, [W]: negative where it flows from the load to the motor.")
 
 
@@ -239,14 +240,16 @@ class PwmRequest(Payload):
     resistance: Resistance | None = Field(None, description="R of the winding, [Ω].")
     inductance: Inductance | None = Field(None, description="L of the winding, [H]; 0, or at least 1e-12.")
     back_emf: Voltage | None = Field(
-        None, description="E of the motor through the period, [V]; k_e ω with a wanted speed, else 0, if left out."
+        None,
+        description="E of the motor through the period, [V]; 0 if left out. With a wanted speed it is k_e ω: leave it "
+        "out, or give that.",
     )
-    torque_constant: MachineConstant | None = Field(None, description="k_t, for a wanted speed, [Nm/A].")
+    torque_constant: MachineConstant | None = Field(None, description="k_t, for a wanted speed, [N m/A].")
     back_emf_constant: MachineConstant | None = Field(
         None, description="k_e, for a wanted speed, [V s/rad]; k_t if left out."
     )
-    viscous_friction: Friction | None = Field(None, description="b, for a wanted speed, [Nm s/rad]; 0 if left out.")
-    load_torque: Torque | None = Field(None, description="τ_L, for a wanted speed, [Nm]; 0 if left out.")
+    viscous_friction: Friction | None = Field(None, description="b, for a wanted speed, [N m s/rad]; 0 if left out.")
+    load_torque: Torque | None = Field(None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
 
 
 class RippleInfo(Answer):

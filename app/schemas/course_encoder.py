@@ -30,7 +30,9 @@ class EncoderRequest(Payload):
     wanted_resolution: Annotated[float, Field(ge=1e-12, le=TURN)] | None = Field(
         None, description="Smallest angle at the load to be told apart, [rad]; asks for the encoder needed."
     )
-    decoding: Decoding = Field("x4", description="Counts a line of an incremental encoder.")
+    decoding: Decoding = Field(
+        "x4", description="Counts a line of an incremental encoder; of an absolute one only with `wanted_resolution`."
+    )
 
     pulses_per_revolution: Annotated[int, Field(ge=1, le=10_000_000)] | None = Field(
         None, description="Lines of an incremental encoder, no unit."
@@ -47,7 +49,7 @@ class EncoderRequest(Payload):
     bits: Annotated[int, Field(ge=1, le=MAX_BITS)] | None = Field(
         None, description="Tracks of an absolute encoder, no unit."
     )
-    code: Code = Field("gray", description="Code of the disc, and so of `readings`.")
+    code: Code = Field("gray", description="Code of an absolute encoder's disc, and so of `readings`.")
     readings: Annotated[list[Reading], Field(max_length=MAX_READINGS, fail_fast=True)] | None = Field(
         None, description='Codes as read from an absolute encoder, `bits` digits each, such as "0110".'
     )

@@ -58,12 +58,15 @@ class PairPayload(Payload):
         description="The joint it is part of. Links whose pairs name the same joint meet there: k links, k - 1 pairs.",
     )
     point: Vector3 | None = Field(
-        None, description="Where it is as the linkage stands: on its axis, its centre or the place of contact, [m]."
+        None,
+        description="Where it is as the linkage stands: on its axis, its centre or the place of contact, [m]. In the "
+        "plane all points have the same z.",
     )
     axis: Vector3 | None = Field(
         None,
         description="A direction, of any length but 0, no unit: of the axis to turn about or slide along, of a slot or "
-        "groove, or the normal of surfaces that touch. In the plane a revolute or rolling pair needs none.",
+        "groove, or the normal of surfaces that touch. In the plane a revolute or rolling pair needs none, as it is z; "
+        "all others lie in x y.",
     )
     second_axis: Vector3 | None = Field(None, description="The other axis of a universal joint, no unit.")
     pitch: float | None = Field(
@@ -79,9 +82,12 @@ class PairPayload(Payload):
         name = self.name or f"pair_{number + 1}"
         return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, self._geometry(number))
 
+    def has_geometry(self) -> bool:
+        """Whether it says anything of where it is."""
+        return any(field is not None for field in (self.point, self.axis, self.second_axis, self.pitch))
+
     def _geometry(self, number: int) -> Geometry | None:
-        fields = (self.point, self.axis, self.second_axis, self.pitch)
-        if all(field is None for field in fields):
+        if not self.has_geometry():
             return None
         axis, second = (
             None if direction is None else _triple(unit_axis(direction, f"pairs/{number}/{name}").tolist())
@@ -122,6 +128,9 @@ Pairs = Annotated[
 ]
 
 
+_OF_A_MECHANISM = ("space", "links", "pairs", "coincident", "output", "rank_tolerance")
+
+
 class MobilityRequest(Payload):
     """A mechanism, or a robot by name."""
 
@@ -147,38 +156,51 @@ class MobilityRequest(Payload):
         None, description="A link whose own freedoms are wanted too, where the pairs say where they are."
     )
     rank_tolerance: float = Field(
-        1e-9,
-        ge=1e-12,
-        le=1e-2,
+        1e-10,
+        gt=0,
+        lt=1,
         description="Where the pairs say where they are: a singular value of the constraints counts where it exceeds "
-        "this times the largest, no unit. Raise it for numbers that were rounded.",
+        "this times the largest, no unit. Raise it for numbers that were rounded; less than 1e-13 counts as that.",
     )
     robot: RobotName | None = Field(None, description="A robot of the service instead of a mechanism.")
 
     @model_validator(mode="after")
     def _one_source(self) -> "MobilityRequest":
-        given = [
-            name for name in ("space", "links", "pairs", "coincident", "output") if getattr(self, name) is not None
-        ]
+        """Raised as errors of a field: a `ValueError` here would be one of the whole request."""
         if self.robot is not None:
+            given = [
+                name for name in _OF_A_MECHANISM if name in self.model_fields_set and getattr(self, name) is not None
+            ]
             if given:
-                raise ValueError(f"`robot` stands alone, without {', '.join(f'`{name}`' for name in given)}")
+                reason = f"`robot` stands alone, without {', '.join(f'`{name}`' for name in given)}"
+                raise InvalidField(given[0], reason)
             return self
-        missing = [f"`{name}`" for name in ("space", "links", "pairs") if getattr(self, name) is None]
-        if missing:
-            raise ValueError(
-                f"a mechanism has `space`, `links` and `pairs` (or `robot` stands alone); {missing[0]} is missing"
-            )
+        missing = next((name for name in ("space", "links", "pairs") if getattr(self, name) is None), None)
+        if missing is not None:
+            reason = f"a mechanism has `space`, `links` and `pairs` (or `robot` stands alone); `{missing}` is missing"
+            raise InvalidField(missing, reason)
         if isinstance(self.pairs, list) and isinstance(self.links, int):
-            raise ValueError("`links` are named where `pairs` name them; their number goes with counts of pairs")
-        if self.output is not None and not self.has_geometry():
-            raise ValueError("`output` needs pairs that say where they are: `point` and `axis`")
+            reason = "`links` are named where `pairs` name them; their number goes with counts of pairs"
+            raise InvalidField("links", reason)
+        self._check_counts()
+        for name in ("output", "rank_tolerance"):
+            if name in self.model_fields_set and getattr(self, name) is not None and not self.has_geometry():
+                reason = f"`{name}` needs pairs that say where they are: `point` and `axis`"
+                raise InvalidField(name, reason)
         return self
+
+    def _check_counts(self) -> None:
+        """Refuse a kind that is counted under its name and under its letter."""
+        counted: dict[str, str] = {}
+        for name in self.pairs if isinstance(self.pairs, dict) else ():
+            if (other := counted.setdefault(_kind(name), name)) != name:
+                reason = f"`{other}` and `{name}` are the same kind of pair: count it under one of them"
+                raise InvalidField(f"pairs/{name}", reason)
 
     def has_geometry(self) -> bool:
         """Whether the pairs say where they are."""
         pairs = self.pairs if isinstance(self.pairs, list) else []
-        return any(pair.point or pair.axis for pair in pairs)
+        return any(pair.has_geometry() for pair in pairs)
 
     def output_link(self, names: tuple[str, ...]) -> int | None:
         """The link whose freedoms are wanted, by index.
@@ -215,10 +237,7 @@ class MobilityRequest(Payload):
 
     def counts(self) -> dict[str, int]:
         """The pairs by kind, where they are counts."""
-        totals: dict[str, int] = {}
-        for name, count in cast(dict[str, int], self.pairs).items():
-            totals[_kind(name)] = totals.get(_kind(name), 0) + count
-        return totals
+        return {_kind(name): count for name, count in cast(dict[str, int], self.pairs).items()}
 
     def nodes(self) -> list[Node]:
         """The joints of many links, by the names of the links.

@@ -131,6 +131,10 @@ class MobilityAnswer(Answer):
     posture: PostureInfo | None = Field(
         description="Where the pairs say where they are: the mobility from that; else null."
     )
+    rank_tolerance: float | None = Field(
+        description="By which constraints counted in `posture`, relative to the largest; no unit; null where there is "
+        "none."
+    )
     spaces: SpacesInfo | None = Field(description="Of a robot: joint space and task spaces; else null.")
     warnings: list[str] = Field(description="What the bare number does not say.")
     steps: list[StepInfo] = Field(description="The count as it is written on the board.")

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from app.course.composition import Motion
-from app.course.orientation import Validation, about_axis, elementary, unit_axis, validated
+from app.course.orientation import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
 from app.model.arrays import Array
 from app.model.errors import InvalidPose
 from app.model.poses import ROTATION_TOLERANCE, transform
@@ -95,6 +95,10 @@ class MotionPayload(Payload):
     def _accepted(self, found: Validation, place: str) -> Array:
         if found.distance <= ROTATION_TOLERANCE:
             return self._as_in_a_pose(place)
+        if self.project and self._is_zero():
+            raise InvalidPose(
+                "the matrix is zero: no rotation is nearer to it than any other", field=f"{place}rotation"
+            )
         if self.project:
             return found.nearest
         kind = "a reflection" if found.is_reflection else "not a rotation"
@@ -103,6 +107,9 @@ class MotionPayload(Payload):
             f"allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
         )
         raise InvalidPose(reason, found.distance, f"{place}rotation")
+
+    def _is_zero(self) -> bool:
+        return float(np.abs(self.rotation or 0.0).max()) <= DEGENERATE
 
 
 class FurtherPayload(MotionPayload):

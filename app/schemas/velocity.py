@@ -47,8 +47,8 @@ class NullSpace(Payload):
     objective: ObjectiveName | None = Field(
         None,
         description="With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come "
-        "nearer to `posture` (the objective is ½‖q - posture‖²) or to mid-range (½Σ((q - mid)/range)²), "
-        "to keep away from the limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
+        "nearer to `posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), "
+        "to keep away from limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
         "range), or to be more manipulable (the logarithm of √det JJᵀ of the directions that count).",
     )
     gain: float = Field(1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")

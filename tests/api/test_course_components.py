@@ -91,8 +91,9 @@ def test_motors_at_the_edge(client: TestClient) -> None:
     assert bare["dynamics"]["damping"] == "first_order"
     assert bare["dynamics"]["time_constants"] == [bare["dynamics"]["mechanical_time_constant"]]
     assert bare["response"]["currents"][0] == pytest.approx(20.0), "without inductance the stall current flows at once"
-    two = good(client, "dc-motor", changed("dc-motor", back_emf_constant=0.06))
+    two = good(client, "dc-motor", changed("dc-motor", back_emf_constant=0.04, load_torque=0.02))
     assert "differ" in two["warnings"][0]
+    assert two["steady_state"]["efficiency"] is None
     swinging = good(client, "dc-motor", changed("dc-motor", inductance=0.05))
     assert swinging["dynamics"]["damping"] == "underdamped"
     assert swinging["dynamics"]["poles"][0]["imaginary"] > 0.0
@@ -148,6 +149,23 @@ def test_the_duty_for_a_voltage_and_for_a_speed(client: TestClient) -> None:
     assert "12.88" in json.dumps(speed["steps"][0])
     zero = good(client, "pwm", changed("pwm", duty=None, average_voltage=0.0, resistance=None))
     assert (zero["duty"], zero["direction"], zero["current"]) == (0.0, 1, None)
+
+
+def test_the_back_emf_of_a_wanted_speed_may_be_given_if_it_is_that(client: TestClient) -> None:
+    motor = {"duty": None, "torque_constant": 0.05, "angular_velocity": 10.0}
+    bodies = [changed("pwm", **motor, back_emf=back_emf) for back_emf in (None, 0.5, 0.5000001)]
+    currents = [good(client, "pwm", body)["current"] for body in bodies]
+    assert currents[0] == currents[1] == currents[2]
+    pushed = good(client, "pwm", changed("pwm", back_emf=3.0))
+    assert pushed["current"]["average"] == pytest.approx((8.4 - 3.0) / 1.2), "with a duty it is anything"
+
+
+def test_the_lines_of_an_encoder_that_is_looked_for_follow_from_the_decoding(client: TestClient) -> None:
+    body = {"type": "absolute", "wanted_resolution": 0.01}
+    lines = [
+        good(client, "encoder", {**body, "decoding": d})["required"]["pulses_per_revolution"] for d in ("x1", "x4")
+    ]
+    assert lines == [629, 158]
 
 
 def test_the_incremental_encoder_of_the_lecture(client: TestClient) -> None:
@@ -254,6 +272,8 @@ REFUSED = [
     ("pwm", {"duty": None, "angular_velocity": 200.0}, "torque_constant"),
     ("pwm", {"duty": None, "angular_velocity": 200.0, "torque_constant": 0.05, "resistance": None}, "resistance"),
     ("pwm", {"duty": None, "angular_velocity": 500.0, "torque_constant": 0.05}, "angular_velocity"),
+    *(("pwm", {"duty": None, "angular_velocity": speed, "torque_constant": 0.05, "back_emf": back_emf}, "back_emf")
+      for speed, back_emf in ((10.0, 3.0), (10.0, -0.5), (10.0, 0.0), (0.0, 1e-9), (10.0, 0.50001))),
     ("pwm", {"load_torque": 0.1}, "load_torque"),
     ("encoder", {"decoding": "x3"}, "decoding"),
     ("encoder", {"type": "optical"}, "type"),
@@ -268,6 +288,8 @@ REFUSED = [
     ("encoder", {"counter_bits": 8, "samples": None}, "counter_bits"),
     ("encoder", {"bits": 12}, "bits"),
     ("encoder", {"table": True}, "table"),
+    ("encoder", {"code": "gray"}, "code"),
+    ("encoder", {"code": "binary"}, "code"),
     ("encoder", {"pulses_per_revolution": None, "samples": None}, "pulses_per_revolution"),
     ("encoder", {"pulses_per_revolution": None}, "sample_period"),
 ]  # fmt: skip
@@ -290,6 +312,8 @@ REFUSED_ABSOLUTE = [
     ({"samples": "00 10"}, "samples"),
     ({"pulses_per_revolution": 5}, "pulses_per_revolution"),
     ({"counter_bits": 5}, "counter_bits"),
+    ({"decoding": "x4"}, "decoding"),
+    ({"decoding": "x1"}, "decoding"),
 ]
 
 

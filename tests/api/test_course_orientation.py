@@ -140,6 +140,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "a reflection": ({"rotation": REFLECTION}, "#/rotation", "a reflection: ‖RᵀR - I‖ = 0, det R = -1"),
     "a stretched matrix": ({"rotation": STRETCHED}, "#/rotation", "not a rotation: ‖RᵀR - I‖ = 3, det R = 2"),
     "the zero matrix": ({"rotation": [[0, 0, 0]] * 3}, "#/rotation", "not a rotation"),
+    "the zero matrix to be projected": (
+        {"rotation": [[0, 0, 0]] * 3, "project": True},
+        "#/rotation",
+        "the matrix is zero: no rotation is nearer",
+    ),
     "a huge matrix": ({"rotation": [[1e6, 0, 0]] * 3}, "#/rotation", "not a rotation"),
     "a matrix of two rows": ({"rotation": NO_TURN[:2]}, "#/rotation", "at least 3"),
     "a quaternion of length 2": ({"quaternion_xyzw": [0, 0, 0, 2]}, "#/quaternion_xyzw", "length 2"),

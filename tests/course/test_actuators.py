@@ -17,7 +17,7 @@ from app.model.arrays import Array
 from app.model.errors import CertificationFailed
 
 LECTURE = Motor(1.2, 2e-3, 0.05, 0.05, 1e-4, 2e-4)
-"""R = 1.2 Ω, L = 2 mH, k = 0.05, b = 1e-4, J = 2e-4; at 24 V with a load of 0.1 Nm."""
+"""R = 1.2 Ω, L = 2 mH, k = 0.05, b = 1e-4, J = 2e-4; at 24 V with a load of 0.1 N m."""
 
 DOUBLE = Motor(2.0, 1.0, 0.5, 0.5, 1.0, 1.0)
 """R/L = 2, b/J = 1 and k/√(LJ) = 1/2 = (2 - 1)/2: both poles are -1.5."""
@@ -156,6 +156,25 @@ def test_constants_that_differ_are_warned_of() -> None:
     point = operating_point(other, 24.0, 0.1)
     assert any("differ" in text for text in motor_warnings(other, 24.0, 0.1, point))
     assert motor_warnings(LECTURE, 24.0, 0.1, operating_point(LECTURE, 24.0, 0.1)) == ()
+
+
+@pytest.mark.parametrize("back_emf_constant", [0.04, 0.06])
+@pytest.mark.parametrize("load", [0.02, -0.5])
+def test_there_is_no_efficiency_where_powers_do_not_add_up(back_emf_constant: float, load: float) -> None:
+    motor = Motor(1.0, 1e-3, 0.05, back_emf_constant, 0.0, 1e-4)
+    point = operating_point(motor, 10.0, load)
+    spent = point.copper_loss + point.friction_loss + point.shaft_power
+    assert abs(point.electrical_power - spent) > 0.01 * abs(point.electrical_power)
+    assert point.efficiency is None
+    assert any("no efficiency" in text for text in motor_warnings(motor, 10.0, load, point))
+
+
+@pytest.mark.parametrize("load", [1e-9, 0.02, -0.02, -0.5])
+def test_constants_that_are_one_but_for_their_digits_have_an_efficiency(load: float) -> None:
+    point = operating_point(Motor(1.0, 1e-3, 0.05, 0.05 * (1.0 - 9e-7), 0.0, 1e-4), 10.0, load)
+    if point.regime in {"motoring", "generating"}:
+        assert point.efficiency is not None
+        assert 0.0 <= point.efficiency <= 1.0
 
 
 def test_the_other_direction_is_a_mirror_image() -> None:

@@ -1,6 +1,6 @@
 """Orientations against the lecture's numbers and against SciPy's, near what degenerates and at it."""
 
-from math import cos, pi, sin
+from math import copysign, cos, pi, sin
 
 import numpy as np
 import pytest
@@ -95,6 +95,17 @@ def test_roll_pitch_yaw_are_the_same_as_turns_about_fixed_axes() -> None:
     first, *turns = (transform(np.zeros(3), R) for R in map(elementary, AXES, (-0.2, 0.5, 0.9)))
     found = composed(first, [Motion(T, "fixed") for T in turns], np.empty((0, 3)))
     assert found.transforms[-1][:3, :3] == pytest.approx(rpy(-0.2, 0.5, 0.9), abs=1e-15)
+
+
+@pytest.mark.parametrize("axis", AXES)
+@pytest.mark.parametrize("angle", [pi, -pi, 3 * pi, -3 * pi, 0.0, -0.0])
+def test_no_part_of_the_chosen_quaternion_is_a_negative_nothing(axis: AxisName, angle: float) -> None:
+    """The scalar of half a turn comes out as ±6e-17: it is 0, and the first part that is not 0 is positive."""
+    *vector, scalar = notations(elementary(axis, angle)).quaternion_xyzw
+    assert scalar >= 0.0
+    assert copysign(1.0, scalar) == 1.0
+    if angle:
+        assert next(part for part in vector if part != 0.0) > 0.0
 
 
 # 13: ZYZ

@@ -1,5 +1,6 @@
 """Mobilities that the formula misses, from where the axes lie, against the closure of loops."""
 
+from dataclasses import replace
 from math import atan, cos, pi, sin, tan
 
 import numpy as np
@@ -37,10 +38,18 @@ def unit(numbers: object) -> tuple[float, float, float] | None:
 def linkage(space: Space, placed: list[Placed], nodes: tuple[Node, ...] = ()) -> Mechanism:
     names = list(dict.fromkeys(name for link_a, _, link_b, _ in placed for name in (link_a, link_b)))
     given = [
-        GivenPair(f"pair_{i}", link_a, link_b, LETTERS.get(kind, kind), geometry=geometry)
+        GivenPair(
+            f"pair_{i}", link_a, link_b, LETTERS.get(kind, kind), geometry=needed(LETTERS.get(kind, kind), geometry)
+        )
         for i, (link_a, kind, link_b, geometry) in enumerate(placed, start=1)
     ]
     return mechanism(space, names, 0, given, nodes)
+
+
+def needed(kind: str, geometry: Geometry) -> Geometry:
+    """The geometry without axes that a kind of pair does not have."""
+    axis = None if kind in {"spherical", "fixed"} else geometry.axis
+    return replace(geometry, axis=axis, second_axis=geometry.second_axis if kind == "universal" else None)
 
 
 def stands(found: Mechanism, output: str | None = None) -> Posture:
@@ -375,6 +384,43 @@ def test_a_pair_that_leaves_out_what_others_say_is_refused() -> None:
 def test_axes_that_are_not_what_they_should_be_are_refused(space: Space, kind: str, geometry: Geometry) -> None:
     with pytest.raises(InvalidField, match="freedoms are not independent"):
         posture(linkage(space, [("a", kind, "b", geometry)]), None, TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("space", "kind", "geometry", "reason"),
+    [
+        ("planar", "revolute", at((0, 0, 0), X), "pairs/0/axis'.*the axis to turn about is z"),
+        ("planar", "prismatic", at(None, (1, 0, 1)), "pairs/0/axis'.*no component along z"),
+        ("planar", "cam", at((0, 0, 0), (1, 1, 0.1)), "pairs/0/axis'.*no component along z"),
+        ("planar", "revolute", at((0, 0, 0), pitch=0.1), "pairs/0/pitch'.*only a screw"),
+        ("spatial", "revolute", at((0, 0, 0), X, Y), "pairs/0/second_axis'.*only a universal"),
+        ("spatial", "spherical", at((0, 0, 0), X), "pairs/0/axis'.*a spherical pair has no axis"),
+        ("spatial", "revolute", at((0, 0, 0)), "pairs/0/axis'.*needs point and axis to say where it is$"),
+        ("spatial", "screw", at(None, None, None, 0.1), "pairs/0/point'.*to say where it is$"),
+    ],
+)
+def test_what_a_pair_does_not_have_or_leaves_out_is_refused(
+    space: Space, kind: str, geometry: Geometry, reason: str
+) -> None:
+    found = mechanism(space, ["a", "b"], 0, [GivenPair("one", "a", "b", kind, geometry=geometry)])
+    with pytest.raises(InvalidField, match=reason):
+        posture(found, None, TOLERANCE)
+
+
+def test_a_planar_linkage_lies_in_one_plane_at_any_height() -> None:
+    """An axis along -z is as good as one along z."""
+    raised = [(x, y, 0.7) for x, y, _ in GENERAL]
+    down = ring("RRRR", [at(point, (0, 0, -1)) for point in raised])
+    assert stands(linkage("planar", down)).mobility == 1
+    with pytest.raises(InvalidField, match=r"pairs/2/point'.*the same z"):
+        stands(linkage("planar", four_bar([*raised[:2], GENERAL[2], raised[3]])))
+
+
+def test_no_tolerance_counts_rounding() -> None:
+    for tolerance in (1e-300, 1e-16, 1e-10):
+        result = posture(linkage("spatial", bennett()), None, tolerance)
+        assert result is not None
+        assert result.mobility == 1
 
 
 def test_a_linkage_of_very_many_links_is_refused() -> None:
