@@ -3,7 +3,7 @@
 - `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there.
 - `prune`: takes from a container image what the service never opens.
 - `api`: HTTP only. `schemas`: what travels. `store`: robots on disk. `jobs`: long work in processes of its own.
-- `plots`: pictures. `course`: the course's calculators, which need no robot.
+- `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
 - `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
 
 Arrows point down only; `./dev lint` checks it.

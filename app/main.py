@@ -10,8 +10,12 @@ from fastapi import FastAPI
 from app.api import documentation, openapi, problems
 from app.api.compare import compare_route
 from app.api.course_components import component_routes
+from app.api.course_fly_over import fly_over_route
 from app.api.course_mobility import mobility_route
 from app.api.course_orientation import orientation_route
+from app.api.course_spline import spline_route
+from app.api.course_time_law import time_law_route
+from app.api.course_time_scaling import time_scaling_route
 from app.api.derive import derive_route
 from app.api.dh import dh_routes
 from app.api.dynamics import dynamics_operation
@@ -97,8 +101,11 @@ def create_app(settings: Settings) -> FastAPI:
     app.router.routes.append(compare_route(library, executor, settings.max_body_bytes))
     app.router.routes.append(derive_route(isolated, derivations, settings.max_body_bytes))
     app.router.routes.extend(component_routes(executor, settings.max_body_bytes))
+    app.router.routes.append(fly_over_route(executor, settings.max_body_bytes))
     app.router.routes.append(mobility_route(library, executor, settings.max_body_bytes))
     app.router.routes.append(orientation_route(executor, settings.max_body_bytes))
+    for course_route in (time_law_route, spline_route, time_scaling_route):
+        app.router.routes.append(course_route(executor, settings.max_body_bytes))
     most = settings.max_answer_numbers
     for operation in (
         *kinematics_operations(most),

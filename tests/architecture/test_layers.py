@@ -17,6 +17,14 @@ WITHOUT_PINOCCHIO = [
     *(f"app.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
     *(f"app.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
     *(f"app.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
+    *(f"app.trajectory.{name}" for name in ("polynomial", "extremes", "time_laws", "phases", "trapezoid", "splines")),
+    *(f"app.trajectory.{name}" for name in ("parabolic_blends", "tridiagonal", "time_scaling", "certify", "formulas")),
+    *(
+        f"app.trajectory.{name}"
+        for name in ("fly_over", "blended_motion", "fly_over_check", "fly_over_steps", "curves")
+    ),
+    *(f"app.trajectory.{name}" for name in ("paths", "spline_paths", "orientation_paths", "rotation_splines", "so3")),
+    *(f"app.trajectory.{name}" for name in ("audit_pieces", "audit_tip", "audit_demands")),
     *(f"app.course.{path.stem}" for path in sorted((ROOT / "app" / "course").glob("[a-z]*.py"))),
 ]
 CORE = [

@@ -1,0 +1,86 @@
+"""Uniform time scaling on the wire."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from app.schemas.common import Answer
+from app.schemas.course_components import Steps, Warnings
+from app.schemas.course_motion import Coordinates, Duration, JointLimits, MotionAnswer, SampledRequest, Times, Waypoints
+from app.trajectory.splines import Boundary
+from app.trajectory.time_scaling import Quantity
+
+
+class TimeScalingRequest(SampledRequest):
+    """A motion by a time law (`displacement`, `duration`), or through samples (`times`, `waypoints`); and limits."""
+
+    limits: JointLimits = Field(description="At least one of them.")
+    law: Literal["cubic", "quintic", "septic"] = Field(
+        "cubic", description="From rest to rest; of a motion by `displacement`."
+    )
+    displacement: Coordinates | None = Field(None, description="Δq of each joint, [rad or m].")
+    duration: Duration | None = Field(None, description="T of this motion, [s].")
+    times: Times | None = Field(None, description="Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = Field(
+        None, description="Positions, a row a time, [rad or m]. Alone, a cubic spline is laid through them."
+    )
+    boundary: Boundary = Field(
+        "not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
+    )
+    velocities: Waypoints | None = Field(
+        None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
+    )
+    accelerations: Waypoints | None = Field(
+        None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+    )
+    scaling: Literal["course", "unclipped"] = Field(
+        "course", description="Which k the motion in the answer is scaled by: `course` never speeds up."
+    )
+    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
+        None, description="A k of your own for the motion in the answer, no unit: it need not respect the limits."
+    )
+
+
+class BindingInfo(Answer):
+    """The joint that is nearest to its limit of a quantity, or furthest beyond, in the motion as it came."""
+
+    quantity: Quantity
+    ratio: float = Field(description="Peak over limit, no unit.")
+    factor: float = Field(
+        description="The k that this quantity alone asks for: the ratio of a velocity, the square root of that of an "
+        "acceleration, the cube root of that of a jerk; no unit."
+    )
+    joint: int = Field(description="Which, from 1; no unit.")
+    time: float = Field(description="When, [s].")
+    peak: float = Field(description="With its sign, [rad or m per s, s² or s³].")
+    limit: float = Field(description="In the unit of the peak.")
+
+
+class TimeScalingAnswer(MotionAnswer):
+    """By which k a motion keeps its limits, and the motion scaled by it."""
+
+    course_factor: float = Field(
+        description='k = max{1, k_vel, √k_acc} of the notes, no unit: it only slows down, though the notes say "or '
+        'speed up".'
+    )
+    unclipped_factor: float | None = Field(
+        description="k = max{k_vel, √k_acc}, no unit: with it a limit is just reached, also by speeding up; null where "
+        "nothing moves."
+    )
+    applied_factor: float = Field(description="The k of the motion in this answer, no unit.")
+    k_vel: float | None = Field(description="max{1, …} of the velocity ratios, as in the notes; no unit.")
+    k_acc: float | None = Field(description="max{1, …} of the acceleration ratios, as in the notes; no unit.")
+    bounds: list[BindingInfo] = Field(description="One a limited quantity.")
+    binding: BindingInfo = Field(description="The one that asks for the largest k.")
+    original_duration: float = Field(description="T of the motion as it came, [s].")
+    steps: Steps
+    warnings: Warnings
+
+
+EXAMPLE_TIME_SCALING: dict[str, Any] = {
+    "displacement": [1.0, -2.0],
+    "duration": 1.0,
+    "law": "cubic",
+    "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
+    "samples": 5,
+}

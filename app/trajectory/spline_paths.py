@@ -1,0 +1,229 @@
+"""Paths whose position is a polynomial of some parameter u, brought to arc length: splines and blended corners.
+
+The arc length s(u) = ∫ ‖dp/du‖ du is Gauss's formula on panels that are halved until the sum no longer changes; its
+inverse is Newton's method inside of a panel. The derivatives by s follow from those by u exactly.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from app.model.arrays import Array
+from app.model.errors import InvalidField
+from app.model.poses import Poses
+from app.trajectory.curves import Line
+from app.trajectory.orientation_paths import OrientationPath, axis_angle
+from app.trajectory.paths import (
+    POINT,
+    CurvePath,
+    Path,
+    PathSamples,
+    PathSequence,
+    Unit,
+    line,
+    part_of_turn,
+    refuse_reversal,
+)
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.rotation_splines import rotation_corner, rotation_spline
+from app.trajectory.splines import cubic_spline
+
+SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
+_FINEST = 256
+"""Panels into which a piece is cut at most."""
+_LENGTH_TOLERANCE = 1e-13
+_NEWTON_STEPS = 40
+_SLOWEST = 1e-12
+"""Share of the mean speed below which dp/du vanishes: a cusp, where there is no tangent."""
+
+
+@dataclass(frozen=True)
+class PolynomialPath:
+    """p(u) a polynomial on each piece, and an orientation over the whole of u.
+
+    Attributes:
+        position: p(u); 3 coordinates, [m].
+        orientation: Its x goes from 0 to 1 as u does from its first break to its last.
+    """
+
+    position: PiecewisePolynomial
+    orientation: OrientationPath
+
+    @property
+    def unit(self) -> Unit:
+        """Metres."""
+        return "m"
+
+    @property
+    def extent(self) -> float:
+        """See `Path`."""
+        return float(self._table[1][-1])
+
+    @property
+    def length(self) -> float:
+        """See `Path`."""
+        return self.extent
+
+    @property
+    def angle(self) -> float:
+        """See `Path`."""
+        return self.orientation.angle
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """See `Path`: none, as far as position and orientation are smooth in u."""
+        return ()
+
+    def at(self, s: Array) -> PathSamples:
+        """See `Path`."""
+        u = self._parameters(s)
+        width = self.position.duration
+        x = np.clip((u - self.position.breaks[0]) / width, 0.0, 1.0)
+        first, second = self._velocity.at(u), self._velocity.derivative().at(u)
+        rotations, rates, changes = self.orientation.at(x)
+        rates, changes = rates / width, changes / width**2
+        speeds = np.linalg.norm(first, axis=1)[:, None]
+        tangents = first / np.maximum(speeds, np.finfo(float).tiny)
+        growth = np.einsum("ij,ij->i", tangents, second)[:, None]
+        by_s = np.hstack((tangents, rates / speeds))
+        bends = np.hstack((second - growth * tangents, changes - growth * rates / speeds)) / speeds**2
+        return PathSamples(Poses(self.position.at(u), rotations), by_s, bends)
+
+    @cached_property
+    def _velocity(self) -> PiecewisePolynomial:
+        return self.position.derivative()
+
+    @cached_property
+    def _table(self) -> tuple[Array, Array]:
+        """Edges of the panels in u, and the arc length up to each; shape (P + 1,) each."""
+        panels, before = 4, np.inf
+        while True:
+            shares = np.linspace(0.0, 1.0, panels, endpoint=False)
+            breaks = self.position.breaks
+            edges = np.append((breaks[:-1, None] + shares * np.diff(breaks)[:, None]).ravel(), breaks[-1])
+            lengths = self._lengths(edges[:-1], edges[1:])
+            total = float(lengths.sum())
+            if abs(total - before) <= _LENGTH_TOLERANCE * total or panels >= _FINEST:
+                return edges, np.concatenate(([0.0], np.cumsum(lengths)))
+            panels, before = 2 * panels, total
+
+    def _lengths(self, begin: Array, finish: Array) -> Array:
+        """Arc length between pairs of u that are close together; shape (N,), [m]."""
+        half = 0.5 * (finish - begin)
+        u = (begin + half)[:, None] + half[:, None] * _NODES
+        lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
+        return lengths
+
+    def _speeds(self, u: Array) -> Array:
+        speeds: Array = np.linalg.norm(self._velocity.at(u), axis=1)
+        return speeds
+
+    def _parameters(self, s: Array) -> Array:
+        """Values of u at arc lengths; shape (N,)."""
+        edges, lengths = self._table
+        panel = np.clip(np.searchsorted(lengths, s, side="right") - 1, 0, len(edges) - 2)
+        begin, low, high = edges[panel], edges[panel].copy(), edges[panel + 1].copy()
+        wanted = s - lengths[panel]
+        share = wanted / np.maximum(lengths[panel + 1] - lengths[panel], np.finfo(float).tiny)
+        u = low + np.clip(share, 0.0, 1.0) * (high - low)
+        for _ in range(_NEWTON_STEPS):
+            excess = self._lengths(begin, u) - wanted
+            if np.abs(excess).max(initial=0.0) <= 4e-16 * lengths[-1]:
+                break
+            low, high = np.where(excess < 0.0, u, low), np.where(excess > 0.0, u, high)
+            newton = u - excess / np.maximum(self._speeds(u), np.finfo(float).tiny)
+            u = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+        return u
+
+
+def spline(waypoints: Poses, boundary: SplineBoundary = "natural") -> PolynomialPath:
+    """A smooth way through poses: C² in position and in orientation (`rotation_spline`), over the length of the chords.
+
+    Args:
+        waypoints: At least two.
+        boundary: Of the cubic spline of positions; a clamped one would have no tangent at its ends. With `periodic` the
+            positions close smoothly, the orientations do not.
+
+    Raises:
+        InvalidField: There are fewer than two, two in succession share a position, or the ends of a periodic one are
+            apart.
+    """
+    if len(waypoints) < 2:
+        raise InvalidField("waypoints", "a spline takes at least two poses, the start among them")
+    chords = np.linalg.norm(np.diff(waypoints.positions, axis=0), axis=1)
+    if (chords <= POINT).any():
+        first = int(np.argmin(chords > POINT))
+        reason = f"poses {first} and {first + 1} share one position: a spline does not stop to turn; a line does"
+        raise InvalidField("waypoints", reason)
+    knots = np.concatenate(([0.0], np.cumsum(chords)))
+    curve = cubic_spline(knots, waypoints.positions, boundary).motion
+    path = PolynomialPath(curve, rotation_spline(waypoints.rotations, knots / knots[-1]))
+    _refuse_cusps(path)
+    return path
+
+
+def blended_lines(poses: Poses, radii: Sequence[float], field: str = "blend_radius") -> PathSequence:
+    """A polyline through poses whose corners are cut: a parabola begins and ends at a distance from each.
+
+    At constant speed of its parameter that parabola is the fly-over with equal speeds. Position and orientation have
+    continuous derivatives by s, and their second derivatives jump where a parabola begins or ends.
+
+    Args:
+        poses: At least two, no two in succession at one position.
+        radii: One for each inner pose, more than 0, [m].
+        field: Which field of a request the radii are, for refusals.
+
+    Raises:
+        InvalidField: A leg is shorter than the radii at its ends together, or leads back along the one before.
+    """
+    Ts, count = poses.matrices(), len(poses)
+    legs = [line(Ts[i], Ts[i + 1], axis_angle(Ts[i, :3, :3], Ts[i + 1, :3, :3])) for i in range(count - 1)]
+    cuts = [0.0, *radii, 0.0]
+    parts: list[Path] = []
+    for i, leg in enumerate(legs):
+        taken = cuts[i] + cuts[i + 1]
+        if taken > leg.length * (1.0 + 1e-12) or leg.length <= POINT:
+            raise InvalidField(field, f"leg {i} is {leg.length:g} m long, and its blends take {taken:g} m of it")
+        if i > 0:
+            parts.append(_corner(legs[i - 1], leg, cuts[i], field))
+        begin, finish = cuts[i] / leg.length, 1.0 - cuts[i + 1] / leg.length
+        if finish - begin > 1e-12:
+            parts.append(_leg_part(leg, begin, finish))
+    return PathSequence(tuple(parts))
+
+
+def _leg_part(leg: CurvePath, begin: float, finish: float) -> CurvePath:
+    """What is left of a leg between its blends."""
+    ends = leg.curve.at(np.array([begin, finish]) * leg.length)[0]
+    turn = axis_angle(*leg.orientation.at(np.array([0.0, 1.0]))[0])
+    return CurvePath(Line(ends[0], ends[1]), part_of_turn(turn, begin, finish))
+
+
+def _corner(before: CurvePath, after: CurvePath, radius: float, field: str) -> PolynomialPath:
+    """The parabola between two legs: p(u) = p_B - (1 - u)² a + u² b, and the orientation likewise."""
+    a = radius * before.curve.at(np.array([before.length]))[1][0]
+    corner, directions, _ = after.curve.at(np.array([0.0]))
+    b = radius * directions[0]
+    refuse_reversal(a, b, field)
+    entry = before.orientation.at(np.array([1.0 - radius / before.length]))[0][0]
+    at_corner, leaving = after.orientation.at(np.array([0.0, radius / after.length]))[0]
+    coefficients = np.array([[corner[0] - a, 2.0 * a, b - a]])
+    turn = rotation_corner(entry, at_corner, leaving)
+    return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), coefficients), turn)
+
+
+def _refuse_cusps(path: PolynomialPath) -> None:
+    """Refuse a spline that comes to rest on its way.
+
+    Raises:
+        InvalidField: It does.
+    """
+    edges = path._table[0]
+    speeds = path._speeds(edges)
+    if speeds.min() <= _SLOWEST * speeds.mean():
+        raise InvalidField("waypoints", "the spline turns back on the spot at a waypoint, where it has no tangent")

@@ -1,0 +1,88 @@
+"""Pictures of profiles: that they show the motion, its jumps and its limits."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from app.model.arrays import Array
+from app.plots import profiles as module
+from app.plots.figure import PictureFormat
+from app.plots.profiles import Lines, curve, profiles_picture
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.splines import cubic_spline
+from app.trajectory.trapezoid import Task, point_to_point
+
+UNITS = ("rad", "rad/s", "rad/s²", "rad/s³")
+
+
+def lines(joints: int, limits: tuple[Array | None, ...] = (None, None, None)) -> Lines:
+    return Lines([f"joint {j}" for j in range(joints)], UNITS, limits)
+
+
+@pytest.fixture
+def figures(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
+    """What is drawn, instead of its bytes."""
+    drawn: list[Figure] = []
+
+    def kept(figure: Figure, _: PictureFormat) -> bytes:
+        drawn.append(figure)
+        return b""
+
+    monkeypatch.setattr(module, "as_bytes", kept)
+    return drawn
+
+
+def trapezoid() -> PiecewisePolynomial:
+    tasks = [Task(-1.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.0, 0.0, 0.8, 0.5)]
+    return point_to_point(np.zeros(2), tasks).motion
+
+
+def test_four_panels_with_the_motion_and_its_limits(figures: list[Figure]) -> None:
+    motion = trapezoid()
+    limits = (np.array([0.5, 0.8]), np.array([0.8, 0.8]), None)
+    profiles_picture("A motion", motion, lines(2, limits), "svg")
+    panels = figures[0].axes
+    assert [axes.get_ylabel().split("\n")[0] for axes in panels] == ["position", "velocity", "acceleration", "jerk"]
+    for order, axes in enumerate(panels):
+        for j in range(2):
+            times, values = (np.asarray(data, dtype=float) for data in axes.lines[j].get_data())
+            inside = ~np.isin(times, motion.breaks)
+            assert np.allclose(values[inside], motion.derivative(order).at(times[inside])[:, j])
+            assert times[0] == 0.0
+            assert times[-1] == motion.breaks[-1]
+    levels = [
+        {float(np.asarray(line.get_ydata(), dtype=float)[0]) for line in axes.lines if line.get_linestyle() == "--"}
+        for axes in panels
+    ]
+    assert levels == [set(), {0.5, -0.5, 0.8, -0.8}, {0.8, -0.8}, set()]
+
+
+def test_a_jump_is_a_vertical_line() -> None:
+    times, values = curve(trapezoid().derivative(2))
+    jumps = np.flatnonzero(np.diff(times) == 0.0)
+    assert times[jumps] == pytest.approx([0.625, 1.3125, 2.0])
+    assert values[jumps[0], 0] == pytest.approx(-0.8)
+    assert values[jumps[0] + 1, 0] == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("joints", [1, 2, 7, 32])
+def test_any_number_of_joints_and_pieces(joints: int) -> None:
+    rng = np.random.default_rng(joints)
+    times = np.cumsum(rng.uniform(0.1, 1.0, 300))
+    motion = cubic_spline(times, rng.normal(size=(300, joints)), "natural").motion
+    picture = profiles_picture("x" * 200 + "$", motion, lines(joints), "png")
+    assert picture.startswith(b"\x89PNG")
+
+
+def test_the_same_bytes_each_time() -> None:
+    first, second = (profiles_picture("A motion", trapezoid(), lines(2), "svg") for _ in range(2))
+    assert first == second
+    assert len(first) < 200_000
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-30, 1e6, 1e25])
+def test_sizes(size: float) -> None:
+    c = np.zeros((1, 4, 1))
+    c[0, 1:, 0] = size
+    for breaks in (np.array([0.0, 1.0]), np.zeros(2), np.array([1e6 - 1e-3, 1e6])):
+        assert profiles_picture("", PiecewisePolynomial(breaks, c), lines(1), "svg").startswith(b"<?xml")

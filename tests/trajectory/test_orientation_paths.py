@@ -1,0 +1,238 @@
+"""Ways through orientations: the lecture's numbers, what is not determined, and SciPy's Slerp and RotationSpline."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation, RotationSpline, Slerp
+
+from app.model.arrays import Array
+from app.trajectory.orientation_paths import (
+    AxisAngle,
+    OrientationPath,
+    ZyzPath,
+    axis_angle,
+    both_ways,
+    through,
+    travelled,
+    zyz_paths,
+)
+from app.trajectory.rotation_splines import rotation_corner, rotation_spline
+from app.trajectory.so3 import angular_accelerations, angular_velocities, rate_matrices
+
+HALF = np.array([0.5])
+ENDS = np.array([0.0, 1.0])
+
+
+def zyz(*triple: float) -> Array:
+    return np.ascontiguousarray(Rotation.from_euler("ZYZ", triple).as_matrix())
+
+
+R_I, R_F = zyz(0.2, 0.4, -0.3), zyz(1.0, 0.9, 0.5)
+
+
+def angle_between(R: Array, S: Array) -> float:
+    return float(Rotation.from_matrix(R.T @ S).magnitude())
+
+
+def differs_by_steps(path: OrientationPath, x: Array, step: float = 1e-5) -> tuple[Array, Array]:
+    """ω_x and its derivative by central differences on the rotations."""
+    before, at, after = (Rotation.from_matrix(path.at(x + k * step)[0]) for k in (-1, 0, 1))
+    rates = (after * before.inv()).as_rotvec() / (2.0 * step)
+    changes = ((after * at.inv()).as_rotvec() - (at * before.inv()).as_rotvec()) / step**2
+    return rates, changes
+
+
+# The lecture's numbers
+
+
+def test_the_axis_and_angle_of_the_lecture() -> None:
+    """R_i = zyz(.2, .4, -.3), R_f = zyz(1, .9, .5)."""
+    way = axis_angle(R_I, R_F)
+    np.testing.assert_allclose(way.axis, [-0.297013915534, 0.351045593249, 0.888003223778], atol=5e-13)
+    assert way.angle == pytest.approx(1.587275249684, abs=5e-13)
+    np.testing.assert_allclose(way.base_axis, [0.092354010294, 0.450467547491, 0.888003223778], atol=5e-13)
+    assert way.turning == "regular"
+
+
+def test_the_peak_angular_velocity_of_the_lecture() -> None:
+    """A cubic in T = 2 has its peak rate, 1.5 / T, in the middle."""
+    peak = axis_angle(R_I, R_F).at(HALF)[1][0] * 1.5 / 2.0
+    np.testing.assert_allclose(peak, [0.109943426062, 0.536261991689, 1.057129154056], atol=5e-13)
+
+
+def test_the_middle_of_both_ways_of_the_lecture() -> None:
+    by_axis, by_angles = axis_angle(R_I, R_F).at(HALF)[0][0], zyz_paths(R_I, R_F)[0].at(HALF)[0][0]
+    assert angle_between(by_axis, by_angles) == pytest.approx(0.061421714469, abs=5e-13)
+    np.testing.assert_allclose(by_angles, zyz(0.6, 0.65, 0.1), atol=1e-15)
+
+
+# Axis and angle
+
+
+def test_one_axis_against_slerp() -> None:
+    x = np.linspace(0.0, 1.0, 23)
+    for seed in range(20):
+        both = Rotation.random(2, rng=seed)
+        way = axis_angle(*both.as_matrix())
+        rotations, rates, changes = way.at(x)
+        np.testing.assert_allclose(rotations, Slerp([0.0, 1.0], both)(x).as_matrix(), atol=1e-14)
+        np.testing.assert_allclose(rates, differs_by_steps(way, x)[0], atol=1e-9)
+        assert not changes.any()
+        assert way.angle == pytest.approx(travelled(way))
+
+
+def test_without_a_turn_there_is_no_axis() -> None:
+    (way,) = both_ways(R_I, R_I)
+    assert (way.turning, way.angle) == ("none", 0.0)
+    rotations, rates, _ = way.at(ENDS)
+    np.testing.assert_array_equal(rotations, [R_I, R_I])
+    assert not rates.any()
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, -1), (1, 2, 2), (-1, 2, -2), (0, -3, 4)])
+def test_half_a_turn_has_two_solutions(axis: tuple[float, float, float]) -> None:
+    r = np.array(axis) / np.linalg.norm(axis)
+    for tilt in (0.0, 3e-16, -3e-16, 1e-12, -1e-12):
+        R_f = R_I @ Rotation.from_rotvec((pi + tilt) * r).as_matrix()
+        first, second = both_ways(R_I, R_f)
+        assert (first.turning, second.turning) == ("half_turn", "half_turn")
+        assert first.angle == pytest.approx(pi, abs=2e-12)
+        np.testing.assert_allclose(first.axis, -second.axis)
+        assert next(c for c in first.axis if abs(c) > 1e-6) > 0.0, "whatever rounding says"
+        for way in (first, second):
+            np.testing.assert_allclose(way.at(ENDS)[0], [R_I, R_f], atol=5e-16 + 5e-15)
+        middles = [way.at(HALF)[0][0] for way in (first, second)]
+        assert angle_between(*middles) == pytest.approx(pi, abs=1e-7), "they pass through opposite orientations"
+
+
+def test_the_lecture_s_half_turn() -> None:
+    """Axis (1, 2, 2)/3 at θ = π: R = [-7/9 4/9 4/9; 4/9 -1/9 8/9; 4/9 8/9 -1/9]."""
+    R = np.array([[-7.0, 4.0, 4.0], [4.0, -1.0, 8.0], [4.0, 8.0, -1.0]]) / 9.0
+    first, second = both_ways(np.eye(3), R)
+    np.testing.assert_allclose(first.axis, np.array([1.0, 2.0, 2.0]) / 3.0, atol=1e-15)
+    np.testing.assert_allclose(second.axis, -first.axis)
+
+
+def test_the_long_way_round_also_arrives() -> None:
+    short, long = both_ways(R_I, R_F)
+    assert short.angle + long.angle == pytest.approx(2.0 * pi)
+    np.testing.assert_allclose(long.at(ENDS)[0], [R_I, R_F], atol=5e-15)
+
+
+# ZYZ
+
+
+def turns_by(path: ZyzPath) -> None:
+    x = np.linspace(0.01, 0.99, 40)
+    _, rates, changes = path.at(x)
+    by_steps = differs_by_steps(path, x)
+    np.testing.assert_allclose(rates, by_steps[0], atol=1e-8)
+    np.testing.assert_allclose(changes, by_steps[1], atol=2e-4)
+
+
+def test_both_branches_of_zyz_arrive() -> None:
+    for seed in range(20):
+        start, end = Rotation.random(2, rng=seed).as_matrix()
+        regular, flipped = zyz_paths(start, end)
+        assert (regular.branch, flipped.branch) == ("regular", "flipped")
+        assert np.sign(flipped.start[1] + flipped.change[1]) == -1.0
+        for path in (regular, flipped):
+            np.testing.assert_allclose(path.at(ENDS)[0], [start, end], atol=1e-14)
+            assert np.abs(path.change[[0, 2]]).max() <= pi
+            assert path.angle >= angle_between(start, end) - 1e-9, "one axis is the shortest way"
+            turns_by(path)
+
+
+def test_zyz_goes_the_short_way_round() -> None:
+    path = zyz_paths(zyz(3.0, 0.5, -3.0), zyz(-3.0, 0.5, 3.0))[0]
+    np.testing.assert_allclose(path.change, [2.0 * pi - 6.0, 0.0, 6.0 - 2.0 * pi], atol=1e-13)
+
+
+@pytest.mark.parametrize("theta", [0.0, pi])
+def test_zyz_where_it_degenerates(theta: float) -> None:
+    """The angle that is not determined is that of the other end, so that φ does not move for nothing."""
+    flat, regular = zyz(0.4, theta, 0.5), zyz(1.0, 0.9, 0.5)
+    for start, end, names in ((flat, regular, ("start",)), (regular, flat, ("end",)), (flat, flat, ("start", "end"))):
+        for path in zyz_paths(start, end):
+            assert path.degenerate == names
+            np.testing.assert_allclose(path.at(ENDS)[0], [start, end], atol=1e-14)
+        assert zyz_paths(start, end)[0].change[0] == pytest.approx(0.0, abs=1e-15)
+    assert not zyz_paths(flat, flat)[0].change.any()
+
+
+# Through several
+
+
+def test_through_several_is_a_slerp_each() -> None:
+    rotations = Rotation.random(5, rng=1)
+    knots, x = np.array([0.0, 0.2, 0.5, 0.6, 1.0]), np.linspace(0.0, 1.0, 41) * 0.999 + 3e-4
+    way = through(rotations.as_matrix(), knots)
+    at, rates, _ = way.at(x)
+    np.testing.assert_allclose(at, Slerp(knots, rotations)(x).as_matrix(), atol=1e-14)
+    np.testing.assert_allclose(rates, differs_by_steps(way, x)[0], atol=1e-8)
+    assert way.breaks == (0.2, 0.5, 0.6)
+    assert way.angle == pytest.approx((rotations[:-1].inv() * rotations[1:]).magnitude().sum())
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 9])
+def test_the_spline_is_that_of_scipy(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(RotationSpline, "TOL", 1e-15)
+    monkeypatch.setattr(RotationSpline, "MAX_ITER", 100)
+    x = np.linspace(0.0, 1.0, 101)
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        rotations = Rotation.from_rotvec(np.cumsum(rng.normal(0.0, 0.6, (count, 3)), axis=0))
+        knots = np.concatenate(([0.0], np.cumsum(rng.uniform(0.3, 1.0, count - 1))))
+        knots /= knots[-1]
+        theirs, mine = RotationSpline(knots, rotations), rotation_spline(rotations.as_matrix(), knots)
+        at, rates, changes = mine.at(x)
+        np.testing.assert_allclose(at, theirs(x).as_matrix(), atol=1e-10)
+        np.testing.assert_allclose(rates, theirs(x).apply(theirs(x, 1)), atol=1e-8)
+        np.testing.assert_allclose(changes, theirs(x).apply(theirs(x, 2)), atol=1e-6)
+
+
+def test_the_spline_passes_its_knots_smoothly() -> None:
+    rotations, knots = Rotation.random(7, rng=3).as_matrix(), np.linspace(0.0, 1.0, 7)
+    path = rotation_spline(rotations, knots)
+    np.testing.assert_allclose(path.at(knots)[0], rotations, atol=1e-14)
+    before, after = path.at(knots[1:-1] - 1e-9), path.at(knots[1:-1] + 1e-9)
+    scale = float(np.abs(path.at(np.linspace(0.0, 1.0, 200))[2]).max())
+    np.testing.assert_allclose(before[1], after[1], atol=1e-8 * scale)
+    np.testing.assert_allclose(before[2], after[2], atol=1e-5 * scale)
+    x = np.linspace(0.01, 0.99, 60)
+    np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x, 1e-6)[0], atol=1e-6 * scale)
+
+
+def test_the_turn_over_a_corner_joins_its_legs() -> None:
+    """Its rates at both ends are twice those of the ways to and from the corner, as a parabola's are."""
+    entry, corner, leaving = Rotation.random(3, rng=5).as_matrix()
+    path = rotation_corner(entry, corner, leaving)
+    rotations, rates, _ = path.at(ENDS)
+    np.testing.assert_allclose(rotations, [entry, leaving], atol=5e-15)
+    ways: list[AxisAngle] = [axis_angle(entry, corner), axis_angle(corner, leaving)]
+    np.testing.assert_allclose(rates, [2.0 * way.angle * way.base_axis for way in ways], atol=1e-13)
+    x = np.linspace(0.01, 0.99, 20)
+    np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x)[0], atol=1e-7)
+
+
+# The rates of rotation vectors
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-5, 1e-2, 0.5, 0.999999, 1.000001, 2.0, 3.1, 5.0])
+def test_rates_of_a_rotation_vector_by_differences(size: float) -> None:
+    rng = np.random.default_rng(0)
+    thetas = rng.normal(size=(8, 3))
+    thetas *= size / np.linalg.norm(thetas, axis=1)[:, None]
+    first, second = rng.normal(size=(2, 8, 3))
+
+    def at(t: float) -> Rotation:
+        return Rotation.from_rotvec(thetas + t * first + 0.5 * t * t * second)
+
+    step = 1e-4
+    before, here, after = at(-step), at(0.0), at(step)
+    rates = here.inv().apply((after * before.inv()).as_rotvec() / (2.0 * step))
+    changes = here.inv().apply(((after * here.inv()).as_rotvec() - (here * before.inv()).as_rotvec()) / step**2)
+    np.testing.assert_allclose(angular_velocities(thetas, first), rates, atol=1e-6)
+    np.testing.assert_allclose(angular_accelerations(thetas, first, second), changes, atol=1e-5)
+    np.testing.assert_allclose(rate_matrices(thetas) @ first[0], angular_velocities(thetas, np.tile(first[0], (8, 1))))
