@@ -5,7 +5,6 @@ may or when it dies. One call runs at a time; the others wait, each within its o
 """
 
 import contextlib
-import multiprocessing
 import signal
 import threading
 import time
@@ -14,13 +13,14 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
+from app.jobs.processes import ended, started
+
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 _LONGEST = 3600.0
 _SHORTEST = 0.1
 """With less time left than this, a call is not begun, [s]: it would only cost the warm process."""
-_GOODBYE_SECONDS = 1.0
 
 
 class Isolated:
@@ -105,28 +105,11 @@ class Isolated:
         return connection
 
     def _start(self) -> Connection:
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs,), name="isolated", daemon=True)
-        try:
-            process.start()
-        except (OSError, RuntimeError) as error:
-            ours.close()
-            raise ChildProcessError("no process could be started") from error
-        finally:
-            theirs.close()
-        self._process, self._connection = process, ours
-        return ours
+        self._process, self._connection = started(serve, "isolated")
+        return self._connection
 
     def _end(self) -> None:
-        """Kill the process and wait for its end, so that nothing of it is left."""
-        if self._connection is not None:
-            self._connection.close()
-        if self._process is not None:
-            self._process.kill()
-            self._process.join(_GOODBYE_SECONDS)
-            with contextlib.suppress(ValueError):
-                self._process.close()
+        ended(self._process, self._connection)
         self._process, self._connection, self._ready = None, None, False
 
 

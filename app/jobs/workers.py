@@ -5,8 +5,6 @@ which dies takes its own part with it and no other, and a job that is cancelled 
 killed. Nothing of them is left when the service ends.
 """
 
-import contextlib
-import multiprocessing
 import pickle
 import queue
 import signal
@@ -19,13 +17,14 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeAlias
 
+from app.jobs.processes import GOODBYE_SECONDS, ended, started
+
 _LOOK = 0.05
 """How often a thread that waits for a result looks whether it is still wanted, [s]."""
 _GRACE = 1.0
 """How long a part of a cancelled job may go on before its process is killed, [s]."""
 _IDLE = 300.0
 """After how long without work a process is let go, [s]."""
-_GOODBYE = 1.0
 _ATTEMPTS = 2
 """How often a part is begun: a process may have been killed for no fault of it."""
 
@@ -101,7 +100,7 @@ class Workers:
         for _ in self._seats:
             self._parts.put(None)
         for seat in self._seats:
-            seat.join(_GOODBYE + 4 * _LOOK)
+            seat.join(GOODBYE_SECONDS + 4 * _LOOK)
         while True:
             try:
                 part = self._parts.get_nowait()
@@ -188,28 +187,11 @@ class _Seat(threading.Thread):
         raise OutOfTime if late else Cancelled
 
     def _start(self) -> Connection:
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(target=serve, args=(theirs,), name="jobs", daemon=True)
-        try:
-            process.start()
-        except RuntimeError as error:
-            ours.close()
-            raise ConnectionError("no process could be started") from error
-        finally:
-            theirs.close()
-        self._process, self._connection = process, ours
-        return ours
+        self._process, self._connection = started(serve, "jobs")
+        return self._connection
 
     def _end(self) -> None:
-        """Kill the process and wait for its end, so that nothing of it is left."""
-        if self._connection is not None:
-            self._connection.close()
-        if self._process is not None:
-            self._process.kill()
-            self._process.join(_GOODBYE)
-            with contextlib.suppress(ValueError):
-                self._process.close()
+        ended(self._process, self._connection)
         self._process, self._connection = None, None
 
 
