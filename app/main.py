@@ -29,6 +29,7 @@ from app.api.routes import Application
 from app.api.service import Readiness, service_router
 from app.api.singularity import singularity_operation
 from app.api.statics import statics_operation
+from app.api.trajectory import trajectory_operation
 from app.api.velocity import velocity_operation
 from app.api.workspace import SampleLimits, workspace_route
 from app.jobs.runner import Runner
@@ -38,8 +39,8 @@ from app.store.library import Library
 
 DESCRIPTION = """
 A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics, velocities,
-forces, singularities, dynamics and workspaces come out, each answer recomputed before it is sent (a sample of a large
-batch), and the course's calculators stand beside them.
+forces, singularities, dynamics, trajectories and workspaces come out, each answer recomputed before it is sent (a
+sample of a large batch), and the course's calculators stand beside them.
 
 Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A pose `T_a_b` is that of b in a; a
 quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the
@@ -115,6 +116,7 @@ def create_app(settings: Settings) -> FastAPI:
         manipulability_operation(most),
         velocity_operation(most),
         singularity_operation(most),
+        trajectory_operation(most),
     ):
         handler = operation.computation.handler(library, executor)
         app.operations[operation.name] = handler

@@ -7,5 +7,7 @@
 - `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to
   a robot; `loads` and `velocity_call` read what several of their fields share.
+- `trajectory`: motions; `trajectory_request` and `trajectory_limits` read what is asked, `trajectory_samples` and
+  `trajectory_answer` tell what came of it.
 - `course_…`: the calculators of the course, on `course`; `jobs`: long work.
 """

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 
-from app.api.payloads import NPY, PNG, SVG
+from app.api.payloads import CSV, NPY, PNG, SVG
 from app.api.problems import MEDIA_TYPE
 from app.schemas.problem import Problem
 
@@ -34,6 +34,11 @@ def json_example(value: dict[str, Any]) -> dict[str, Any]:
 def npy_content(description: str) -> dict[str, Any]:
     """An array, as a further media type of a body."""
     return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
+
+
+def csv_content(description: str | None) -> dict[str, Any]:
+    """A table, as a further media type of an answer; none where there is no description of what it holds."""
+    return {} if description is None else {CSV: {"schema": {"type": "string", "description": description}}}
 
 
 def picture_content(description: str | None) -> dict[str, Any]:

@@ -38,6 +38,7 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.JobTookTooLong: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.AuditFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
 }
 """A class not listed has its nearest ancestor's status."""
 
@@ -195,9 +196,9 @@ def _place(error: errors.KinematicsError) -> str | None:
     """Where in the payload the core found something wrong, where it can be said."""
     match error:
         case errors.InvalidField(field=field):
-            return f"#/{field}"
+            return _of_field(field)
         case errors.UnknownFrame(field=str(field)):
-            return f"#/{field}"
+            return _of_field(field)
         case errors.InvalidUrdf():
             return "#/urdf"
         case errors.InvalidDhTable(joint=None):
@@ -209,7 +210,12 @@ def _place(error: errors.KinematicsError) -> str | None:
     index, field = getattr(error, "index", None), getattr(error, "field", "joint_positions")
     if field is None or not hasattr(error, "index"):
         return None
-    return f"#/{field}" if index is None else f"#/{field}/{index}"
+    return _of_field(field) if index is None else f"{_of_field(field)}/{index}"
+
+
+def _of_field(field: str) -> str:
+    """`segments.1.via` → `#/segments/1/via`."""
+    return "#/" + field.replace(".", "/")
 
 
 def _pointer(location: Sequence[int | str]) -> str:

@@ -9,7 +9,7 @@ a robot, which are called thousands of times a second, are found by `Application
 import asyncio
 import inspect
 import re
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
@@ -21,13 +21,15 @@ from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
 from app.api import problems
-from app.api.openapi import RobotPath, json_example, npy_content, picture_content, problem_responses
+from app.api.openapi import RobotPath, csv_content, json_example, npy_content, picture_content, problem_responses
 from app.api.payloads import (
+    CSV,
     JSON,
     NPY,
     PNG,
     SVG,
     BoundedRequest,
+    csv_response,
     json_response,
     npy_response,
     read_json,
@@ -123,11 +125,13 @@ class Outcome:
         array: For npy, with headers that say what the array cannot; None where the call asked for something that one
             array cannot hold.
         picture: For an image, as `svg` or `png`.
+        columns: Names of the array's columns, for CSV.
     """
 
     content: Callable[[], Any]
     array: Callable[[], tuple[Array, dict[str, str]]] | None
     picture: Callable[[PictureFormat], bytes] | None = None
+    columns: Sequence[str] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,27 +141,30 @@ class Computation(Generic[_Request]):
     Attributes:
         run: The operation.
         request: What it takes as JSON.
-        options: The same without the array that an npy body brings.
-        array_field: The field that such an array stands for.
         is_heavy: Whether a request of few bytes can still be much work.
+        options: The same without the array that an npy body brings; None where there is no such body.
+        array_field: The field that such an array stands for.
         attempt: The operation where it is quick; None when called if it is not.
         picture: What an image of the answer shows, where there is one; it is drawn in a thread.
+        table: What the answer holds as CSV, where there is one.
     """
 
     run: Callable[[LoadedRobot, _Request], Outcome]
     request: type[_Request]
-    options: type[Payload]
-    array_field: str
     is_heavy: Callable[[_Request], bool]
+    options: type[Payload] | None = None
+    array_field: str = ""
     attempt: Callable[[LoadedRobot, _Request], Outcome | None] | None = None
     picture: str | None = None
+    table: str | None = None
 
     def handler(self, library: Library, executor: Executor) -> Handler:
         """What answers its requests: on the event loop where that is quick, else in a thread."""
-        offered = (JSON, NPY) if self.picture is None else (JSON, NPY, SVG, PNG)
+        offered = (JSON, NPY, *((CSV,) if self.table else ()), *((SVG, PNG) if self.picture else ()))
+        taken = (JSON,) if self.options is None else (JSON, NPY)
 
         async def handle(request: BoundedRequest) -> Response:
-            npy_in, wanted = _is_npy(request), request.preferred(offered)
+            npy_in, wanted = _is_npy(request, taken), request.preferred(offered)
             body = await request.body()
             name: str = request.path_params["robot"]
 
@@ -178,7 +185,7 @@ class Computation(Generic[_Request]):
         return handle
 
     def _parse(self, request: Request, body: bytes, npy: bool) -> _Request:
-        if not npy:
+        if not npy or self.options is None:
             if request.scope["query_string"]:
                 raise InvalidField("query", "parameters go with an npy body; a JSON call has them as fields")
             return read_json(self.request, body)
@@ -197,9 +204,9 @@ class Operation:
         summary: In a few words.
         computation: What it does; its docstring is the description.
         answer: Model of the JSON answer.
-        npy_body: What an npy body holds.
         npy_answer: What the npy answer holds.
         example: A JSON request that runs as it stands, on the Panda.
+        npy_body: What an npy body holds, where one is taken.
     """
 
     name: str
@@ -207,9 +214,9 @@ class Operation:
     summary: str
     computation: Computation[Any]
     answer: type[Answer]
-    npy_body: str
     npy_answer: str
     example: dict[str, Any]
+    npy_body: str | None = None
 
     def route(self, handler: Handler, max_body_bytes: int) -> DocumentedRoute:
         """Its route: it documents the operation and refuses other methods; `Application` sees the calls first."""
@@ -217,6 +224,8 @@ class Operation:
         def endpoint(robot: str, call: Any) -> Any: ...
 
         endpoint.__annotations__ = {"robot": RobotPath, "call": self.computation.request, "return": self.answer}
+        shapes = npy_content(self.npy_answer) | csv_content(self.computation.table)
+        body = json_example(self.example) | ({} if self.npy_body is None else npy_content(self.npy_body))
         return DocumentedRoute(
             f"/v1/robots/{{robot}}/{self.name}",
             endpoint,
@@ -228,17 +237,17 @@ class Operation:
             description=inspect.getdoc(self.computation.run),
             tags=["Kinematics"],
             responses={
-                200: {"content": {**npy_content(self.npy_answer), **picture_content(self.computation.picture)}},
+                200: {"content": {**shapes, **picture_content(self.computation.picture)}},
                 **problem_responses(400, 404, 413, 415, 422),
             },
-            openapi_extra={"requestBody": {"content": {**json_example(self.example), **npy_content(self.npy_body)}}},
+            openapi_extra={"requestBody": {"content": body}},
         )
 
 
-def _is_npy(request: BoundedRequest) -> bool:
+def _is_npy(request: BoundedRequest, taken: Sequence[str]) -> bool:
     given = request.media_type
-    if given not in {JSON, NPY}:
-        raise UnsupportedMediaType(given, (JSON, NPY))
+    if given not in taken:
+        raise UnsupportedMediaType(given, taken)
     return given == NPY
 
 
@@ -251,4 +260,6 @@ def _response(outcome: Outcome, wanted: str) -> Response:
         return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
     if outcome.array is None:
         raise InvalidArray("what this call asks for does not fit into one array: leave `Accept` out for JSON")
+    if wanted == CSV and outcome.columns is not None:
+        return csv_response(outcome.columns, *outcome.array())
     return npy_response(*outcome.array())

@@ -35,7 +35,8 @@
     ├── ServiceStopping              the service takes no more work
     ├── JobTookTooLong               a job that was ended
     ├── TooManyJobs                  so many wait that another one has to be asked for later
-    └── CertificationFailed          two computations of the same number disagree: never sent
+    ├── CertificationFailed          two computations of the same number disagree: never sent
+    └── AuditFailed                  a motion breaks what was promised of it: never sent
 
 Not converging, or a target out of reach, is a result with a reason and no error.
 """
@@ -268,13 +269,14 @@ class OutsideLimits(InvalidInput):
     value: float
     lower: float
     upper: float
-    index: int
+    index: int | None
+    field: str = "joint_positions"
 
     @property
     def detail(self) -> str:
         """The joint, its value and its limits."""
         return (
-            f"configuration {self.index}: joint {quoted(self.joint)} at {self.value:.17g} "
+            f"{_configuration(self.index, self.field)}: joint {quoted(self.joint)} at {self.value:.17g} "
             f"is outside its limits [{self.lower:.17g}, {self.upper:.17g}]"
         )
 
@@ -574,3 +576,15 @@ class CertificationFailed(KinematicsError):
             f"the answer was withheld: {self.quantity} computed in two independent ways differs by "
             f"{self.error:.3g}, more than {self.tolerance:.3g}"
         )
+
+
+@dataclass(eq=False)
+class AuditFailed(KinematicsError):
+    """A motion does not keep to what was promised of it: the answer is withheld."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """What it breaks."""
+        return f"the motion was withheld: it does not pass its audit: {self.reason}"

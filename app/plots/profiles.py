@@ -10,7 +10,20 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from app.model.arrays import Array
-from app.plots.figure import INK, LINE, QUIET, RULE, TITLE, PictureFormat, as_bytes, font, new_figure, plain, write
+from app.plots.figure import (
+    INK,
+    LINE,
+    LINK,
+    QUIET,
+    RULE,
+    TITLE,
+    PictureFormat,
+    as_bytes,
+    font,
+    new_figure,
+    plain,
+    write,
+)
 from app.trajectory.polynomial import PiecewisePolynomial
 
 _COLORS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b4c9a", "#1f2933")
@@ -20,6 +33,26 @@ _POINTS = 600
 _A_ROW = 4
 _MARGIN = 0.06
 _FEW_PIECES = 30
+_LIMIT_DASHES: Final = (0.0, (5.0, 3.0))
+_ROOM = 0.012
+"""Width of a character, as a share of a panel's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A part of the motion with limits of its own.
+
+    Attributes:
+        label: What it is.
+        start: [s].
+        end: [s].
+        limits: Of velocity, acceleration and jerk; each of shape (n,).
+    """
+
+    label: str
+    start: float
+    end: float
+    limits: Sequence[Array]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,12 +64,14 @@ class Lines:
         units: Of a position, a velocity, …; four of them.
         limits: Of velocity, acceleration and jerk; each of shape (n,), None where there is none.
         knots: Times and positions that are marked; shapes (K,) and (K, n); None for none.
+        spans: Parts one after the other, whose limits stand in the place of `limits`; their ends are marked.
     """
 
     names: Sequence[str]
     units: Sequence[str]
     limits: Sequence[Array | None]
     knots: tuple[Array, Array] | None = None
+    spans: Sequence[Span] = ()
 
 
 def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind: PictureFormat) -> bytes:
@@ -57,12 +92,14 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind
     step = (top - bottom) / 4.0
     for order, name in enumerate(("position", "velocity", "acceleration", "jerk")):
         axes = figure.add_axes((0.14, top - (order + 1) * step + 0.012, 0.825, step - 0.024))
-        limit = None if order == 0 else lines.limits[order - 1]
         _style(axes, f"{name}\n{lines.units[order]}", is_last=order == 3)
-        _draw(axes, motion.derivative(order), limit)
-        if order == 0 and lines.knots is not None:
+        _draw(axes, motion.derivative(order))
+        if order > 0:
+            _limit(axes, lines, order - 1)
+        elif lines.knots is not None:
             _mark(axes, *lines.knots)
         _frame(axes, motion)
+        _divide(axes, lines.spans, is_named=order == 0)
     if joints > 1:
         _legend(figure, lines.names, height)
     return as_bytes(figure, kind)
@@ -103,18 +140,57 @@ def curve(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     return (motion.breaks[:-1, None] + local).ravel(), values.reshape(pieces * count, -1)
 
 
-def _draw(axes: Axes, motion: PiecewisePolynomial, limit: Array | None) -> None:
+def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
     times, values = curve(_trimmed(motion))
     for j in range(values.shape[1]):
         color, dashes = _look(j)
         axes.plot(times, values[:, j], color=color, linewidth=1.5, dashes=dashes, zorder=3)
-    if limit is None:
+
+
+def _limit(axes: Axes, lines: Lines, which: int) -> None:
+    """The limits of all joints to either side, one line where they have it in common."""
+    if not lines.spans:
+        limit = lines.limits[which]
+        if limit is not None:
+            for bound, color in _bounds(limit[None]):
+                for side in (bound, -bound):
+                    axes.axhline(float(side[0]), color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
         return
-    is_common = bool(np.all(limit == limit[0]))
-    for j, bound in enumerate(limit[:1] if is_common else limit):
-        color = QUIET if is_common else _look(j)[0]
+    # What is no number between two spans leaves a gap in the line.
+    times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
+    limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
+    for bound, color in _bounds(limits):
         for side in (bound, -bound):
-            axes.axhline(float(side), color=color, linewidth=1.0, linestyle=(0, (5, 3)), zorder=2)
+            axes.plot(times, side, color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
+
+
+def _bounds(limits: Array) -> list[tuple[Array, str]]:
+    """Limits over time and their colours, each once; one that joints share is nobody's; shape (K, n) → (K,) each."""
+    found, joints, counts = np.unique(limits, axis=1, return_index=True, return_counts=True)
+    return [
+        (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else QUIET)
+        for k in range(found.shape[1])
+    ]
+
+
+def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
+    """Where one part becomes the next; what each is stands above it, where there is room."""
+    whole = spans[-1].end - spans[0].start if spans else 0.0
+    for span in spans[1:]:
+        axes.axvline(span.start, color=LINK, linewidth=1.2, zorder=1)
+    for span in spans if is_named else ():
+        if span.end - span.start > _ROOM * len(span.label) * whole:
+            axes.text(
+                0.5 * (span.start + span.end),
+                1.02,
+                plain(span.label),
+                transform=axes.get_xaxis_transform(),
+                fontproperties=font(8.0),
+                color=QUIET,
+                ha="center",
+                va="bottom",
+                parse_math=False,
+            )
 
 
 def _trimmed(motion: PiecewisePolynomial) -> PiecewisePolynomial:

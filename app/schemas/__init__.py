@@ -8,6 +8,7 @@
 - `kinematics`: requests and answers of forward kinematics and the Jacobian.
 - `ik`: requests and answers of inverse kinematics.
 - `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: the other questions to a robot.
+- `trajectory`, `trajectory_answer`: requests and answers of motions.
 - `course_…`: the calculators of the course. `jobs`: long work.
 - `problem`: an error.
 """

@@ -10,6 +10,16 @@
   it a second time, `fly_over_steps` writes it down.
 - `jerk_limited`: from one state to another in the least time, on ruckig. `time_optimal`: along a given path, by
   `reachability` of path speeds, on `intervals` whose limits hold in between too.
+- `joint_motion`: from point to point by any law; `joint_splines`, `via_blends` through or past `joint_waypoints`;
+  `joint_excess` tells where a motion leaves the joints' limits.
+- `follow`: joints along a way of the tip, on one branch: `follow_trace` takes steps (`follow_step`) of a
+  `follow_course` within `follow_bounds`, `follow_damped` leaves the way near singularities, `follow_verdict` says why
+  it ends; all see J's `follow_rows` that count.
+- `timing`: the time that joints take along a way, by `way_laws` and `s_curves` or time-optimally, under limits of
+  joints and tip (`way_geometry`, `way_peaks`, `tip_rows`); `composition` makes one polynomial of way and law;
+  `passing_times` is the law of given times.
+- `problem`: what is asked of a trajectory and what comes of it; `plan` joins its `parts`: `joint_part`, and `tip_part`
+  along `ways`; `whole_audit` joins their judgements.
 - `audit`: a motion judged by code that shares nothing with what planned it: `audit_pieces` of the joints, `audit_tip`
   of the tip, by `audit_demands`.
 """

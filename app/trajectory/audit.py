@@ -58,7 +58,7 @@ class Margin:
 
 @dataclass(frozen=True, slots=True)
 class Singularity:
-    """The smallest singular value of the geometric Jacobian along the way; metres and radians are mixed."""
+    """The smallest singular value of the geometric Jacobian's rows that count; metres and radians are mixed."""
 
     value: float
     time: float
@@ -149,10 +149,17 @@ def audit(robot: Robot, chain: Chain, motion: PiecewisePolynomial, demands: Dema
         tip,
         deviations.get("position"),
         deviations.get("orientation"),
-        _singularity(pieces, chain),
+        _singularity(pieces, chain, demands),
         certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
         tuple(reasons),
     )
+
+
+def meetings(chain: Chain, motion: PiecewisePolynomial) -> tuple[tuple[Peak, ...], tuple[Reason, ...]]:
+    """The largest jumps of a motion whose parts have been judged, and whether position or velocity jumps."""
+    reasons: list[Reason] = []
+    jumps = _jumps(pieces_of(motion), chain.joint_names, Demands(), {}, reasons)
+    return jumps, tuple(reasons)
 
 
 def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reasons: list[Reason]) -> dict[str, Peak]:
@@ -257,7 +264,7 @@ def _tip(
     tolerances = {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
     tip: dict[str, Peak] = {}
     deviations: dict[str, Peak] = {}
-    for quantity, found in tip_peaks(pieces, chain, demands.path).items():
+    for quantity, found in tip_peaks(pieces, chain, demands.path, demands.task).items():
         of_tip = quantity in _TIP_UNITS
         limit = getattr(demands.tip, quantity) if of_tip else tolerances[quantity]
         ratio = float(_ratios(np.array(found.value), np.array(limit))) if math.isfinite(limit) else None
@@ -277,8 +284,8 @@ def _tip_reason(quantity: str, value: float, limit: float, time: float) -> Reaso
     return Reason("path", detail, None, time)
 
 
-def _singularity(pieces: Pieces, chain: Chain) -> Singularity | None:
+def _singularity(pieces: Pieces, chain: Chain, demands: Demands) -> Singularity | None:
     if not len(chain):
         return None
-    found = smallest_singular_value(pieces, chain)
+    found = smallest_singular_value(pieces, chain, demands.task)
     return Singularity(found.value, found.time)

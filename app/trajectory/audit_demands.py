@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
+from app.kinematics.ik.task import FULL_POSE, Task
 from app.model.arrays import Array
 from app.trajectory.audit_tip import PathOfTime
 
@@ -66,6 +67,7 @@ class Demands:
         tip: Limits of the tip.
         ends: Where it begins and ends.
         path: Pose wanted at each time; none if left out.
+        task: Directions in which it, and nearness to a singularity, counts.
         path_tolerance: Allowed distance from it, [m].
         orientation_tolerance: Allowed angle from it, [rad].
         continuous: Derivatives up to this order do not jump; 1 is C¹.
@@ -77,6 +79,7 @@ class Demands:
     tip: TipLimits = field(default_factory=TipLimits)
     ends: Ends = field(default_factory=Ends)
     path: PathOfTime | None = None
+    task: Task = FULL_POSE
     path_tolerance: float = 1e-4
     orientation_tolerance: float = 1e-3
     continuous: int = 1

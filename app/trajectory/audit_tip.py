@@ -10,6 +10,7 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
+from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.kernels import chain_jacobians, chain_poses
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
@@ -67,8 +68,11 @@ def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
     return Grid(piece, within / last, np.maximum(within - 1, 0) / last, np.minimum(within + 1, last) / last)
 
 
-def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None) -> dict[str, Largest]:
-    """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad]."""
+def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE) -> dict[str, Largest]:
+    """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad].
+
+    Of the path only the directions of the task count.
+    """
     names = QUANTITIES if path is not None else QUANTITIES[:4]
 
     def quantities(piece: Indices, tau: Array) -> Array:
@@ -76,7 +80,7 @@ def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None) -> dict[str
         positions, rotations, Js = chain_jacobians(chain.flat, qs)
         columns = _tip_motion(chain, qs, velocities, accelerations, Js)
         if path is not None:
-            columns += _deviations(Poses(positions, rotations), path(pieces.times(piece, tau)))
+            columns += _deviations(Poses(positions, rotations), path(pieces.times(piece, tau)), task)
         # A path that has no pose somewhere is as far away as can be.
         return np.nan_to_num(np.column_stack(columns), nan=np.inf)
 
@@ -85,23 +89,31 @@ def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None) -> dict[str
     return dict(zip(names, _refined(pieces, samples, values, quantities), strict=True))
 
 
-def smallest_singular_value(pieces: Pieces, chain: Chain) -> Largest:
-    """The smallest σ of the geometric Jacobian along the way, of its 6 or n; metres and radians are mixed.
+def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
+    """The smallest σ of the geometric Jacobian along the way, of its rows that count or of n; metres and radians mixed.
 
     Eigenvalues of J Jᵀ (Jᵀ J where it is smaller) say where; the decomposition of J itself how much.
     """
+    rows = np.flatnonzero(task.weights)
+
+    def jacobians(piece: Indices, tau: Array) -> Array:
+        _, rotations, Js = chain_jacobians(chain.flat, pieces.at(piece, tau, 0))
+        if task == FULL_POSE:
+            return Js
+        # Directions of rotation are those of the tip's axes.
+        turned = np.concatenate((Js[:, :3], rotations.transpose(0, 2, 1) @ Js[:, 3:]), axis=1)
+        return turned[:, rows]
 
     def exact(piece: Indices, tau: Array) -> Array:
-        Js = chain_jacobians(chain.flat, pieces.at(piece, tau, 0))[2]
-        return cast(Array, -np.linalg.svd(Js, compute_uv=False)[:, -1:])
+        return cast(Array, -np.linalg.svd(jacobians(piece, tau), compute_uv=False)[:, -1:])
 
     def estimate(piece: Indices, tau: Array) -> Array:
-        Js = chain_jacobians(chain.flat, pieces.at(piece, tau, 0))[2]
-        squares = Js @ Js.transpose(0, 2, 1) if len(chain) >= 6 else Js.transpose(0, 2, 1) @ Js
+        Js = jacobians(piece, tau)
+        squares = Js @ Js.transpose(0, 2, 1) if len(chain) >= len(rows) else Js.transpose(0, 2, 1) @ Js
         return cast(Array, -np.sqrt(np.maximum(np.linalg.eigvalsh(squares)[:, :1], 0.0)))
 
     samples = _thinned(grid(pieces, _SIGMA_SAMPLES, 1))
-    values = np.concatenate([estimate(samples.piece[rows], samples.tau[rows]) for rows in _chunks(len(samples.tau))])
+    values = np.concatenate([estimate(samples.piece[some], samples.tau[some]) for some in _chunks(len(samples.tau))])
     found = _refined(pieces, samples, values, exact)[0]
     return Largest(-found.value, found.time)
 
@@ -144,8 +156,10 @@ def _difference(chain: Chain, qs: Array, steps: Array) -> Array:
     return difference
 
 
-def _deviations(poses: Poses, wanted: Poses) -> list[Array]:
+def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
     """Distance [m] and angle [rad] between poses, pair by pair; shape (N,) each."""
+    if task != FULL_POSE:
+        return list(task.errors(wanted, poses))
     distances = np.linalg.norm(poses.positions - wanted.positions, axis=1)
     chords = np.sqrt(np.sum((poses.rotations - wanted.rotations) ** 2, axis=(1, 2)) / 8.0)
     return [distances, 2.0 * np.arcsin(np.minimum(chords, 1.0))]

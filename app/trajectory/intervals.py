@@ -50,9 +50,9 @@ def rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
     for j in range(size):
         square[:, j : j + size] += slope[:, j : j + 1] * slope
     velocity, acceleration = limits
-    forces = [_bernstein(c) / acceleration for c in (slope * (2 * k + 1), bend)]
+    forces = [bernstein(c) / acceleration for c in (slope * (2 * k + 1), bend)]
     shifted = np.roll(square, 1, axis=1) * 2.0 * length  # The last coefficient is zero.
-    speeds = [_bernstein(c) / velocity**2 for c in (shifted, square)]
+    speeds = [bernstein(c) / velocity**2 for c in (shifted, square)]
     alpha, beta = (
         np.concatenate((force, -force, speed), axis=1).reshape(len(pieces), -1)
         for force, speed in zip(forces, speeds, strict=True)
@@ -60,7 +60,7 @@ def rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
     return alpha, beta
 
 
-def _bernstein(c: Array) -> Array:
+def bernstein(c: Array) -> Array:
     """Bernstein coefficients on [0, 1] of polynomials, from those of the powers; shape (N, d + 1, n)."""
     degree = c.shape[1] - 1
     matrix = [[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)]

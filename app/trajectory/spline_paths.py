@@ -79,6 +79,12 @@ class PolynomialPath:
         """See `Path`: none, as far as position and orientation are smooth in u."""
         return ()
 
+    @property
+    def knots(self) -> Array:
+        """Where along the way each break of the position is, as s; shape (M + 1,), [m]."""
+        edges, lengths = self._table
+        return lengths[np.searchsorted(edges, self.position.breaks)]
+
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
         u = self._parameters(s)

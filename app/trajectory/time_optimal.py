@@ -10,7 +10,9 @@ All is done twice: for the second time nodes are put where u switches, and withi
 Along a straight line the result is then the trapezoid to rounding.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -19,6 +21,9 @@ from app.model.errors import InvalidField, TooLarge
 from app.trajectory.intervals import composed, cut, rows
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.reachability import controllable, fastest, stages
+
+Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
+"""α and β of rows αu + βx ≤ 1 on the intervals between nodes from 0 to 1; shape (N + 1,) → (N, m) each."""
 
 INTERVALS = 200
 LARGEST_PATH = 35_000
@@ -69,6 +74,7 @@ class _Task:
         is_corner: At which breaks it has to stop; shape (M + 1,).
         start: The least and the largest ṡ² at its start.
         end: The same at its end.
+        rows: What else is asked; None for nothing.
     """
 
     path: PiecewisePolynomial
@@ -76,6 +82,7 @@ class _Task:
     is_corner: Flags
     start: tuple[float, float]
     end: tuple[float, float]
+    rows: Rows | None
 
 
 def time_optimal(
@@ -86,6 +93,7 @@ def time_optimal(
     start_velocity: float = 0.0,
     end_velocity: float = 0.0,
     intervals: int = INTERVALS,
+    further: Rows | None = None,
 ) -> TimeOptimal:
     """The fastest motion along a path; the limits are kept everywhere.
 
@@ -99,6 +107,8 @@ def time_optimal(
         end_velocity: ṡ ≥ 0 at its end.
         intervals: About how many, four in each piece of the path at least. More come nearer to the optimum: 200 are
             within 1.5 % of it along splines through up to 20 knots.
+        further: What else u = s̈ and x = ṡ² at the start of each interval have to keep to, the path taken from 0 to 1;
+            u = x = 0 has to.
 
     Returns:
         The motion, from time 0 on. Along a path of no length (≤ 1e-13) it is one piece whose two breaks are the same.
@@ -113,7 +123,7 @@ def time_optimal(
     if travels.max(initial=0.0) <= _NO_LENGTH:
         law = PiecewisePolynomial(np.zeros(2), path.breaks[None, -1:, None])
         return TimeOptimal(law, PiecewisePolynomial(np.zeros(2), path.at(path.breaks[-1:])[None]))
-    task = _task(path, velocity, acceleration, (start_velocity, end_velocity))
+    task = _task(path, velocity, acceleration, (start_velocity, end_velocity), further)
     nodes = _nodes(task, travels, intervals // 2)
     x = _squared_speeds(task, nodes, path.duration)
     more = np.sort(np.concatenate((_switches(nodes, x), _between(task, nodes, _time_law(nodes, x), intervals))))
@@ -143,7 +153,9 @@ def _travels(path: PiecewisePolynomial) -> Array:
     return travels
 
 
-def _task(path: PiecewisePolynomial, velocity: Array, acceleration: Array, ends: tuple[float, float]) -> _Task:
+def _task(
+    path: PiecewisePolynomial, velocity: Array, acceleration: Array, ends: tuple[float, float], further: Rows | None
+) -> _Task:
     length = path.duration
     powers = length ** np.arange(path.coefficients.shape[1])[:, None]
     unit = PiecewisePolynomial((path.breaks - path.breaks[0]) / length, path.coefficients * powers)
@@ -164,7 +176,7 @@ def _task(path: PiecewisePolynomial, velocity: Array, acceleration: Array, ends:
         _speeds(field, speed, length, np.abs(slope), velocity, float(_STILL * steepest))
         for field, speed, slope in zip(("start_velocity", "end_velocity"), ends, (before[0], after[-1]), strict=True)
     )
-    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), start, end)
+    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), start, end, further)
 
 
 def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
@@ -211,7 +223,11 @@ def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
     stops = np.append(task.path.breaks[task.is_corner], 1.0)
     next_stops = stops[np.searchsorted(stops, nodes[:-1], side="right")]
     kept = _KEPT * (next_stops - nodes[1:]) / (next_stops - nodes[:-1])
-    course = stages(lengths, *rows(cut(task.path, nodes), lengths, task.limits), kept)
+    alpha, beta = rows(cut(task.path, nodes), lengths, task.limits)
+    if task.rows is not None:
+        more = task.rows(nodes)
+        alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
+    course = stages(lengths, alpha, beta, kept)
     caps = np.where(np.isin(nodes, stops[:-1]), 0.0, np.inf)
     least, most = controllable(course, caps, task.end)
     if task.start[0] > most[0] * (1.0 + 4.0 * MARGIN):

@@ -24,6 +24,10 @@ from app.store.archive import unpacked
 from app.store.folders import writing
 from app.store.library import Library, RobotUpload
 from app.store.records import read_record
+from app.trajectory.audit import audit
+from app.trajectory.audit_demands import Demands
+from app.trajectory.plan import refuse_failed
+from app.trajectory.polynomial import PiecewisePolynomial
 from tests.robots import robot
 
 CATALOGUE = Path("robots")
@@ -32,6 +36,7 @@ SHIP = """<robot name="ship"><link name="sea"/><link name="hull"/><link name="cr
 <joint name="slew" type="continuous"><parent link="hull"/><child link="crane"/><axis xyz="0 0 1"/></joint>
 </robot>"""
 PLANAR = robot("planar_2r")
+JUMP = PiecewisePolynomial(np.arange(3.0), np.array([[[0.0, 0.0]], [[1.0, 0.0]]]))
 WRONG = {"tool": Poses(np.zeros((1, 3)), np.eye(3)[None])}
 
 EXAMPLES: dict[type[errors.KinematicsError], tuple[str, str, object]] = {
@@ -101,6 +106,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.ServiceStopping: lambda: on_a_shelf(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
     errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "") for _ in range(3)]),
+    errors.AuditFailed: lambda: refuse_failed(audit(PLANAR, PLANAR.chain(None, None), JUMP, Demands())),
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }
 """What needs more than a request, or a state that no request can bring about."""

@@ -109,6 +109,7 @@ def test_outside_limits(joint: int, side: str) -> None:
         "lower": panda.lower[joint],
         "upper": panda.upper[joint],
         "index": 1,
+        "field": "joint_positions",
     }
 
 

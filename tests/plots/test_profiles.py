@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from app.model.arrays import Array
 from app.plots import profiles as module
-from app.plots.figure import PictureFormat
-from app.plots.profiles import Lines, curve, profiles_picture
+from app.plots.figure import QUIET, PictureFormat
+from app.plots.profiles import Lines, Span, curve, profiles_picture
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.splines import cubic_spline
 from app.trajectory.trapezoid import Task, point_to_point
@@ -86,3 +86,29 @@ def test_sizes(size: float) -> None:
     c[0, 1:, 0] = size
     for breaks in (np.array([0.0, 1.0]), np.zeros(2), np.array([1e6 - 1e-3, 1e6])):
         assert profiles_picture("", PiecewisePolynomial(breaks, c), lines(1), "svg").startswith(b"<?xml")
+
+
+def test_parts_are_marked_and_have_their_own_limits(figures: list[Figure]) -> None:
+    motion = trapezoid()
+    wide, narrow = [np.array([0.5, 0.8])] * 3, [np.array([0.4, 0.4])] * 3
+    spans = [Span("0 joint", 0.0, 1.0, wide), Span("1 line", 1.0, float(motion.breaks[-1]), narrow)]
+    profiles_picture("A motion", motion, Lines(["a", "b"], UNITS, (None, None, None), spans=spans), "svg")
+    panels = figures[0].axes
+    assert [text.get_text() for text in panels[0].texts] == ["0 joint", "1 line"]
+    assert all(any(np.all(np.asarray(line.get_xdata()) == 1.0) for line in axes.lines) for axes in panels)
+    drawn = [np.array(line.get_data()) for line in panels[1].lines if line.get_linestyle() == "--"]
+    steps = {tuple(values[np.isfinite(times)].tolist()) for times, values in drawn}
+    assert steps == {(k * a, k * a, k * 0.4, k * 0.4) for a in (0.5, 0.8) for k in (1, -1)}
+
+
+def test_a_limit_that_joints_share_has_no_ones_colour(figures: list[Figure]) -> None:
+    bounds = np.array([0.5, 0.5, 0.7])
+    motion = cubic_spline(np.array([0.0, 1.0]), np.array([[0.0, 0.0, 0.0], [0.1, 0.2, 0.3]]), "clamped").motion
+    profiles_picture("A motion", motion, lines(3, (bounds, None, None)), "svg")
+    colours = {
+        float(np.asarray(line.get_ydata())[0]): line.get_color()
+        for line in figures[0].axes[1].lines
+        if line.get_linestyle() == "--"
+    }
+    assert colours[0.5] == QUIET
+    assert colours[0.7] == "#009e73"

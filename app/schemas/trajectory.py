@@ -1,0 +1,245 @@
+"""Requests of trajectories."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from app.kinematics.ik.task import Direction
+from app.schemas.common import ChainOptions, Payload
+from app.schemas.course_motion import Duration
+from app.schemas.kinematics import ByName, ByOrder, Configuration
+from app.schemas.pose import ORIENTATIONS, Pose, PoseFormat
+from app.trajectory.problem import Law, NearSingularity, OrientationLaw
+from app.trajectory.splines import Boundary
+
+MAX_SEGMENTS = 100
+MAX_WAYPOINTS = 1000
+"""Of all segments together."""
+
+_POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
+
+
+def _target_kind(value: Any) -> str:
+    """A joint may be called `position`: of a configuration by name, each value is a number."""
+    if not isinstance(value, dict):
+        return "<list>"
+    is_pose = any(key in _POSE_FIELDS and not isinstance(part, int | float) for key, part in value.items())
+    return "<pose>" if is_pose else "<object>"
+
+
+def _limit_kind(value: Any) -> str:
+    return "<list>" if isinstance(value, list) else "<object>" if isinstance(value, dict) else "<number>"
+
+
+def _segment_kind(value: Any) -> str:
+    return f"<{value.get('type')}>" if isinstance(value, dict) else "<none>"
+
+
+Target = Annotated[
+    Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")] | Annotated[Pose, Tag("<pose>")],
+    Discriminator(_target_kind),
+]
+"""A configuration, or a pose of the tip."""
+
+_Bound = Annotated[float, Field(ge=1e-6, le=1e6)]
+_Scale = Annotated[float, Field(ge=1e-6, le=1.0)]
+JointValues = Annotated[
+    Annotated[_Bound, Tag("<number>")]
+    | Annotated[list[_Bound], Field(max_length=128, fail_fast=True), Tag("<list>")]
+    | Annotated[dict[str, _Bound], Field(max_length=128), Tag("<object>")],
+    Discriminator(_limit_kind),
+]
+"""A number for all joints, one each, or by name for some: the others keep what they have."""
+
+
+class TrajectoryLimits(Payload):
+    """What joints and tip may do at most; from 1e-6 to 1e6 each.
+
+    Of the joints one number for all, one number each, base to tip, or an object of numbers by joint name: joints that
+    it leaves out keep what they have.
+    """
+
+    joint_velocity: JointValues | None = Field(
+        default=None,
+        description="|q̇|, [rad/s or m/s]. If left out that of the robot's description; where it has none (or 0, or "
+        "100 and more, which stand for none) 1 rad/s, of a sliding joint 0.25 m/s. One that is given counts also "
+        "where the description's is lower, and `notes` then say so.",
+    )
+    joint_acceleration: JointValues | None = Field(
+        default=None,
+        description="|q̈|, [rad/s² or m/s²]; no robot's description has one. If left out, that with which the limit of "
+        "the velocity is reached in 0.5 s.",
+    )
+    joint_jerk: JointValues | None = Field(
+        default=None,
+        description="|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of "
+        "the acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump is not counted.",
+    )
+    tip_velocity: _Bound | None = Field(None, description="Speed of the tip, [m/s]; none if left out.")
+    tip_acceleration: _Bound | None = Field(None, description="Of the tip, along and across, [m/s²]; none if left out.")
+    tip_angular_velocity: _Bound | None = Field(None, description="‖ω‖ of the tip, [rad/s]; none if left out.")
+    tip_angular_acceleration: _Bound | None = Field(None, description="‖ω̇‖ of the tip, [rad/s²]; none if left out.")
+
+
+class MotionOptions(Payload):
+    """How fast, by which law; of a segment what is left out is the trajectory's."""
+
+    limits: TrajectoryLimits | None = Field(
+        None, description="Of joints and tip; of a segment field by field, what is left out is the trajectory's."
+    )
+    velocity_scale: _Scale | None = Field(
+        None, description="Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out."
+    )
+    acceleration_scale: _Scale | None = Field(
+        None, description="Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
+    )
+
+
+class SegmentOptions(MotionOptions):
+    """What every segment may say for itself."""
+
+    law: Law | None = Field(None, description="Of time; the trajectory's if left out.")
+    duration: Duration | None = Field(
+        None, description="It is to last, [s]; a shorter one than its limits allow is refused."
+    )
+
+
+class JointSegment(SegmentOptions):
+    """All joints together to a configuration, the tip wherever that leads it."""
+
+    type: Literal["joint"]
+    target: Target = Field(
+        description="A configuration, one number a joint or by joint name, [rad or m]; or a pose of `tip_frame` in "
+        "`base_frame`, for which the solution nearest to where the segment begins is taken."
+    )
+
+
+class LineSegment(SegmentOptions):
+    """The tip straight to a pose, from rest to rest unless it is blended."""
+
+    type: Literal["line"]
+    target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
+    blend_radius: float | None = Field(
+        None,
+        ge=0,
+        le=1e6,
+        description="Distance from the target at which this line is left for the next one, along a parabola, without a "
+        "stop, [m]. The next segment must be a line.",
+    )
+    blend_acceleration: _Bound | None = Field(
+        None, description="In the place of `blend_radius`: of the tip within the blend, [m/s²]."
+    )
+    blend_time: Duration | None = Field(None, description="In the place of `blend_radius`: of the blend, [s].")
+    orientation: OrientationLaw = Field(
+        "axis_angle",
+        description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
+        "angles `zyz` each on its straight way, with `zyz_other` to the other triple of the same target.",
+    )
+
+
+class CircleSegment(SegmentOptions):
+    """The tip along the arc through a pose to another, less than once round."""
+
+    type: Literal["circle"]
+    via: Pose = Field(description="Pose of `tip_frame` in `base_frame` on the way, its orientation too.")
+    target: Pose = Field(description="Pose at its end.")
+
+
+class SplineSegment(SegmentOptions):
+    """A cubic spline through configurations, or a smooth way of the tip through poses."""
+
+    type: Literal["spline"]
+    waypoints: list[Target] = Field(
+        min_length=1,
+        max_length=MAX_WAYPOINTS,
+        description="What is passed after the start, the last one the end: all of them configurations, one number a "
+        "joint or by joint name, [rad or m], or all of them poses of `tip_frame` in `base_frame`.",
+    )
+    times: list[Duration] | None = Field(
+        default=None,
+        max_length=MAX_WAYPOINTS,
+        description="When each is passed, after the segment's start, increasing, [s]; if left out they are found from "
+        "the limits.",
+    )
+    boundary: Boundary = Field(
+        "clamped",
+        description="What happens at both ends: `clamped`, at rest; `natural`, without acceleration; `not_a_knot`; "
+        "`periodic`, the end like the start; `assigned`, at rest and without acceleration.",
+    )
+    blends: bool = Field(
+        default=False,
+        description="Of configurations, with the law `trapezoidal`: joints go on straight lines from one to the next, "
+        "with parabolic blends that pass beside the inner ones (Craig's linear segments with parabolic blends); "
+        "`notes` say how far. No spline then, and no boundary.",
+    )
+
+
+Segment = Annotated[
+    Annotated[JointSegment, Tag("<joint>")]
+    | Annotated[LineSegment, Tag("<line>")]
+    | Annotated[CircleSegment, Tag("<circle>")]
+    | Annotated[SplineSegment, Tag("<spline>")],
+    Discriminator(
+        _segment_kind,
+        custom_error_type="segment_type",
+        custom_error_message="a segment has a `type`: joint, line, circle or spline",
+    ),
+]
+
+
+class TrajectoryRequest(ChainOptions, MotionOptions):
+    """A motion from rest to rest through segments, one after the other."""
+
+    start: Configuration = Field(
+        description="Configuration in which it begins, one number a joint of the chain or by joint name, [rad or m]."
+    )
+    segments: list[Segment] = Field(
+        min_length=1,
+        max_length=MAX_SEGMENTS,
+        description=f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at "
+        f"most {MAX_WAYPOINTS} waypoints in all.",
+    )
+    law: Law = Field(
+        "trapezoidal",
+        description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
+        "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
+        "limits of velocity and acceleration allow at each place.",
+    )
+    duration: Duration | None = Field(
+        None, description="The whole is to last, [s]; a shorter one than the limits allow is refused."
+    )
+    sample_period: float = Field(
+        0.01, ge=1e-6, le=1e6, description="From one sample to the next, [s]; the last one is exactly at the end."
+    )
+    path_tolerance: float = Field(
+        1e-4, ge=1e-7, le=1.0, description="Allowed distance of the tip from its way, also between samples, [m]."
+    )
+    orientation_tolerance: float = Field(1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
+    task: list[Direction] | None = Field(
+        None,
+        min_length=1,
+        max_length=6,
+        description="The directions in which the way counts, as in `ik`; all six if left out. `x y z` along the base's "
+        "axes, `rx ry rz` about the way's: `x y z rx ry` is a position and an approach axis.",
+        examples=[["x", "y", "z", "rx", "ry"]],
+    )
+    near_singularity: NearSingularity = Field(
+        "stop",
+        description="What happens on a way of the tip where `min_singular_value` is not kept: `stop`, the motion ends "
+        "there; `damp`, it goes on with damped joints and leaves the way, by how much each segment tells; `slow_down`, "
+        "it goes on exactly, as slowly as the joints' limits ask for.",
+    )
+    min_singular_value: float = Field(
+        0.01,
+        ge=1e-6,
+        le=1e3,
+        description="Smallest singular value of the Jacobian's rows that count below which a configuration is near to "
+        "a singularity, [m or rad] per [rad or m]: units are mixed.",
+    )
+    compare_timing: bool = Field(
+        False,
+        description="Whether the time-optimal duration of each way is told beside that of a law scaled uniformly.",
+    )
+    coefficients: bool = Field(False, description="Whether each segment's polynomials are told, in full.")
+    tip_poses: bool = Field(True, description="Whether the tip's poses at the samples are told.")
+    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")

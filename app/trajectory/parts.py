@@ -1,0 +1,78 @@
+"""A part of a trajectory: from rest to rest, of one segment or of lines that are blended."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.model.arrays import Array
+from app.model.poses import Poses
+from app.trajectory.audit_demands import Demands
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.problem import SegmentReport, StopReason, TimingComparison
+
+
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """Why a part could not be done wholly.
+
+    Attributes:
+        reason: Of what kind.
+        segment: Which one could not be done, from 0.
+        share: Of it that was done, from 0 to 1.
+        position: Of the tip, where it could not go on; shape (3,), [m].
+        joint: Which one is at its limit.
+        detail: In a sentence.
+    """
+
+    reason: StopReason
+    segment: int
+    share: float
+    position: Array
+    joint: str | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of a trajectory, as far as it could be done.
+
+    Attributes:
+        motion: Of the joints, from 0 s on; of one piece that takes no time where nothing moves.
+        reports: Of its segments, as far as they were begun; times from 0 s on.
+        demands: What the motion has to keep to.
+        halt: Why it ends early; None where it is whole.
+        timing: Where it was asked for.
+    """
+
+    motion: PiecewisePolynomial
+    reports: tuple[SegmentReport, ...]
+    demands: Demands
+    halt: Halt | None = None
+    timing: TimingComparison | None = None
+
+    def slowed(self, factor: float) -> "Part":
+        """The same in `factor` times the time."""
+        if factor == 1.0:
+            return self
+        reports = tuple(
+            replace(one, start_time=factor * one.start_time, end_time=factor * one.end_time) for one in self.reports
+        )
+        path = self.demands.path
+        demands = self.demands if path is None else replace(self.demands, path=_slowed(path, factor))
+        return replace(self, motion=self.motion.scaled(factor), reports=reports, demands=demands)
+
+    def moved(self, start: float) -> tuple[SegmentReport, ...]:
+        """Its segments, the part beginning at a time, [s]."""
+        return tuple(
+            replace(one, start_time=start + one.start_time, end_time=start + one.end_time) for one in self.reports
+        )
+
+
+def standing(configuration: Array) -> PiecewisePolynomial:
+    """Joints that stand still, for no time."""
+    return PiecewisePolynomial(np.zeros(2), configuration[None, None, :].copy())
+
+
+def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:
+    return lambda times: path(times / factor)

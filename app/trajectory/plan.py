@@ -1,0 +1,165 @@
+"""A trajectory: its segments one after the other, each planned and timed, and all of it judged.
+
+What can only be done in part is done as far as it can be, from rest to rest, and says where and why it ends. A motion
+that does not pass its audit is not an answer.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from app.kinematics.configuration import check_limits
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import AuditFailed, InvalidField
+from app.model.robot import Robot
+from app.trajectory.audit import Audit, audit
+from app.trajectory.audit_demands import Demands
+from app.trajectory.joint_part import joint_part
+from app.trajectory.parts import Halt, Part, standing
+from app.trajectory.polynomial import PiecewisePolynomial, joined
+from app.trajectory.problem import Failure, Problem, Segment, Trajectory
+from app.trajectory.tip_part import tip_part
+from app.trajectory.ways import is_blended
+from app.trajectory.whole_audit import whole
+
+_SAME_DURATION = 1e-9
+"""Share by which a duration may be less than the shortest one: it is meant to be that."""
+
+_TOLD = 4
+"""Reasons that a refused motion names."""
+_MOMENT = 1e-9
+"""What stands for no time, [s]."""
+
+
+def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
+    """Plan a trajectory.
+
+    Args:
+        robot: The robot.
+        chain: What moves; n variables.
+        problem: What is asked for.
+
+    Raises:
+        InvalidField: A segment makes no sense, or asks for less time than its limits allow.
+        OutsideLimits: It starts beyond a joint's limits.
+        AuditFailed: The motion does not pass its audit.
+    """
+    check_limits(chain, problem.start[None])
+    parts, halt = _parts(robot, chain, problem)
+    factor = _factor(parts, problem, halt)
+    parts = [part.slowed(factor) for part in parts]
+    moving = [part for part in parts if part.motion.duration > 0.0]
+    starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
+    motion = joined([part.motion for part in moving]) if moving else standing(problem.start)
+    judgement = _audited(robot, chain, moving, motion)
+    return Trajectory(
+        motion,
+        tuple(report for part, start in zip(parts, starts[:-1], strict=True) for report in part.moved(float(start))),
+        1.0 if halt is None else (halt.segment + halt.share) / len(problem.segments),
+        None if halt is None else _failure(halt, motion.duration),
+        judgement,
+        tuple(part.timing for part in parts if part.timing is not None),
+    )
+
+
+def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Halt | None]:
+    """What can be done, from rest to rest each, and why that is not all."""
+    parts: list[Part] = []
+    configuration = problem.start
+    for first, segments in _grouped(problem.segments):
+        part = _part(robot, chain, configuration, first, segments, problem)
+        parts.append(part)
+        if part.halt is not None:
+            return parts, part.halt
+        configuration = part.motion.at(part.motion.breaks[-1:])[0]
+    return parts, None
+
+
+def _part(
+    robot: Robot, chain: Chain, start: Array, first: int, segments: tuple[Segment, ...], problem: Problem
+) -> Part:
+    segment = segments[0]
+    if segment.type == "joint" or segment.configurations is not None:
+        return joint_part(robot, chain, start, segment, first, problem)
+    return tip_part(robot, chain, start, segments, first, problem)
+
+
+def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
+    """Segments by themselves, and lines with those that they are blended into.
+
+    Raises:
+        InvalidField: A segment is blended with nothing, or with what is no line, or at another law.
+    """
+    first = 0
+    for i, segment in enumerate(segments):
+        if is_blended(segment):
+            _refuse_unblendable(segments, i)
+            continue
+        yield first, segments[first : i + 1]
+        first = i + 1
+
+
+def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
+    """Refuse a blend that leads nowhere."""
+    field = f"segments.{i}.blend_radius"
+    if i + 1 == len(segments) or segments[i].type != "line" or segments[i + 1].type != "line":
+        raise InvalidField(field, "only a line can be blended, and only into a line that follows it")
+    if segments[i].law != segments[i + 1].law:
+        reason = f"lines that are blended share one law: segment {i + 1} has `{segments[i + 1].law}`"
+        raise InvalidField(f"segments.{i}.law", reason)
+    for k in (i, i + 1):
+        if segments[k].duration is not None:
+            reason = "lines that are blended are timed together: give the `duration` of the trajectory"
+            raise InvalidField(f"segments.{k}.duration", reason)
+
+
+def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
+    """By how much all is slowed down to last as long as asked for.
+
+    Raises:
+        InvalidField: It takes longer already, or some segment has a duration of its own.
+    """
+    if problem.duration is None:
+        return 1.0
+    for i, segment in enumerate(problem.segments):
+        if segment.duration is not None or segment.times is not None:
+            field = "duration" if segment.duration is not None else "times"
+            raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: only one of the two")
+    least = sum(part.motion.duration for part in parts)
+    if halt is not None or least == 0.0:
+        return 1.0
+    if problem.duration < least * (1.0 - _SAME_DURATION):
+        raise InvalidField("duration", f"the limits allow no less than {least:.6g} s")
+    return max(1.0, problem.duration / least)
+
+
+def _audited(robot: Robot, chain: Chain, parts: list[Part], motion: PiecewisePolynomial) -> Audit:
+    """The judgement of a motion that passes.
+
+    Raises:
+        AuditFailed: It does not.
+    """
+    if not parts:
+        # An audit looks at pieces that take time.
+        still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
+        return audit(robot, chain, still, Demands())
+    audits = [audit(robot, chain, part.motion, part.demands) for part in parts]
+    starts = [0.0, *np.cumsum([part.motion.duration for part in parts])[:-1]]
+    judgement = whole(chain, motion, audits, starts)
+    refuse_failed(judgement)
+    return judgement
+
+
+def refuse_failed(judgement: Audit) -> None:
+    """Let no motion pass that breaks what was promised of it.
+
+    Raises:
+        AuditFailed: It does.
+    """
+    if not judgement.passed:
+        raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))
+
+
+def _failure(halt: Halt, time: float) -> Failure:
+    return Failure(halt.reason, halt.segment, time, halt.position, halt.joint, halt.detail)

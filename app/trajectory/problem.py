@@ -1,0 +1,212 @@
+"""What is asked of a trajectory, and what comes of it.
+
+A trajectory begins at a configuration, at rest, and goes through segments: joints to a configuration or a pose, the tip
+along a line, a circle or a spline. Each segment has a law of time and limits of its own. It comes to rest between two
+segments but where lines are blended.
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.model.arrays import Array
+from app.model.poses import Poses
+from app.trajectory.audit import Audit
+from app.trajectory.audit_demands import TipLimits
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.splines import Boundary
+
+Law: TypeAlias = Literal["cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal"]
+SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]
+OrientationLaw: TypeAlias = Literal["axis_angle", "zyz", "zyz_other"]
+NearSingularity: TypeAlias = Literal["stop", "damp", "slow_down"]
+StopReason: TypeAlias = Literal["out_of_reach", "joint_limit", "singularity", "branch_change"]
+
+
+@dataclass(frozen=True, slots=True)
+class MotionLimits:
+    """What joints and tip may do in a segment, scales applied; all finite and > 0 but for the tip's, which may be ∞.
+
+    Attributes:
+        velocity: Of each joint; shape (n,), [rad/s or m/s].
+        acceleration: Shape (n,), [rad/s² or m/s²].
+        jerk: Shape (n,), [rad/s³ or m/s³].
+        tip: Of the tip.
+    """
+
+    velocity: Array
+    acceleration: Array
+    jerk: Array
+    tip: TipLimits = field(default_factory=TipLimits)
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One part of a trajectory.
+
+    Attributes:
+        type: What kind of way.
+        law: Of time.
+        limits: That hold on it.
+        duration: It is to last, [s]; as long as its limits ask for if None.
+        configuration: Target of a joint segment; shape (n,), [rad or m].
+        pose: T_base_tip at the end, of a joint segment to a pose, a line or a circle; shape (4, 4).
+        via: T_base_tip on the way of a circle; shape (4, 4).
+        blend_radius: Distance from the end of a line at which it is left for the next, [m]; 0 stops there.
+        blend_acceleration: Of the tip in the blend instead of a radius, [m/s²].
+        blend_time: Of the blend instead of a radius, [s].
+        orientation: How a line turns: about one axis, or the Euler angles ZYZ each on their way, on either branch.
+        configurations: A joint spline's waypoints after the start; shape (m, n), [rad or m].
+        poses: A Cartesian spline's.
+        times: When each is to be reached, after the segment's start; shape (m,), [s].
+        boundary: Of a spline.
+        blends: Whether a joint spline's waypoints are passed beside, on straight lines with parabolic blends.
+    """
+
+    type: SegmentType
+    law: Law
+    limits: MotionLimits
+    duration: float | None = None
+    configuration: Array | None = None
+    pose: Array | None = None
+    via: Array | None = None
+    blend_radius: float = 0.0
+    blend_acceleration: float | None = None
+    blend_time: float | None = None
+    orientation: OrientationLaw = "axis_angle"
+    configurations: Array | None = None
+    poses: Poses | None = None
+    times: Array | None = None
+    boundary: Boundary = "clamped"
+    blends: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """How joints are to follow a way of the tip.
+
+    Attributes:
+        task: Directions that count; others are left free.
+        position_tolerance: Largest distance from the way, also between samples, [m].
+        orientation_tolerance: Largest angle, [rad].
+        min_singular_value: σ of the Jacobian's rows that count, metres and radians mixed, below which a pose counts as
+            near to a singularity.
+        near_singularity: What to do there: stop; go on with damped joints and leave the way; go on exactly, slowly.
+    """
+
+    task: Task = FULL_POSE
+    position_tolerance: float = 1e-4
+    orientation_tolerance: float = 1e-3
+    min_singular_value: float = 0.01
+    near_singularity: NearSingularity = "stop"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """What is asked of a trajectory.
+
+    Attributes:
+        start: Where it begins, at rest; shape (n,), [rad or m].
+        segments: One after the other; at least one.
+        following: How joints follow the tip's ways.
+        duration: It is to last as a whole, [s]; as long as the limits ask for if None.
+        compares_timing: Whether uniform and time-optimal scaling of each segment are to be compared.
+    """
+
+    start: Array
+    segments: tuple[Segment, ...]
+    following: Following = field(default_factory=Following)
+    duration: float | None = None
+    compares_timing: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentReport:
+    """What came of a segment, as far as it was done.
+
+    Attributes:
+        index: Which, from 0.
+        type: What kind of way.
+        law: Of time.
+        start_time: [s].
+        end_time: [s].
+        length: Of the tip's way, [m]; of a joint segment None.
+        angle: By which the tip turns on it, [rad]; of a joint segment None.
+        joint_deviation: From the way at most that damping cost: distance [m] and angle [rad]; None if not damped.
+        blended: Whether it is left for the next without a stop.
+        notes: What else is to be known.
+    """
+
+    index: int
+    type: SegmentType
+    law: Law
+    start_time: float
+    end_time: float
+    length: float | None = None
+    angle: float | None = None
+    joint_deviation: tuple[float, float] | None = None
+    blended: bool = False
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class TimingComparison:
+    """One way of a segment (or of blended ones) at two timings.
+
+    Attributes:
+        segments: Which, from 0.
+        law: That is scaled uniformly.
+        uniform_duration: The law, scaled so that some limit is just reached, [s].
+        velocity_factor: k that the velocity limits alone ask for, of the law lasting 1 s.
+        acceleration_factor: The same of the acceleration limits: a time of √k times keeps them.
+        time_optimal_duration: [s].
+    """
+
+    segments: tuple[int, ...]
+    law: Law
+    uniform_duration: float
+    velocity_factor: float
+    acceleration_factor: float
+    time_optimal_duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a trajectory ends before its time.
+
+    Attributes:
+        reason: Of what kind.
+        segment: Which one could not be done, from 0.
+        time: Where the answer's motion ends, [s].
+        position: Of the tip, where it could not go on; shape (3,), [m].
+        joint: Which one is at its limit.
+        detail: In a sentence.
+    """
+
+    reason: StopReason
+    segment: int
+    time: float
+    position: Array
+    joint: str | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectory:
+    """What came of a problem.
+
+    Attributes:
+        motion: Of the joints, from 0 s on.
+        segments: Those that were done, wholly or in part.
+        completed_fraction: Of the segments, each counting alike, a part of one by its length.
+        failure: Why it is not 1.
+        audit: The judgement of the motion.
+        timing: Where it was asked for.
+    """
+
+    motion: PiecewisePolynomial
+    segments: tuple[SegmentReport, ...]
+    completed_fraction: float
+    failure: Failure | None
+    audit: Audit
+    timing: tuple[TimingComparison, ...] = ()

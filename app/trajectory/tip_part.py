@@ -1,0 +1,195 @@
+"""Segments along which the tip follows a way: the way, the joints that follow it, and the time they take."""
+
+from collections.abc import Sequence
+from typing import cast
+
+import numpy as np
+
+from app.kinematics.kernels import chain_poses
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import InvalidField
+from app.model.poses import Poses
+from app.model.robot import Robot
+from app.trajectory.audit_demands import Demands, Ends, JointLimits, TipLimits
+from app.trajectory.follow import JointWay, follow
+from app.trajectory.parts import Halt, Part, standing
+from app.trajectory.passing_times import passing_at
+from app.trajectory.paths import Path
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.problem import Following, MotionLimits, Problem, Segment, SegmentReport, TimingComparison
+from app.trajectory.spline_paths import PolynomialPath
+from app.trajectory.timing import Timed, compared, timed
+from app.trajectory.way_geometry import tip_through
+from app.trajectory.ways import Way, way_of
+
+_DONE = 1e-9
+"""Share of a segment that may be missing from one that counts as done."""
+_ANGLE_SAMPLES = 65
+_SLACK = 1.05
+"""The audit looks more closely than what measured the deviation that damping costs."""
+
+
+def tip_part(
+    robot: Robot, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: Problem
+) -> Part:
+    """A line, a circle, a spline, or lines that are blended, as far as the joints can follow.
+
+    Args:
+        robot: The robot.
+        chain: What moves.
+        start: Configuration at its beginning; shape (n,), [rad or m].
+        segments: One, or lines all but the last of which are blended into the next.
+        first: Number of the first in the trajectory.
+        problem: Whose segments they are.
+
+    Raises:
+        InvalidField: There is no such way, or not in the time that is given.
+    """
+    following = problem.following
+    positions, rotations = chain_poses(chain.flat, start[None])
+    way = way_of(Poses(positions, rotations).matrices()[0], segments, first)
+    joints = follow(robot, chain, way.path, start, following)
+    halt = _halt(joints, way, first)
+    limits = tightest([segment.limits for segment in segments])
+    if joints.reached <= 0.0:
+        return Part(standing(start), (), Demands(), halt)
+    timing = _timed(chain, way, joints, segments, limits, following, first)
+    demands = _demands(way.path, joints, timing, limits, following)
+    comparison = _comparison(chain, way.path, joints, segments, limits, first) if problem.compares_timing else None
+    return Part(timing.motion, _reports(way, joints, timing, segments, first, following), demands, halt, comparison)
+
+
+def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
+    """What keeps to all of several limits."""
+    if len(limits) == 1:
+        return limits[0]
+    tip = TipLimits(*(min(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
+    velocity, acceleration, jerk = (
+        np.min([getattr(one, name) for one in limits], axis=0) for name in ("velocity", "acceleration", "jerk")
+    )
+    return MotionLimits(velocity, acceleration, jerk, tip)
+
+
+def _timed(
+    chain: Chain,
+    way: Way,
+    joints: JointWay,
+    segments: Sequence[Segment],
+    limits: MotionLimits,
+    following: Following,
+    first: int,
+) -> Timed:
+    """The law of time; of a way that is not done wholly the fastest there is."""
+    is_whole = joints.stop is None
+    segment = segments[0]
+    try:
+        if segment.times is not None and is_whole:
+            places = cast(PolynomialPath, way.path).knots[1:]
+            return passing_at(way.path, joints.positions, places, segment.times, limits, tip_through(chain))
+        return timed(
+            way.path,
+            joints.positions,
+            segment.law,
+            limits,
+            duration=segment.duration if is_whole else None,
+            slow_down=following.near_singularity == "slow_down",
+            tip_motion=tip_through(chain),
+        )
+    except InvalidField as error:
+        raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
+
+
+def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, following: Following) -> Demands:
+    """What the motion has to keep to; the way at equal times is the way that is wanted."""
+    law = timing.law
+    position, orientation = following.position_tolerance, following.orientation_tolerance
+    if following.near_singularity == "damp":
+        position = max(position, _SLACK * joints.path_deviation)
+        orientation = max(orientation, _SLACK * joints.orientation_deviation)
+    last = joints.positions.at(np.array([joints.reached]))[0]
+    jerk = limits.jerk if timing.has_bounded_jerk else None
+    return Demands(
+        JointLimits(limits.velocity, limits.acceleration, jerk),
+        limits.tip,
+        Ends(joints.positions.at(np.zeros(1))[0], last),
+        lambda times: path.at(np.clip(law.at(times)[:, 0], 0.0, joints.reached)).poses,
+        following.task,
+        position,
+        orientation,
+        timing.continuous,
+    )
+
+
+def _halt(joints: JointWay, way: Way, first: int) -> Halt | None:
+    """Where the way could not go on, as a share of the segment there."""
+    stop = joints.stop
+    if stop is None:
+        return None
+    ends = np.array([0.0, *way.ends])
+    i = int(np.clip(np.searchsorted(ends, joints.reached, side="right") - 1, 0, len(ends) - 2))
+    width = ends[i + 1] - ends[i]
+    share = float((joints.reached - ends[i]) / width) if width > 0.0 else 0.0
+    return Halt(stop.reason, first + i, share, stop.position, stop.joint, stop.detail)
+
+
+def _reports(
+    way: Way, joints: JointWay, timing: Timed, segments: Sequence[Segment], first: int, following: Following
+) -> tuple[SegmentReport, ...]:
+    """Of the segments that were begun."""
+    begins = (0.0, *way.ends[:-1])
+    damped = following.near_singularity == "damp" and joints.path_deviation > following.position_tolerance
+    reports = []
+    for i, (segment, begin, end) in enumerate(zip(segments, begins, way.ends, strict=True)):
+        if begin >= joints.reached:
+            break
+        finish = min(end, joints.reached)
+        length, angle = _travelled(way.path, begin, finish)
+        report = SegmentReport(
+            first + i,
+            segment.type,
+            segment.law,
+            time_at(timing.law, begin),
+            time_at(timing.law, finish),
+            length,
+            angle,
+            (joints.path_deviation, joints.orientation_deviation) if damped else None,
+            i + 1 < len(segments),
+            (*way.notes, *timing.notes),
+        )
+        reports.append(report)
+    return tuple(reports)
+
+
+def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
+    """Length of the position's way and angle of the orientation's between two places, [m] and [rad]."""
+    s = np.linspace(begin, end, _ANGLE_SAMPLES)
+    rates = path.at(s).first
+    length = end - begin if path.unit == "m" else 0.0
+    return length, float(np.trapezoid(np.linalg.norm(rates[:, 3:], axis=1), s))
+
+
+def time_at(law: PiecewisePolynomial, s: float) -> float:
+    """When a law that never goes back is at a place, [s]."""
+    values = law.at(law.breaks)[:, 0]
+    if s <= values[0]:
+        return float(law.breaks[0])
+    if s >= values[-1]:
+        return float(law.breaks[-1])
+    i = int(np.searchsorted(values, s, side="right")) - 1
+    low, high = float(law.breaks[i]), float(law.breaks[i + 1])
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if law.at(np.array([middle]))[0, 0] < s else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _comparison(
+    chain: Chain, path: Path, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
+) -> TimingComparison:
+    law = segments[0].law
+    uniform, by_velocity, by_acceleration, optimal = compared(
+        path, joints.positions, law, limits, tip_motion=tip_through(chain)
+    )
+    numbers = tuple(range(first, first + len(segments)))
+    return TimingComparison(numbers, law, uniform, by_velocity, by_acceleration, optimal)

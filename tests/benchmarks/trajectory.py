@@ -1,0 +1,219 @@
+"""Trajectories of the Panda, planned, audited and sent, against what plans alone.
+
+From point to point with 1,000 samples: against the calculation of ruckig by itself, and `jtraj` of roboticstoolbox. And
+1 m of lines with a corner flown over, a sample each millisecond: against `mstraj` with inverse kinematics of each of
+its samples, and against joints by inverse kinematics along the lines, a spline through them, and toppra. The peers
+check nothing; what they take is their own calculation, ours is all from the request to the answer's last byte.
+"""
+
+import http.client
+import json
+import statistics
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import roboticstoolbox
+import ruckig
+import toppra
+from scipy.spatial.transform import Rotation
+
+from app.model.arrays import Array
+from tests.benchmarks.server import running
+from tests.benchmarks.table import Row
+from tests.test_serve import HOST
+
+ROUNDS = 15
+SAMPLES, PERIOD = 1000, 1e-3
+START = [0.11600954, 0.10720322, -0.70387343, -1.52109506, 0.06933766, 1.60287448, -0.58725217]
+TARGET = [-0.4, -0.5, 0.3, -2.2, 0.5, 2.0, 0.9]
+POINTS = np.array([[0.5, -0.3, 0.5], [0.5, 0.3, 0.5], [0.5, 0.3, 0.1]])
+DOWN = Rotation.from_euler("x", np.pi) * Rotation.from_euler("z", -np.pi / 4)
+RADIUS = 0.1
+VELOCITY = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])
+ACCELERATION = 2.0 * VELOCITY
+JERK = 10.0 * ACCELERATION
+PANDA = roboticstoolbox.models.URDF.Panda()
+TIP_SPEED = 0.5
+NPY = "application/x-npy"
+
+
+def measure() -> list[Row]:
+    """Point to point, and the corner."""
+    with running("service", "/readyz") as server:
+        connection = http.client.HTTPConnection(HOST, server.port, timeout=60)
+        rows = [*point_to_point(connection), *corner(connection)]
+        connection.close()
+    return rows
+
+
+def point_to_point(connection: http.client.HTTPConnection) -> list[Row]:
+    """1,000 samples of 7 joints."""
+    calls = {law: call([{"type": "joint", "target": TARGET}], law) for law in ("jerk_limited", "quintic")}
+    for one in calls.values():
+        one["sample_period"] = ask(connection, one)["duration"] / (SAMPLES - 1)
+    times = medians(
+        {
+            "jerk_limited": lambda: ask(connection, calls["jerk_limited"]),
+            "npy": lambda: post(connection, calls["jerk_limited"], NPY),
+            "quintic": lambda: ask(connection, calls["quintic"]),
+            "ruckig": ruckig_alone,
+            "sampled": lambda: sampled(ruckig_alone()),
+            "jtraj": lambda: roboticstoolbox.jtraj(np.array(START), np.array(TARGET), SAMPLES),
+        }
+    )
+    return [
+        row("jerk-limited, 7 joints, 1,000 samples with poses, JSON", times, "jerk_limited", "ruckig", "ruckig alone"),
+        row("the same", times, "jerk_limited", "sampled", "ruckig, sampled in Python"),
+        row("the same as npy", times, "npy", "sampled", "ruckig, sampled in Python"),
+        row("quintic, 7 joints, 1,000 samples with poses, JSON", times, "quintic", "jtraj", "jtraj, no limits"),
+    ]
+
+
+def corner(connection: http.client.HTTPConnection) -> list[Row]:
+    """Two lines, 1 m in all."""
+    lines: list[dict[str, Any]] = [{"type": "line", "target": pose} for pose in poses()[1:]]
+    lines[0]["blend_radius"] = RADIUS
+    calls = {law: {**call(lines, law), "sample_period": PERIOD} for law in ("trapezoidal", "time_optimal")}
+    limited = {**calls["trapezoidal"], "limits": {**limits(), "tip_velocity": TIP_SPEED}}
+    durations = {name: ask(connection, one)["duration"] for name, one in calls.items()}
+    durations["limited"] = ask(connection, limited)["duration"]
+    times = medians(
+        {
+            "limited": lambda: ask(connection, limited),
+            "npy": lambda: post(connection, calls["time_optimal"], NPY),
+            "time_optimal": lambda: ask(connection, calls["time_optimal"]),
+            "mstraj": mstraj,
+            "toppra": toppra_alone,
+        }
+    )
+    durations["mstraj"], durations["toppra"] = len(mstraj()) * PERIOD, toppra_alone()[0]
+    what = "1 m of lines with a fly-over at 1 kHz"
+    return [
+        row(f"{what}, trapezoidal, JSON", times, "limited", "mstraj", "mstraj and ik_LM of each sample", durations),
+        row(f"{what}, time-optimal, JSON", times, "time_optimal", "toppra", "ik_LM, spline, toppra", durations),
+        row(f"{what}, time-optimal, npy", times, "npy", "toppra", "ik_LM, spline, toppra"),
+    ]
+
+
+def call(segments: list[dict[str, Any]], law: str) -> dict[str, Any]:
+    """A request."""
+    return {"start": START, "segments": segments, "law": law, "limits": limits()}
+
+
+def limits() -> dict[str, Any]:
+    """Of the joints."""
+    return {
+        "joint_velocity": VELOCITY.tolist(),
+        "joint_acceleration": ACCELERATION.tolist(),
+        "joint_jerk": JERK.tolist(),
+    }
+
+
+def poses() -> list[dict[str, Any]]:
+    """The ends of the lines, the tip pointing down."""
+    return [{"position": point.tolist(), "quaternion_xyzw": DOWN.as_quat().tolist()} for point in POINTS]
+
+
+def post(connection: http.client.HTTPConnection, content: object, accept: str = "application/json") -> bytes:
+    """The body of an answer that is one."""
+    headers = {"Content-Type": "application/json", "Accept": accept}
+    connection.request("POST", "/v1/robots/panda/trajectory", json.dumps(content), headers)
+    answer = connection.getresponse()
+    body = answer.read()
+    if answer.status != http.HTTPStatus.OK:
+        raise AssertionError(body[:500])
+    return body
+
+
+def ask(connection: http.client.HTTPConnection, content: object) -> dict[str, Any]:
+    """A whole answer."""
+    answer: dict[str, Any] = json.loads(post(connection, content))
+    if answer["completed_fraction"] != 1.0 or not answer["audit"]["passed"]:
+        raise AssertionError(answer["failure"])
+    return answer
+
+
+def ruckig_alone() -> ruckig.Trajectory:
+    """Its calculation, with what it is made of."""
+    planner, given, found = ruckig.Ruckig(7), ruckig.InputParameter(7), ruckig.Trajectory(7)
+    given.current_position, given.target_position = START, TARGET
+    given.max_velocity, given.max_acceleration, given.max_jerk = VELOCITY, ACCELERATION, JERK
+    planner.calculate(given, found)
+    return found
+
+
+def sampled(found: ruckig.Trajectory) -> list[Any]:
+    """Position, velocity and acceleration at 1,000 times."""
+    return [found.at_time(t) for t in np.linspace(0.0, found.duration, SAMPLES)]
+
+
+def mstraj() -> Array:
+    """The tip's way with a parabolic corner, and the joints of each of its samples, each from the one before."""
+    blend = 2.0 * RADIUS / TIP_SPEED
+    way = roboticstoolbox.mstraj(POINTS, PERIOD, blend, TIP_SPEED)
+    return followed(way.q)
+
+
+def followed(points: Array) -> Array:
+    """Joints by inverse kinematics of the toolbox's compiled Levenberg-Marquardt."""
+    T = np.eye(4)
+    T[:3, :3] = DOWN.as_matrix()
+    chain, q, found = PANDA.ets(), np.array(START), np.empty((len(points), 7))
+    for k, point in enumerate(points):
+        T[:3, 3] = point
+        q = chain.ik_LM(T, q0=q)[0]
+        found[k] = q
+    return found
+
+
+def toppra_alone() -> tuple[float, Array]:
+    """Joints along the way at 100 places, a spline through them, the fastest motion along it at 1 kHz."""
+    shares = np.linspace(0.0, 1.0, 100)
+    joints = followed(rounded(shares))
+    path = toppra.SplineInterpolator(shares, joints)
+    constraints = [
+        toppra.constraint.JointVelocityConstraint(np.column_stack((-VELOCITY, VELOCITY))),
+        toppra.constraint.JointAccelerationConstraint(np.column_stack((-ACCELERATION, ACCELERATION))),
+    ]
+    found = toppra.algorithm.TOPPRA(constraints, path, parametrizer="ParametrizeConstAccel").compute_trajectory()
+    times = np.append(np.arange(0.0, found.duration, PERIOD), found.duration)
+    return float(found.duration), np.stack([found(times), found(times, 1), found(times, 2)])
+
+
+def rounded(shares: Array) -> Array:
+    """Places on two lines whose corner is a parabola, in shares of the way."""
+    before, corner_point, after = POINTS
+    lengths = np.linalg.norm(np.diff(POINTS, axis=0), axis=1)
+    a, b = (corner_point - before) / lengths[0], (after - corner_point) / lengths[1]
+    s = shares * lengths.sum() - lengths[0]
+    u = np.clip((s + RADIUS) / (2.0 * RADIUS), 0.0, 1.0)[:, None]
+    on_blend = corner_point - RADIUS * (1.0 - u) ** 2 * a + RADIUS * u**2 * b
+    straight = corner_point + np.where(s < 0.0, s, 0.0)[:, None] * a + np.where(s > 0.0, s, 0.0)[:, None] * b
+    points: Array = np.where((np.abs(s) < RADIUS)[:, None], on_blend, straight)
+    return points
+
+
+def medians(runs: dict[str, Callable[[], object]]) -> dict[str, float]:
+    """Seconds of each, in turn again and again."""
+    times: dict[str, list[float]] = {name: [] for name in runs}
+    for _ in range(ROUNDS):
+        for name, run in runs.items():
+            started = time.perf_counter()
+            run()
+            times[name].append(time.perf_counter() - started)
+    return {name: statistics.median(found) for name, found in times.items()}
+
+
+def row(
+    what: str, times: dict[str, float], ours: str, peer: str, named: str, durations: dict[str, float] | None = None
+) -> Row:
+    """How much longer theirs takes; and how long the motions last, where that differs."""
+    lasts = ["", ""] if durations is None else [f", moves {durations[name]:.2f} s" for name in (ours, peer)]
+    return Row(
+        f"trajectory: {what}",
+        f"{times[ours] * 1e3:.2f} ms{lasts[0]}",
+        f"{named}, {times[peer] * 1e3:.2f} ms{lasts[1]}",
+        times[peer] / times[ours],
+    )

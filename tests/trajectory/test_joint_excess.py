@@ -1,0 +1,107 @@
+"""What leaves the joints' ranges: when, how far, and the part of a spline that can be done."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.trajectory.joint_excess import first_limit_excess
+from app.trajectory.joint_splines import longest_prefix, promised, spline_motion
+from app.trajectory.polynomial import PiecewisePolynomial
+from app.trajectory.problem import Law, Segment
+from app.trajectory.splines import Boundary
+from tests.trajectory.arms import (
+    BOUNDARIES,
+    LAWS,
+    SLOW,
+    START,
+    end_state,
+    excess,
+    free,
+    limits,
+    through,
+)
+
+
+def test_where_a_spline_swings_out() -> None:
+    """0, 1, 1, 0 swings above 1 in the middle; the extreme and the crossing against a fine grid."""
+    chain = free(1, -1.0, 1.05)
+    knots = np.array([[1.0], [1.0], [0.0]])
+    segment = Segment("spline", "cubic", limits([1.0], [9.0]), configurations=knots, times=np.array([2.0, 4.0, 6.0]))
+    motion = spline_motion(np.zeros(1), segment, chain)
+    found = first_limit_excess(chain, motion)
+    assert found is not None
+    times = np.linspace(0.0, 6.0, 600_001)
+    values = motion.at(times)[:, 0]
+    assert found.joint == 0
+    assert found.bound == 1.05
+    assert found.value == pytest.approx(float(values.max()), abs=1e-9)
+    assert found.time == pytest.approx(float(times[np.argmax(values > 1.05)]), abs=2e-5)
+    assert first_limit_excess(free(1, -1.0, float(values.max()) + 1e-6), motion) is None
+    below = first_limit_excess(free(1, -1.05, 1.0), replace(motion, coefficients=-motion.coefficients))
+    assert below is not None
+    assert below.time == pytest.approx(found.time, abs=1e-12)
+    assert below.value == pytest.approx(-found.value, abs=1e-12)
+
+
+def test_waypoints_at_the_very_limit_are_within() -> None:
+    chain = free(2, -0.4, 1.0)
+    waypoints = np.array([[1.0, -0.4], [0.5, 0.0]])
+    segment = through("cubic", configurations=waypoints[:1])
+    assert first_limit_excess(chain, spline_motion(START, segment, chain)) is None
+
+
+def test_what_begins_outside_is_outside_from_the_start() -> None:
+    motion = PiecewisePolynomial(np.array([1.0, 2.0]), np.array([[[3.0, 0.0], [-4.0, 0.0]]]))
+    found = first_limit_excess(free(2, -5.0, 1.0), motion)
+    assert found is not None
+    assert (found.time, found.joint, found.value) == (1.0, 0, 3.0)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+@pytest.mark.parametrize("has_times", [False, True])
+def test_the_part_that_can_be_done(law: Law, boundary: Boundary, has_times: bool) -> None:
+    chain = free(2, -2.0, 1.01)
+    waypoints = np.array([[0.3, 0.5], [0.4, 0.0], [1.0, 0.2], [1.0, -0.9], [0.0, -0.5], START])
+    times = np.arange(1.0, 7.0) * 3.0 if has_times else None
+    segment = through(law, configurations=waypoints, boundary=boundary, times=times)
+    if has_times and (boundary not in {"clamped", "assigned"} or law == "time_optimal"):
+        return
+    if has_times and law == "jerk_limited" and boundary == "clamped":
+        return
+    assert first_limit_excess(chain, spline_motion(START, segment, chain)) is not None
+    part = longest_prefix(START, segment, chain)
+    assert part.waypoints == 3
+    assert first_limit_excess(chain, part.motion) is None
+    assert np.abs(end_state(part.motion, 0, last=True) - waypoints[2]).max() <= 1e-9
+    assert np.abs(end_state(part.motion, 1, last=True)).max() <= 1e-9
+    assert excess(part.motion, SLOW, jerk=promised(segment).has_bounded_jerk) <= 1e-9
+    if has_times:
+        assert part.motion.duration == 9.0
+
+
+def test_a_part_that_would_stop_too_fast_takes_longer() -> None:
+    chain = free(1, -2.0, 3.01)
+    q = np.array([[1.0], [2.0], [3.0], [3.0], [1.0]])
+    segment = Segment(
+        "spline", "cubic", limits([1.2], [2.0]), configurations=q, times=np.array([2.0, 3.0, 4.2, 5.5, 8.0])
+    )
+    assert first_limit_excess(chain, spline_motion(np.zeros(1), segment, chain)) is not None
+    part = longest_prefix(np.zeros(1), segment, chain)
+    assert part.waypoints == 3
+    assert excess(part.motion, segment.limits, jerk=False) <= 1e-9
+    assert first_limit_excess(chain, part.motion) is None
+
+
+def test_not_even_the_first_waypoint_or_all_of_them() -> None:
+    swinging = np.array([[0.0, 0.5], [1.0, 0.5], [1.0, 0.0], [0.0, 0.0]])
+    chain = free(2, -5.0, 1.001)
+    tight = longest_prefix(swinging[0], through("cubic", configurations=swinging[1:]), chain)
+    assert tight.waypoints == 1
+    all_of_them = longest_prefix(START, through("cubic"), free(2))
+    assert all_of_them.waypoints == 3
+    np.testing.assert_array_equal(all_of_them.motion.breaks, spline_motion(START, through("cubic"), free(2)).breaks)
+    outside = longest_prefix(np.array([2.0, 0.0]), through("cubic"), free(2, -5.0, 1.001))
+    assert outside.waypoints == 0
+    assert outside.motion.duration == 0.0
