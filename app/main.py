@@ -7,7 +7,7 @@ from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
 
-from app.api import documentation, openapi, problems
+from app.api import documentation, openapi, problems, studio
 from app.api.compare import compare_route
 from app.api.course_components import component_routes
 from app.api.course_fly_over import fly_over_route
@@ -126,6 +126,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness))
     documentation.install(app)
+    studio.install(app)
     openapi.describe(app)
     return app
 

@@ -6,7 +6,7 @@ from http import HTTPStatus
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
-from starlette.responses import RedirectResponse, Response
+from starlette.responses import Response
 
 from app.api.openapi import problem_responses
 from app.api.payloads import json_response
@@ -44,12 +44,8 @@ class Readiness:
 
 
 def service_router(readiness: Readiness) -> APIRouter:
-    """Health, readiness, and the way to the documentation."""
+    """Health and readiness."""
     router = APIRouter(tags=["Service"])
-
-    @router.get("/", include_in_schema=False)
-    async def root() -> RedirectResponse:
-        return RedirectResponse("docs")
 
     @router.get("/healthz", operation_id="health", summary="Does the process live?", response_model=Health)
     async def health() -> Response:

@@ -1,0 +1,89 @@
+/** The state in the address bar, behind `#`: readable, exact to the last digit, and never sent to a server. */
+
+import { FIRST, type Linked, type State } from "./state.ts";
+import type { Store } from "./store.ts";
+import type { DhTable, Pose } from "./types.ts";
+
+const FLAGS = ["degrees", "frames", "axes", "names", "dh"] as const;
+const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
+
+export interface Address {
+  linked: Linked;
+  /** Positions in the order of the model's joints. */
+  positions: number[] | null;
+}
+
+export function read(hash: string): Address {
+  const given = new URLSearchParams(hash.replace(/^#/, ""));
+  const linked: Linked = { ...FIRST };
+  linked.panel = given.get("panel") ?? FIRST.panel;
+  linked.draft = json<DhTable>(given.get("dh-table"));
+  linked.robot = linked.draft ? "" : (given.get("robot") ?? FIRST.robot);
+  linked.base = given.get("base");
+  linked.tip = given.get("tip");
+  linked.target = json<Pose>(given.get("target"));
+  const shown = new Set((given.get("show") ?? "").split(","));
+  for (const flag of FLAGS) linked[flag] = shown.has(flag);
+  const numbers = given.get("q")?.split(",").map(Number) ?? null;
+  return { linked, positions: numbers?.every(Number.isFinite) ? numbers : null };
+}
+
+export function write(state: Readonly<State>): string {
+  const parts: [string, string][] = [];
+  if (state.draft) parts.push(["dh-table", JSON.stringify(state.draft)]);
+  else parts.push(["robot", state.robot]);
+  parts.push(["panel", state.panel]);
+  if (state.base) parts.push(["base", state.base]);
+  if (state.tip) parts.push(["tip", state.tip]);
+  if (state.model) parts.push(["q", state.model.joints.map((joint) => state.positions[joint.name] ?? 0).join(",")]);
+  if (state.target) parts.push(["target", JSON.stringify(state.target)]);
+  const shown = FLAGS.filter((flag) => state[flag]);
+  if (shown.length) parts.push(["show", shown.join(",")]);
+  return "#" + parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
+}
+
+/** Keep the address bar as the state is; another robot or panel is a step that the browser's Back undoes. */
+export function mirror(store: Store<State>, restore: (address: Address) => void): void {
+  let timer = 0;
+  let written = location.hash;
+  let place = placeOf(store.value);
+  const update = () => {
+    const { model, robot, draft, loading } = store.value;
+    if (loading || !model || model.name !== (draft ? null : robot)) return;
+    const hash = write(store.value);
+    if (hash === written) return;
+    const step = placeOf(store.value) !== place;
+    place = placeOf(store.value);
+    written = hash;
+    if (step) history.pushState(null, "", hash);
+    else history.replaceState(null, "", hash);
+  };
+  store.watch(
+    ["panel", "robot", "draft", "base", "tip", "target", "positions", "model", "loading", ...FLAGS],
+    () => {
+      clearTimeout(timer);
+      timer = window.setTimeout(update, WRITE_AFTER);
+    },
+  );
+  const follow = () => {
+    if (location.hash === written) return;
+    clearTimeout(timer);
+    written = location.hash;
+    restore(read(location.hash));
+    place = placeOf(store.value);
+  };
+  window.addEventListener("popstate", follow);
+  window.addEventListener("hashchange", follow);
+}
+
+function placeOf(state: Readonly<State>): string {
+  return `${state.panel} ${state.robot}`;
+}
+
+function json<T>(text: string | null): T | null {
+  try {
+    return text === null ? null : (JSON.parse(text) as T);
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,118 @@
+/** The public API, spoken like any other client does: JSON, problems, and a record of each call to show as a script. */
+
+export interface Call {
+  method: "GET" | "POST" | "PUT" | "DELETE";
+  /** Below the service's address, without a slash in front. */
+  path: string;
+  body?: unknown;
+  /** Fields of a form that carries an archive, in the place of a body. */
+  form?: { fields: Record<string, string>; archive: File };
+}
+
+/** An `application/problem+json`, or that there was no answer at all. */
+export class Problem extends Error {
+  constructor(
+    readonly status: number,
+    readonly title: string,
+    readonly detail: string,
+    readonly facts: Record<string, unknown> = {},
+  ) {
+    super(detail);
+  }
+
+  /** Where in the payload something is wrong, and what; JSON pointers as the service gives them. */
+  get places(): { pointer: string; detail: string }[] {
+    const { errors, pointer } = this.facts as { errors?: { pointer: string; detail: string }[]; pointer?: string };
+    if (errors) return errors;
+    return pointer ? [{ pointer, detail: this.detail }] : [];
+  }
+}
+
+export const NO_ANSWER = 0;
+export const NOT_OF_THE_SERVICE = -1;
+
+export class Api {
+  constructor(
+    readonly root: URL,
+    private readonly record: (call: Call) => void = () => {},
+  ) {}
+
+  /** The same API, with every call told to someone. */
+  recorded(record: (call: Call) => void): Api {
+    return new Api(this.root, record);
+  }
+
+  url(path: string): string {
+    return new URL(path, this.root).href;
+  }
+
+  get<T>(path: string, signal?: AbortSignal): Promise<T> {
+    return this.call<T>({ method: "GET", path }, signal);
+  }
+
+  post<T>(path: string, body: unknown, signal?: AbortSignal): Promise<T> {
+    return this.call<T>({ method: "POST", path, body }, signal);
+  }
+
+  async text(path: string, signal?: AbortSignal): Promise<string> {
+    return (await this.answer({ method: "GET", path }, signal)).text();
+  }
+
+  async call<T>(call: Call, signal?: AbortSignal): Promise<T> {
+    const answer = await this.answer(call, signal);
+    return (answer.status === 204 ? null : await answer.json()) as T;
+  }
+
+  private async answer(call: Call, signal?: AbortSignal): Promise<Response> {
+    this.record(call);
+    let answer: Response;
+    try {
+      answer = await fetch(this.url(call.path), { method: call.method, ...content(call), signal: signal ?? null });
+    } catch (error) {
+      if (signal?.aborted) throw error;
+      throw new Problem(NO_ANSWER, "No answer", "The service does not answer. Is it still running?");
+    }
+    if (!answer.ok) throw await problem(answer);
+    return answer;
+  }
+}
+
+function content(call: Call): RequestInit {
+  if (call.form) {
+    const body = new FormData();
+    for (const [name, value] of Object.entries(call.form.fields)) body.set(name, value);
+    body.set("archive", call.form.archive);
+    return { body };
+  }
+  if (call.body === undefined) return {};
+  return { body: JSON.stringify(call.body), headers: { "Content-Type": "application/json" } };
+}
+
+async function problem(answer: Response): Promise<Problem> {
+  const fallback = `The service answered ${answer.status} ${answer.statusText}.`;
+  if (!answer.headers.get("Content-Type")?.includes("json")) return new Problem(answer.status, "Error", fallback);
+  const { title, detail, ...facts } = (await answer.json()) as Record<string, unknown>;
+  return new Problem(answer.status, String(title ?? "Error"), String(detail ?? fallback), facts);
+}
+
+/** Runs one call at a time and drops what is overtaken: for answers that follow a slider. */
+export class Latest {
+  #running: AbortController | null = null;
+
+  async run<T>(work: (signal: AbortSignal) => Promise<T>): Promise<T | undefined> {
+    this.#running?.abort();
+    const mine = new AbortController();
+    this.#running = mine;
+    try {
+      const result = await work(mine.signal);
+      return mine.signal.aborted ? undefined : result;
+    } catch (error) {
+      if (mine.signal.aborted) return undefined;
+      throw error;
+    }
+  }
+
+  cancel(): void {
+    this.#running?.abort();
+  }
+}

@@ -1,0 +1,61 @@
+/** The studio: wires state, service, view and panels. */
+
+import "./styles/studio.css";
+
+import { mirror, read } from "./address.ts";
+import { Api } from "./api.ts";
+import { acceptDrops } from "./dropping.ts";
+import { furnish } from "./page.ts";
+import type { Studio } from "./panels/panel.ts";
+import { showPart } from "./panels/robot/index.ts";
+import { Loader } from "./robot/load.ts";
+import { initial } from "./state.ts";
+import { Store } from "./store.ts";
+import { element } from "./ui/dom.ts";
+import { mark } from "./view/marks.ts";
+import { View } from "./view/view.ts";
+
+const place = (id: string): HTMLElement => document.getElementById(id)!;
+
+function start(): void {
+  const { linked, positions } = read(location.hash);
+  const store = new Store(initial(linked));
+  const api = new Api(new URL(".", document.baseURI));
+  const view = makeView(place("view"));
+  const studio: Studio = { store, api, view };
+  const loader = new Loader(api, store, () => view?.settle());
+  store.watch(["positions"], ({ model, positions: wanted }) => model?.place(wanted));
+  store.watch(["model"], ({ model }) => model && view?.show(model));
+  if (view) {
+    store.watch(["theme"], () => view.dress());
+    mark(view, store);
+  }
+  furnish({ tabs: place("tabs"), panel: place("panel"), heading: place("heading"), marks: place("marks"), tools: place("tools") }, studio);
+  loader.follow(positions);
+  mirror(store, (address) => {
+    loader.startAt(address.positions);
+    const { robot, draft } = store.value;
+    const isSame = address.linked.robot === robot && JSON.stringify(address.linked.draft) === JSON.stringify(draft);
+    store.set(isSame ? { ...address.linked, robot, draft } : address.linked);
+    const { model } = store.value;
+    if (isSame && model) store.set({ positions: model.complete(address.positions, model.ends.base_frame, model.ends.tip_frame) });
+  });
+  acceptDrops(place("drop"), () => {
+    showPart("upload");
+    store.set({ panel: "" });
+    store.set({ panel: "robot" });
+  });
+  // For the console, and for scripts that drive the page.
+  Object.assign(globalThis, { studio });
+}
+
+function makeView(host: HTMLElement): View | null {
+  try {
+    return new View(host);
+  } catch {
+    host.append(element("p", { class: "no-view" }, "This browser shows no 3-D pictures (WebGL is off). The numbers work all the same."));
+    return null;
+  }
+}
+
+start();

@@ -1,0 +1,126 @@
+/** The page around the panels: tabs, the robot's chain above the picture, what is drawn in it, light and dark. */
+
+import { PANELS } from "./panels/index.ts";
+import type { Studio } from "./panels/panel.ts";
+import type { State } from "./state.ts";
+import type { Store } from "./store.ts";
+import { button, element, toggle } from "./ui/dom.ts";
+
+const MARKS = [
+  { key: "frames", text: "Frames", title: "The frame of every link" },
+  { key: "axes", text: "Axes", title: "The axes of the joints" },
+  { key: "names", text: "Names", title: "The names of the links" },
+  { key: "dh", text: "DH frames", title: "The frames of the chain's DH table, with a and d" },
+] as const;
+
+export interface Places {
+  tabs: HTMLElement;
+  panel: HTMLElement;
+  heading: HTMLElement;
+  marks: HTMLElement;
+  tools: HTMLElement;
+}
+
+/** Fill the places of the page, and keep them as the state is. */
+export function furnish(places: Places, studio: Studio): void {
+  tabs(places, studio);
+  heading(places.heading, studio.store);
+  marks(places.marks, studio);
+  places.tools.append(theme(studio), element("a", { class: "tool", href: "docs" }, "API"));
+}
+
+function tabs({ tabs: host, panel }: Places, studio: Studio): void {
+  const { store } = studio;
+  const made = PANELS.map((entry, index) => {
+    const tab = button(entry.title, () => store.set({ panel: entry.id }), {
+      class: "tab",
+      role: "tab",
+      id: `tab-${entry.id}`,
+      "aria-controls": "panel",
+      onkeydown: (event: KeyboardEvent) => {
+        const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+        if (!step) return;
+        event.preventDefault();
+        const next = (index + step + PANELS.length) % PANELS.length;
+        store.set({ panel: PANELS[next]!.id });
+        made[next]!.focus();
+      },
+    });
+    return tab;
+  });
+  host.append(...made);
+  let close: () => void = () => {};
+  store.watch(["panel"], ({ panel: wanted }) => {
+    const chosen = PANELS.find(({ id }) => id === wanted) ?? PANELS[0]!;
+    close();
+    panel.replaceChildren();
+    panel.scrollTop = 0;
+    panel.setAttribute("aria-labelledby", `tab-${chosen.id}`);
+    for (const [index, tab] of made.entries()) {
+      const isChosen = PANELS[index] === chosen;
+      tab.setAttribute("aria-selected", String(isChosen));
+      tab.tabIndex = isChosen ? 0 : -1;
+    }
+    close = chosen.open(panel, studio);
+  });
+}
+
+/** The robot's name, and the ends of the chain that every panel speaks of. */
+function heading(host: HTMLElement, store: Store<State>): void {
+  const name = element("h1");
+  const pick = button("", () => store.set({ panel: "robot" }), { class: "robot-pick", title: "Choose another robot" });
+  pick.append(name);
+  const base = frameSelect("Base frame", (frame) => store.set({ base: frame }));
+  const tip = frameSelect("Tip frame", (frame) => store.set({ tip: frame }));
+  const status = element("p", { class: "status", role: "status" });
+  host.append(pick, element("span", { class: "chain" }, base, element("span", { "aria-hidden": "true" }, "→"), tip), status);
+  store.watch(["model"], ({ model }) => {
+    if (!model) return;
+    name.textContent = model.title;
+    document.title = `${model.title} · Gelenk`;
+    for (const select of [base, tip]) select.replaceChildren(...model.links.map((link) => element("option", { value: link }, link)));
+  });
+  store.watch(["model", "base", "tip"], (state) => {
+    if (!state.model) return;
+    base.value = state.base ?? state.model.ends.base_frame;
+    tip.value = state.tip ?? state.model.ends.tip_frame;
+  });
+  store.watch(["loading", "failure"], ({ loading, failure }) => {
+    status.textContent = loading ? "Loading …" : failure ? "Not on the screen: the panel Robot says why." : "";
+  });
+}
+
+function frameSelect(title: string, choose: (frame: string) => void): HTMLSelectElement {
+  const select = element("select", { class: "select plain", "aria-label": title, title, onchange: () => choose(select.value) });
+  return select;
+}
+
+function marks(host: HTMLElement, { store, view }: Studio): void {
+  const made = MARKS.map(({ key, text, title }) => {
+    const flip = toggle(text, title, () => store.set({ [key]: !store.value[key] }));
+    store.watch([key], (state) => flip.setAttribute("aria-pressed", String(state[key])));
+    return flip;
+  });
+  host.append(...made);
+  if (view) host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
+}
+
+/** Follow the system, or be light or dark whatever it says. */
+function theme({ store }: Studio): HTMLElement {
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const isDark = () => (store.value.theme === "auto" ? system.matches : store.value.theme === "dark");
+  const flip = button("", () => store.set({ theme: isDark() ? "light" : "dark" }), { class: "tool" });
+  const show = () => {
+    const { theme: wanted } = store.value;
+    if (wanted === "auto") delete document.documentElement.dataset["theme"];
+    else document.documentElement.dataset["theme"] = wanted;
+    flip.textContent = isDark() ? "Light" : "Dark";
+    flip.title = `Change to ${isDark() ? "light" : "dark"} colours`;
+  };
+  store.watch(["theme"], show);
+  system.addEventListener("change", () => {
+    show();
+    if (store.value.theme === "auto") store.set({ theme: isDark() ? "dark" : "light" });
+  });
+  return flip;
+}

@@ -1,0 +1,7 @@
+/** The panels, in the order of their tabs. */
+
+import type { Panel } from "./panel.ts";
+import { posePanel } from "./pose/index.ts";
+import { robotPanel } from "./robot/index.ts";
+
+export const PANELS: readonly Panel[] = [robotPanel, posePanel];

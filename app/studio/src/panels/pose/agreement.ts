@@ -1,0 +1,75 @@
+/** Whether the picture is right: the browser's pose beside the service's, which Pinocchio has recomputed. */
+
+import type { Matrix4 } from "three";
+
+import { type Api, Latest } from "../../api.ts";
+import { asProblem } from "../../robot/load.ts";
+import type { RobotModel } from "../../robot/model.ts";
+import { asMatrix, difference } from "../../robot/pose.ts";
+import type { Positions } from "../../state.ts";
+import type { ForwardAnswer } from "../../types.ts";
+import { element } from "../../ui/dom.ts";
+import type { ProblemView } from "../../ui/problem.ts";
+import { scientific } from "../../ui/quantity.ts";
+
+/** Rounding of a long chain in doubles stays far below; anything above is an error of one of the two. */
+const TOLERANCE = 1e-9;
+
+export class Agreement {
+  readonly host = element("p", { class: "agreement", role: "status" });
+  #latest = new Latest();
+
+  constructor(
+    private readonly api: Api,
+    private readonly problem: ProblemView,
+  ) {}
+
+  stop(): void {
+    this.#latest.cancel();
+  }
+
+  /** Ask the service for the same pose, and say how far the two are apart. */
+  async check(model: RobotModel, base: string, tip: string, positions: Positions, T: Matrix4): Promise<void> {
+    if (model.name === null) {
+      this.#latest.cancel();
+      this.#say("idle", "Add the table to the robots (Robot, DH table) to compare this with the service.");
+      return;
+    }
+    const joints = model.chain(base, tip);
+    const call = {
+      joint_positions: [joints.map((joint) => positions[joint.name] ?? 0)],
+      base_frame: base,
+      tip_frame: tip,
+      pose_format: "matrix",
+    };
+    try {
+      const path = `v1/robots/${encodeURIComponent(model.name)}/fk`;
+      const answer = await this.#latest.run((signal) => this.api.post<ForwardAnswer>(path, call, signal));
+      if (!answer) return;
+      this.problem.show(null);
+      this.#compare(T, answer, joints.map((joint) => joint.name));
+    } catch (error) {
+      this.#say("idle", "");
+      this.problem.show(asProblem(error));
+    }
+  }
+
+  #compare(T: Matrix4, answer: ForwardAnswer, names: string[]): void {
+    const apart = difference(T, asMatrix(answer.poses[0]));
+    const isOrdered = names.join() === answer.joint_names.join();
+    const agrees = isOrdered && apart.position < TOLERANCE && apart.angle < TOLERANCE;
+    const certified = `${scientific(answer.certificate.max_position_error)} m`;
+    this.host.dataset["position"] = String(apart.position);
+    this.host.dataset["angle"] = String(apart.angle);
+    this.#say(
+      agrees ? "good" : "bad",
+      `Browser and service ${agrees ? "agree" : "differ"}: ${scientific(apart.position)} m, ${scientific(apart.angle)} rad apart. ` +
+        `Service and Pinocchio: ${certified}.`,
+    );
+  }
+
+  #say(tone: "good" | "bad" | "idle", text: string): void {
+    this.host.dataset["tone"] = tone;
+    this.host.textContent = text;
+  }
+}

@@ -1,0 +1,59 @@
+/** The pose of the tip in every notation of the API. */
+
+import type { Matrix4 } from "three";
+
+import { asPose, FORMATS, IN_RADIANS, position } from "../../robot/pose.ts";
+import type { PoseFormat } from "../../types.ts";
+import { copyButton } from "../../ui/copy.ts";
+import { element } from "../../ui/dom.ts";
+import { fixed } from "../../ui/quantity.ts";
+
+const DECIMALS = 5;
+
+export class TipPose {
+  readonly host: HTMLElement;
+  #chain = element("p", { class: "muted" });
+  #cells = new Map<PoseFormat | "position", HTMLElement>();
+  #T: Matrix4 | null = null;
+
+  constructor() {
+    const line = (key: PoseFormat | "position", title: string) => {
+      const cell = element("output", { class: "numbers", "data-format": key, "aria-label": title });
+      this.#cells.set(key, cell);
+      const text = () => JSON.stringify(this.#T && (key === "position" ? position(this.#T) : asPose(this.#T, key)));
+      const copy = copyButton(text, title);
+      return [element("dt", {}, title), element("dd", {}, cell), element("dd", { class: "copy" }, copy)];
+    };
+    const formats = FORMATS.filter(({ format }) => format !== "rotation" && format !== "matrix");
+    const matrices = FORMATS.filter(({ format }) => format === "rotation" || format === "matrix");
+    this.host = element(
+      "div",
+      {},
+      this.#chain,
+      element("dl", { class: "pose" }, ...line("position", "Position"), ...formats.flatMap(({ format, title }) => line(format, title))),
+      element("details", {}, element("summary", {}, "As matrices"), element("dl", { class: "pose" }, ...matrices.flatMap(({ format, title }) => line(format, title)))),
+    );
+  }
+
+  /** T_base_tip. The element carries it to the last digit as `data-matrix`. */
+  show(T: Matrix4, base: string, tip: string, degrees: boolean): void {
+    this.#T = T;
+    this.#chain.textContent = `of ${tip} in ${base}`;
+    this.host.dataset["matrix"] = JSON.stringify(asPose(T, "matrix").matrix);
+    for (const [key, cell] of this.#cells) cell.replaceChildren(...columns(T, key, degrees));
+  }
+}
+
+function columns(T: Matrix4, key: PoseFormat | "position", degrees: boolean): Node[] {
+  if (key === "position") return [row(position(T), "m")];
+  const value = asPose(T, key)[key]!;
+  if (Array.isArray(value[0])) return (value as number[][]).map((numbers) => row(numbers, ""));
+  const inAngles = IN_RADIANS.has(key);
+  const numbers = (value as number[]).map((number) => (inAngles && degrees ? (number * 180) / Math.PI : number));
+  return [row(numbers, inAngles ? (degrees ? "°" : "rad") : "", inAngles && degrees ? 3 : DECIMALS)];
+}
+
+function row(numbers: number[], unit: string, decimals = DECIMALS): HTMLElement {
+  const cells = numbers.map((number) => element("span", {}, fixed(number, decimals)));
+  return element("span", { class: "row" }, ...cells, unit && element("span", { class: "unit" }, unit));
+}

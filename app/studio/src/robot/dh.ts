@@ -1,0 +1,47 @@
+/** A Denavit-Hartenberg table in the browser: its frames at a configuration, for drawing. */
+
+import { Matrix4, Vector3 } from "three";
+
+import type { Positions } from "../state.ts";
+import type { DhRow, DhTable } from "../types.ts";
+import { asMatrix } from "./pose.ts";
+
+/** A row at a configuration, in the frame that the table starts from. */
+export interface DhFrame {
+  /** T_base_i. */
+  T: Matrix4;
+  /** Ends of the dimension `a`, along x. */
+  a: [Vector3, Vector3];
+  /** Ends of the dimension `d`, along z. */
+  d: [Vector3, Vector3];
+}
+
+/** A frame a row, each after the one before; `first` is frame 0. */
+export function frames(table: DhTable, positions: Positions): { first: Matrix4; rows: DhFrame[]; tool: Matrix4 } {
+  const first = asMatrix(table.base);
+  const found: DhFrame[] = [];
+  let T = first.clone();
+  for (const [index, row] of table.joints.entries()) {
+    const q = variable(row, index, positions);
+    const theta = row.theta + (row.type === "revolute" ? q : 0);
+    const d = row.d + (row.type === "prismatic" ? q : 0);
+    const start = T.clone();
+    const screwX = new Matrix4().makeRotationX(row.alpha).setPosition(row.a, 0, 0);
+    const screwZ = new Matrix4().makeRotationZ(theta).setPosition(0, 0, d);
+    const steps = table.convention === "standard" ? [screwZ, screwX] : [screwX, screwZ];
+    const middle = start.clone().multiply(steps[0]!);
+    T = middle.clone().multiply(steps[1]!);
+    const [from, foot, to] = [start, middle, T].map((M) => new Vector3().setFromMatrixPosition(M)) as Three;
+    const ends: { a: [Vector3, Vector3]; d: [Vector3, Vector3] } =
+      table.convention === "standard" ? { d: [from, foot], a: [foot, to] } : { a: [from, foot], d: [foot, to] };
+    found.push({ T, ...ends });
+  }
+  return { first, rows: found, tool: T.clone().multiply(asMatrix(table.tool)) };
+}
+
+type Three = [Vector3, Vector3, Vector3];
+
+function variable(row: DhRow, index: number, positions: Positions): number {
+  if (row.mimic) return row.mimic.multiplier * (positions[row.mimic.joint] ?? 0) + row.mimic.offset;
+  return positions[row.name ?? `joint_${index + 1}`] ?? 0;
+}

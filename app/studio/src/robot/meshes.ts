@@ -1,0 +1,77 @@
+/** Mesh files of a robot, from the service; a file that several links show is fetched once. */
+
+import { type Camera, Color, FileLoader, type Light, LoadingManager, type Material, Mesh, MeshPhongMaterial, type Object3D } from "three";
+import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
+import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
+import { STLLoader } from "three/addons/loaders/STLLoader.js";
+
+export type MeshSource = (path: string, material: Material) => Promise<Object3D>;
+
+const BARE = new Color(0xffffff);
+
+/** Where the files of one robot come from.
+ *
+ * @param url of a file below the robot's meshes.
+ */
+export function meshSource(url: (path: string) => string): MeshSource {
+  const fetched = new Map<string, Promise<Object3D>>();
+  return async (path, material) => {
+    const found = fetched.get(path) ?? load(url(path), path);
+    fetched.set(path, found);
+    return dressed((await found).clone(true), path, material);
+  };
+}
+
+async function load(url: string, path: string): Promise<Object3D> {
+  const manager = new LoadingManager();
+  switch (path.split(".").pop()?.toLowerCase()) {
+    case "stl":
+      return new Mesh(await new STLLoader(manager).loadAsync(url));
+    case "obj":
+      return new OBJLoader(manager).loadAsync(url);
+    case "dae": {
+      const collada = new ColladaLoader(manager).parse(asItStands(await new FileLoader(manager).loadAsync(url)), folder(url));
+      if (!collada) throw new Error("no Collada document");
+      for (const extra of lightsAndCameras(collada.scene)) extra.removeFromParent();
+      return collada.scene;
+    }
+    default:
+      throw new Error("no reader for this kind of file");
+  }
+}
+
+/** A Collada document without its up axis: a URDF takes the numbers of a mesh as they are. */
+function asItStands(text: string | ArrayBuffer): string {
+  return String(text).replace(/<up_axis>[^<]*<\/up_axis>/, "");
+}
+
+function folder(url: string): string {
+  return url.slice(0, url.lastIndexOf("/") + 1);
+}
+
+/** Files of bare geometry get the material of the URDF; a Collada file has its own. */
+function dressed(object: Object3D, path: string, material: Material): Object3D {
+  if (/\.dae$/i.test(path)) return object;
+  object.traverse((node) => {
+    if (node instanceof Mesh) node.material = material;
+  });
+  return object;
+}
+
+function lightsAndCameras(scene: Object3D): Object3D[] {
+  const found: Object3D[] = [];
+  scene.traverse((node) => {
+    if ((node as Light).isLight || (node as Camera).isCamera) found.push(node);
+  });
+  return found;
+}
+
+/** The material of a visual that names none: a quiet grey in the place of glaring white. */
+export function quiet(material: Material): Material {
+  if (material instanceof MeshPhongMaterial) {
+    if (material.color.equals(BARE) && !material.name) material.color.set(0xc4c8ce);
+    material.shininess = 18;
+    material.specular.set(0x222222);
+  }
+  return material;
+}

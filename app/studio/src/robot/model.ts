@@ -1,0 +1,190 @@
+/** A robot on the screen: the scene that urdf-loader makes of its URDF, its joints, and its own forward kinematics. */
+
+import { Matrix4, type Object3D } from "three";
+import { URDFJoint, type URDFRobot } from "urdf-loader/src/URDFClasses.js";
+
+import type { Positions } from "../state.ts";
+import type { ChainEnds, JointInfo, RobotInfo } from "../types.ts";
+
+/** A joint with a position of its own. */
+export interface Joint {
+  name: string;
+  type: "revolute" | "continuous" | "prismatic";
+  /** Null where there is no limit. */
+  lower: number | null;
+  upper: number | null;
+}
+
+interface Drive {
+  joint: URDFJoint;
+  leader: string;
+  multiplier: number;
+  offset: number;
+}
+
+const MOVABLE = new Set(["revolute", "continuous", "prismatic"]);
+
+export class RobotModel {
+  /** In the order of the description. */
+  readonly joints: readonly Joint[];
+  readonly links: readonly string[];
+  /** How many mesh files the description shows, and how many of them are on the screen. */
+  readonly meshes = { wanted: 0, shown: 0, failed: [] as string[] };
+  #drives: Drive[];
+  #leaders = new Map<string, string>();
+
+  /**
+   * @param name of the robot at the service; null for a draft that it does not keep.
+   * @param info what the service says about it; null for a draft.
+   */
+  constructor(
+    readonly name: string | null,
+    readonly root: URDFRobot,
+    readonly urdf: string,
+    readonly ends: ChainEnds,
+    readonly info: RobotInfo | null,
+  ) {
+    const all = info?.joints ?? Object.values(root.joints).map(jointInfo);
+    this.links = info?.links ?? Object.keys(root.links);
+    this.joints = all.filter((joint) => MOVABLE.has(joint.type) && !joint.mimic).map(ownJoint);
+    const byName = new Map(all.map((joint) => [joint.name, joint]));
+    this.#drives = all.filter((joint) => MOVABLE.has(joint.type)).map((joint) => drive(root, joint, byName));
+    for (const { joint, leader } of this.#drives) this.#leaders.set(joint.name, leader);
+  }
+
+  get title(): string {
+    return this.name ?? "Unsaved table";
+  }
+
+  /** Move the scene to a configuration. */
+  place(positions: Positions): void {
+    for (const { joint, leader, multiplier, offset } of this.#drives) {
+      URDFJoint.prototype.setJointValue.call(joint, multiplier * (positions[leader] ?? 0) + offset);
+    }
+    this.root.updateMatrixWorld(true);
+  }
+
+  link(name: string): Object3D {
+    const link = this.root.links[name];
+    if (!link) throw new Error(`the description has no link ${name}`);
+    return link;
+  }
+
+  has(link: string | null): link is string {
+    return link !== null && link in this.root.links;
+  }
+
+  /** T_base_tip at the configuration that the scene is in. */
+  pose(base: string, tip: string): Matrix4 {
+    return this.link(base).matrixWorld.clone().invert().multiply(this.link(tip).matrixWorld);
+  }
+
+  /** The joints that a configuration of a chain lists, base to tip: those that move, a leader for what mimics it. */
+  chain(base: string, tip: string): Joint[] {
+    const up = this.#above(base);
+    const down = this.#above(tip);
+    while (up.length && down.length && up.at(-1) === down.at(-1)) {
+      up.pop();
+      down.pop();
+    }
+    const names = [...up, ...down.reverse()].map((joint) => this.#leaders.get(joint.name));
+    const unique = [...new Set(names)];
+    return unique.flatMap((name) => this.joints.find((joint) => joint.name === name) ?? []);
+  }
+
+  /** The chain's joints in the middle of their ranges, the others as near to zero as their limits allow. */
+  home(base: string, tip: string): Positions {
+    const middle = new Set(this.chain(base, tip).map((joint) => joint.name));
+    return this.#each((joint) => {
+      if (joint.lower === null || joint.upper === null) return 0;
+      return middle.has(joint.name) ? (joint.lower + joint.upper) / 2 : clamp(0, joint);
+    });
+  }
+
+  zero(): Positions {
+    return this.#each(() => 0);
+  }
+
+  /** Within the limits, for the joints of a chain; the others as they are. */
+  random(base: string, tip: string, others: Positions): Positions {
+    const moved = this.chain(base, tip).map((joint) => {
+      const { lower, upper } = range(joint);
+      return [joint.name, lower + Math.random() * (upper - lower)];
+    });
+    return { ...others, ...Object.fromEntries(moved) };
+  }
+
+  /** One value for each joint: a given one where it is a number of this robot, else home. */
+  complete(given: Positions | readonly number[] | null, base: string, tip: string): Positions {
+    const home = this.home(base, tip);
+    if (given && !Array.isArray(given)) return this.#each((joint) => (given as Positions)[joint.name] ?? home[joint.name]!);
+    const numbers = given as readonly number[] | null;
+    if (numbers?.length !== this.joints.length) return home;
+    return Object.fromEntries(this.joints.map((joint, index) => [joint.name, numbers[index]!]));
+  }
+
+  #each(value: (joint: Joint) => number): Positions {
+    return Object.fromEntries(this.joints.map((joint) => [joint.name, value(joint)]));
+  }
+
+  /** The joints between a link and the root, from the link up. */
+  #above(link: string): URDFJoint[] {
+    const found: URDFJoint[] = [];
+    for (let node: Object3D | null = this.link(link); node; node = node.parent) {
+      if (node instanceof URDFJoint) found.push(node);
+    }
+    return found;
+  }
+}
+
+/** Where a slider ends: the limits, and ±π or ±1 m where there are none. */
+export function range(joint: Joint): { lower: number; upper: number } {
+  const reach = joint.type === "prismatic" ? 1 : Math.PI;
+  return { lower: joint.lower ?? -reach, upper: joint.upper ?? reach };
+}
+
+export function isBeyond(joint: Joint, value: number): boolean {
+  return (joint.lower !== null && value < joint.lower) || (joint.upper !== null && value > joint.upper);
+}
+
+function clamp(value: number, joint: Joint): number {
+  return Math.max(joint.lower ?? -Infinity, Math.min(joint.upper ?? Infinity, value));
+}
+
+function ownJoint(joint: JointInfo): Joint {
+  const bounded = joint.type !== "continuous";
+  return {
+    name: joint.name,
+    type: joint.type as Joint["type"],
+    lower: bounded ? joint.limits.lower : null,
+    upper: bounded ? joint.limits.upper : null,
+  };
+}
+
+/** Follow a mimic joint to the joint that moves by itself. */
+function drive(root: URDFRobot, info: JointInfo, byName: Map<string, JointInfo>): Drive {
+  const joint = root.joints[info.name]!;
+  joint.ignoreLimits = true;
+  joint.mimicJoints = [];
+  let [leader, multiplier, offset] = [info, 1, 0];
+  for (let steps = 0; leader.mimic && steps < byName.size; steps += 1) {
+    offset += multiplier * leader.mimic.offset;
+    multiplier *= leader.mimic.multiplier;
+    leader = byName.get(leader.mimic.joint)!;
+  }
+  return { joint, leader: leader.name, multiplier, offset };
+}
+
+/** What urdf-loader has read of a joint, for a draft. */
+function jointInfo(joint: URDFJoint): JointInfo {
+  const { lower, upper, velocity, effort } = joint.limit;
+  const mimic = "mimicJoint" in joint ? (joint as unknown as { mimicJoint: string; multiplier: number; offset: number }) : null;
+  return {
+    name: joint.name,
+    type: joint.jointType,
+    parent: "",
+    child: "",
+    limits: { lower, upper, velocity, effort },
+    mimic: mimic && { joint: mimic.mimicJoint, multiplier: mimic.multiplier, offset: mimic.offset },
+  };
+}

@@ -1,0 +1,68 @@
+/** What the page shows at this moment. The first part stands in the address bar, so that a link reopens exactly it. */
+
+import type { Problem } from "./api.ts";
+import type { RobotModel } from "./robot/model.ts";
+import type { DhTable, Pose } from "./types.ts";
+
+export type Positions = Readonly<Record<string, number>>;
+
+export interface Linked {
+  panel: string;
+  /** Name of a robot that the service keeps; empty where a draft is shown. */
+  robot: string;
+  /** A table that is being typed and that the service does not keep yet. */
+  draft: DhTable | null;
+  /** Ends of the chain; null for the robot's default chain. */
+  base: string | null;
+  tip: string | null;
+  /** Where the inverse is to bring the tip. */
+  target: Pose | null;
+  /** Whether angles are shown and typed in degrees; calls are always in radians. */
+  degrees: boolean;
+  frames: boolean;
+  axes: boolean;
+  names: boolean;
+  dh: boolean;
+}
+
+export interface State extends Linked {
+  /** Position of every joint of the model that has one of its own, [rad or m]. */
+  positions: Positions;
+  /** The robot on the screen; the one before while another is on its way. */
+  model: RobotModel | null;
+  loading: boolean;
+  /** Why the robot or draft asked for is not on the screen. */
+  failure: Problem | null;
+  /** The table of the chain, where it has been asked for, and the frame that it starts from. */
+  table: { dh: DhTable; base: string } | null;
+  /** The joint that the pointer or the focus is on, in whatever list of joints. */
+  joint: string | null;
+  theme: "auto" | "light" | "dark";
+}
+
+export const FIRST: Linked = {
+  panel: "pose",
+  robot: "panda",
+  draft: null,
+  base: null,
+  tip: null,
+  target: null,
+  degrees: false,
+  frames: false,
+  axes: false,
+  names: false,
+  dh: false,
+};
+
+export function initial(linked: Linked): State {
+  return {
+    ...linked,
+    positions: {},
+    model: null,
+    loading: false,
+    failure: null,
+    table: null,
+    joint: null,
+    theme: "auto",
+  };
+}

@@ -1,0 +1,110 @@
+/** What travels over the public API, as far as the studio uses it; the OpenAPI schema says it in full. */
+
+export type PoseFormat =
+  | "quaternion_xyzw"
+  | "quaternion_wxyz"
+  | "rpy"
+  | "zyz"
+  | "rotation_vector"
+  | "rotation"
+  | "matrix";
+
+export interface Pose {
+  position?: number[];
+  quaternion_xyzw?: number[];
+  quaternion_wxyz?: number[];
+  rpy?: number[];
+  zyz?: number[];
+  rotation_vector?: number[];
+  rotation?: number[][];
+  matrix?: number[][];
+}
+
+export interface ChainEnds {
+  base_frame: string;
+  tip_frame: string;
+}
+
+export interface RobotSummary {
+  name: string;
+  description: string;
+  source: "catalogue" | "uploaded";
+  format: "urdf" | "dh";
+  default_chain: ChainEnds;
+}
+
+export interface JointInfo {
+  name: string;
+  type: "revolute" | "continuous" | "prismatic" | "fixed" | "floating" | "planar";
+  parent: string;
+  child: string;
+  limits: { lower: number | null; upper: number | null; velocity: number | null; effort: number | null };
+  mimic: { joint: string; multiplier: number; offset: number } | null;
+}
+
+export interface RobotInfo extends RobotSummary {
+  chains: Record<string, ChainEnds>;
+  root: string;
+  joints: JointInfo[];
+  degrees_of_freedom: number;
+  links: string[];
+  leaf_tips: string[];
+  meshes: { reference: string; path: string | null }[];
+  licence: string | null;
+  provenance: string | null;
+  warnings: string[];
+}
+
+export type Convention = "standard" | "modified";
+
+export interface DhRow {
+  name?: string;
+  type: "revolute" | "prismatic";
+  a: number;
+  alpha: number;
+  d: number;
+  theta: number;
+  lower?: number;
+  upper?: number;
+  velocity?: number;
+  effort?: number;
+  mimic?: { joint: string; multiplier: number; offset: number };
+}
+
+export interface DhTable {
+  convention: Convention;
+  joints: DhRow[];
+  base?: Pose;
+  tool?: Pose;
+}
+
+export interface Certificate {
+  samples: number;
+  max_position_error: number;
+  max_orientation_error: number;
+}
+
+export interface ForwardAnswer {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  poses: Pose[];
+  certificate: Certificate;
+}
+
+export interface ToUrdfAnswer {
+  urdf: string;
+  joint_names: string[];
+  certificate: Certificate;
+  warnings: string[];
+}
+
+export interface TableAnswer {
+  dh: DhTable;
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  certificate: Certificate;
+  notes: string[];
+  warnings: string[];
+}

@@ -1,0 +1,115 @@
+/** A field for a number: shows it rounded, edits it exactly, and says when what is typed is none. */
+
+import { element } from "./dom.ts";
+import { exact, format, type Kind, parse } from "./quantity.ts";
+
+const WRITE = { length: "Write a number such as 0.35", angle: "Write a number such as 0.35, pi/2 or 90°" };
+
+export interface NumberOptions {
+  /** What a screen reader says. */
+  label: string;
+  kind: Kind;
+  degrees: () => boolean;
+  decimals?: number;
+  /** Whether an empty field is fine: it stands for null. */
+  optional?: boolean;
+  /** What was typed, as soon as it is a number; with `live` at every key, else when the field is left. */
+  change: (value: number | null) => void;
+  live?: boolean;
+  /** The field holds no number, or again one. */
+  invalid?: (reason: string | null) => void;
+}
+
+export class NumberField {
+  readonly input: HTMLInputElement;
+  #value: number | null = null;
+  #isEdited = false;
+
+  constructor(private readonly options: NumberOptions) {
+    this.input = element("input", {
+      class: "number",
+      type: "text",
+      inputmode: "decimal",
+      autocomplete: "off",
+      spellcheck: "false",
+      "aria-label": options.label,
+      onfocus: () => this.#begin(),
+      onblur: () => this.#end(),
+      oninput: () => this.#typed(),
+      onkeydown: (event: KeyboardEvent) => {
+        if (event.key === "Enter") this.#commit();
+        if (event.key === "Escape") this.#forget();
+      },
+    });
+  }
+
+  get value(): number | null {
+    return this.#value;
+  }
+
+  /** Show a number; what is being typed stays. */
+  set(value: number | null): void {
+    this.#value = value;
+    if (this.#isEdited) return;
+    this.#write(document.activeElement === this.input ? exact : format);
+  }
+
+  fail(reason: string | null): void {
+    this.input.setAttribute("aria-invalid", String(reason !== null));
+    this.input.title = reason ?? "";
+  }
+
+  #write(how: typeof format): void {
+    const { kind, degrees, decimals } = this.options;
+    this.input.value = this.#value === null ? "" : how(this.#value, kind, degrees(), decimals);
+  }
+
+  #begin(): void {
+    this.#write(exact);
+    this.input.select();
+  }
+
+  #end(): void {
+    this.#commit();
+    if (!this.#isEdited) this.#write(format);
+  }
+
+  #typed(): void {
+    this.#isEdited = true;
+    const value = this.#read();
+    if (this.options.live && value !== undefined) this.#take(value);
+  }
+
+  #commit(): void {
+    if (!this.#isEdited) return;
+    const value = this.#read();
+    if (value === undefined) return;
+    this.#isEdited = false;
+    this.#take(value);
+    if (document.activeElement === this.input) this.#write(exact);
+  }
+
+  #forget(): void {
+    this.#isEdited = false;
+    this.fail(null);
+    this.options.invalid?.(null);
+    this.#write(exact);
+    this.input.select();
+  }
+
+  #take(value: number | null): void {
+    this.#value = value;
+    this.options.change(value);
+  }
+
+  /** What is typed; undefined, with the reason at the field, where it is no number. */
+  #read(): number | null | undefined {
+    const { kind, degrees, optional, invalid } = this.options;
+    const text = this.input.value;
+    const value = optional && text.trim() === "" ? null : parse(text, kind, degrees());
+    const reason = value === null && !(optional && text.trim() === "") ? WRITE[kind] : null;
+    this.fail(reason);
+    invalid?.(reason);
+    return reason === null ? value : undefined;
+  }
+}

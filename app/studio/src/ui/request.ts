@@ -1,0 +1,138 @@
+/** A call as a script: the next step after the page. */
+
+import type { Api, Call } from "../api.ts";
+import { copyButton } from "./copy.ts";
+import { Choice, element } from "./dom.ts";
+
+type Language = "curl" | "python" | "json";
+
+const LANGUAGES: readonly { value: Language; text: string }[] = [
+  { value: "curl", text: "curl" },
+  { value: "python", text: "Python" },
+  { value: "json", text: "JSON" },
+];
+
+/** The part "as request" at the foot of a panel; `api` is the API whose last call it shows. */
+export class RequestView {
+  readonly host: HTMLElement;
+  readonly api: Api;
+  #call: Call | null = null;
+  #language: Language = "curl";
+  #code = element("code");
+  #choice: Choice<Language>;
+
+  constructor(private readonly service: Api) {
+    this.api = service.recorded((call) => this.show(call));
+    this.#choice = new Choice("Language", LANGUAGES, (language) => {
+      this.#language = language;
+      this.#write();
+    });
+    const bar = element("div", { class: "bar" }, this.#choice.host, copyButton(() => this.#code.textContent ?? "", "the request"));
+    const code = element("pre", { tabindex: "0", role: "region", "aria-label": "The request" }, this.#code);
+    this.host = element(
+      "details",
+      { class: "request", hidden: true },
+      element("summary", {}, "As request"),
+      element("div", { class: "request-body" }, bar, code),
+    );
+  }
+
+  show(call: Call): void {
+    this.#call = call;
+    this.#write();
+  }
+
+  #write(): void {
+    this.host.hidden = this.#call === null;
+    this.#choice.show(this.#language);
+    if (this.#call) this.#code.textContent = WRITERS[this.#language](this.service.url(this.#call.path), this.#call);
+  }
+}
+
+const WRITERS: Record<Language, (url: string, call: Call) => string> = { curl, python, json };
+
+function curl(url: string, call: Call): string {
+  const method = call.method === "GET" || (call.method === "POST" && (call.body || call.form)) ? "" : ` -X ${call.method}`;
+  const parts = [`curl -s${method} ${quoted(url)}`];
+  if (call.form) {
+    for (const [name, value] of Object.entries(call.form.fields)) parts.push(`-F ${quoted(`${name}=${value}`)}`);
+    parts.push(`-F ${quoted(`archive=@${call.form.archive.name}`)}`);
+  } else if (call.body !== undefined) {
+    parts.push(`-H 'Content-Type: application/json'`, `-d ${quoted(flat(call.body, JSON.stringify))}`);
+  }
+  return parts.join(" \\\n  ");
+}
+
+/** The standard library is enough for JSON; for a form there is `requests`. */
+function python(url: string, call: Call): string {
+  if (call.form) {
+    return [
+      "import requests",
+      "",
+      `with open(${literal(call.form.archive.name)}, "rb") as archive:`,
+      `    answer = requests.${call.method.toLowerCase()}(`,
+      `        ${literal(url)},`,
+      `        data=${literal(call.form.fields)},`,
+      `        files={"archive": archive},`,
+      "    )",
+      "print(answer.json())",
+    ].join("\n");
+  }
+  const open = call.body === undefined && call.method === "GET" ? `urlopen(${literal(url)})` : "urlopen(request)";
+  const lines = ["import json", `from urllib.request import ${open.includes("request)") ? "Request, " : ""}urlopen`, ""];
+  if (call.body !== undefined) lines.push(`call = ${literal(call.body, 0)}`);
+  if (open.includes("request)")) {
+    lines.push("request = Request(", `    ${literal(url)},`);
+    if (call.body !== undefined) {
+      lines.push("    data=json.dumps(call).encode(),", `    headers={"Content-Type": "application/json"},`);
+    }
+    if (call.method !== "POST" || call.body === undefined) lines.push(`    method=${literal(call.method)},`);
+    lines.push(")");
+  }
+  const shown = call.path.endsWith("/urdf") ? "answer.read().decode()" : "json.load(answer)";
+  return [...lines, `with ${open} as answer:`, `    print(${shown})`].join("\n");
+}
+
+function json(_: string, call: Call): string {
+  const head = `${call.method} /${call.path}`;
+  if (call.form) return `${head}\n\n${indented(call.form.fields)}\n+ archive: ${call.form.archive.name}`;
+  return call.body === undefined ? head : indented(call.body);
+}
+
+/** For a shell: in single quotes. */
+function quoted(text: string): string {
+  return `'${text.replaceAll("'", `'\\''`)}'`;
+}
+
+/** JSON with a field a line, short lists on one. */
+function indented(body: unknown): string {
+  return write(body, 0, (value) => JSON.stringify(value));
+}
+
+function literal(value: unknown, depth?: number): string {
+  const scalar = (item: unknown) => {
+    if (item === null) return "None";
+    if (item === true) return "True";
+    if (item === false) return "False";
+    return JSON.stringify(item);
+  };
+  return depth === undefined ? flat(value, scalar) : write(value, depth, scalar);
+}
+
+function write(value: unknown, depth: number, scalar: (value: unknown) => string): string {
+  const short = flat(value, scalar);
+  if (short.length + 4 * depth < 72 || value === null || typeof value !== "object") return short;
+  const inner = "    ".repeat(depth + 1);
+  const outer = "    ".repeat(depth);
+  const isList = Array.isArray(value);
+  const parts = isList
+    ? value.map((item) => write(item, depth + 1, scalar))
+    : Object.entries(value).map(([key, item]) => `${JSON.stringify(key)}: ${write(item, depth + 1, scalar)}`);
+  return `${isList ? "[" : "{"}\n${parts.map((part) => inner + part).join(",\n")}\n${outer}${isList ? "]" : "}"}`;
+}
+
+function flat(value: unknown, scalar: (value: unknown) => string): string {
+  if (Array.isArray(value)) return `[${value.map((item) => flat(item, scalar)).join(", ")}]`;
+  if (value === null || typeof value !== "object") return scalar(value);
+  return `{${Object.entries(value).map(([key, item]) => `${JSON.stringify(key)}: ${flat(item, scalar)}`).join(", ")}}`;
+}

@@ -1,0 +1,211 @@
+/** The 3-D view: one scene, z up, drawn when something has changed and not otherwise. */
+
+import {
+  AmbientLight,
+  Box3,
+  DirectionalLight,
+  GridHelper,
+  Group,
+  HemisphereLight,
+  type Material,
+  Mesh,
+  type Object3D,
+  PerspectiveCamera,
+  Scene,
+  type Texture,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { CSS2DRenderer } from "three/addons/renderers/CSS2DRenderer.js";
+
+import type { RobotModel } from "../robot/model.ts";
+import { colour } from "./colours.ts";
+
+const DIRECTION = new Vector3(1.05, -1.35, 0.75).normalize();
+const CELLS = 20;
+
+export class View {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  readonly canvas: HTMLCanvasElement;
+  /** Length that suits marks on the robot on the screen, [m]. */
+  unit = 0.1;
+  #renderer: WebGLRenderer;
+  #labels = new CSS2DRenderer();
+  #model: RobotModel | null = null;
+  #grid = new Group();
+  #floor = { level: 0, cell: 0.1 };
+  #asked = false;
+  #isMoved = false;
+
+  /** Throws where the browser has no WebGL. */
+  constructor(host: HTMLElement) {
+    this.#renderer = new WebGLRenderer({ antialias: true });
+    this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.canvas = this.#renderer.domElement;
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "The robot in space. Arrow keys turn the view, plus and minus zoom.");
+    this.#labels.domElement.className = "labels";
+    host.append(this.canvas, this.#labels.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => (this.#isMoved = true));
+    this.canvas.addEventListener("keydown", (event) => this.#key(event));
+    this.canvas.addEventListener("dblclick", () => this.fit());
+    this.#light();
+    this.scene.add(this.#grid);
+    new ResizeObserver(() => this.#resize(host)).observe(host);
+    this.#resize(host);
+    this.dress();
+  }
+
+  /** Put a robot in the place of the one before. */
+  show(model: RobotModel): void {
+    const before = this.#model;
+    this.#model = model;
+    this.scene.add(model.root);
+    const isSame = before !== null && before.name === model.name;
+    if (before && before !== model) dispose(before.root);
+    if (!isSame) this.#isMoved = false;
+    this.settle();
+  }
+
+  /** The scene of the robot has got another size: a mesh has arrived, or another configuration is far away. */
+  settle(): void {
+    if (!this.#isMoved) this.fit();
+    this.draw();
+  }
+
+  /** Look at the whole robot from the usual side. */
+  fit(): void {
+    if (!this.#model) return;
+    this.#isMoved = false;
+    const box = extent(this.#model);
+    const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
+    const centre = box.getCenter(new Vector3());
+    this.unit = size * 0.09;
+    const distance = (size * 0.62) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    this.camera.near = size / 200;
+    this.camera.far = size * 60;
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).addScaledVector(DIRECTION, distance);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.#lay(box, size);
+  }
+
+  /** Take the colours of the page's theme. */
+  dress(): void {
+    this.scene.background = colour("view");
+    this.#lay(null, 0);
+    this.draw();
+  }
+
+  /** Draw once before the next frame of the screen. */
+  draw(): void {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame(() => {
+      this.#asked = false;
+      this.#renderer.render(this.scene, this.camera);
+      this.#labels.render(this.scene, this.camera);
+    });
+  }
+
+  /** Meshes of the robot that are on the screen, primitives included. */
+  countMeshes(): number {
+    let count = 0;
+    this.#model?.root.traverse((node) => (count += node instanceof Mesh ? 1 : 0));
+    return count;
+  }
+
+  #light(): void {
+    const key = new DirectionalLight(0xffffff, 1.9);
+    key.position.set(2, -3, 5);
+    const fill = new DirectionalLight(0xffffff, 0.5);
+    fill.position.set(-3, 2, 1);
+    this.scene.add(new HemisphereLight(0xffffff, 0xb8b8c0, 1.1), new AmbientLight(0xffffff, 0.25), key, fill);
+  }
+
+  /** The grid on the floor: where z is 0, or at the feet of what reaches below. */
+  #lay(box: Box3 | null, size: number): void {
+    if (box) {
+      const decade = 10 ** Math.floor(Math.log10(size / 4));
+      const cell = [1, 2, 5, 10].map((step) => step * decade).find((step) => step >= size / 8) ?? decade;
+      this.#floor = { level: box.min.z < -0.02 * size ? box.min.z : 0, cell };
+    }
+    for (const grid of this.#grid.children as GridHelper[]) grid.dispose();
+    this.#grid.clear();
+    const width = this.#floor.cell * CELLS;
+    const grid = new GridHelper(width, CELLS, colour("grid-strong"), colour("grid"));
+    grid.rotation.x = Math.PI / 2;
+    grid.position.z = this.#floor.level;
+    this.#grid.add(grid);
+  }
+
+  #resize(host: HTMLElement): void {
+    const { clientWidth: width, clientHeight: height } = host;
+    if (!width || !height) return;
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.#renderer.setSize(width, height);
+    this.#labels.setSize(width, height);
+    this.settle();
+  }
+
+  #key(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, -1],
+      ArrowDown: [0, 1],
+    };
+    const zooms: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 };
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    if (event.key === "Home") {
+      this.fit();
+    } else if (zooms[event.key]) {
+      offset.multiplyScalar(zooms[event.key]!);
+    } else if (turns[event.key]) {
+      const [around, over] = turns[event.key]!;
+      const polar = Math.acos(offset.z / offset.length()) + over * 0.1;
+      offset.applyAxisAngle(this.camera.up, around * 0.12);
+      if (polar > 0.05 && polar < Math.PI - 0.05) {
+        const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+        offset.applyAxisAngle(side, over * 0.1);
+      }
+    } else {
+      return;
+    }
+    event.preventDefault();
+    if (event.key === "Home") return;
+    this.#isMoved = true;
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+    this.draw();
+  }
+}
+
+/** What the robot takes up: its links' origins, and the meshes that have arrived. */
+function extent(model: RobotModel): Box3 {
+  const box = new Box3().setFromObject(model.root);
+  const point = new Vector3();
+  for (const name of model.links) box.expandByPoint(point.setFromMatrixPosition(model.link(name).matrixWorld));
+  return box;
+}
+
+function dispose(root: Object3D): void {
+  root.removeFromParent();
+  root.traverse((node) => {
+    if (!(node instanceof Mesh)) return;
+    node.geometry.dispose();
+    for (const material of [node.material].flat() as (Material & { map?: Texture | null })[]) {
+      material.map?.dispose();
+      material.dispose();
+    }
+  });
+}
