@@ -23,7 +23,7 @@ def main() -> None:
         settings = Settings.from_environment(os.environ)
     except InvalidSetting as error:
         sys.exit(str(error))
-    print(f"Gelenk at http://{arguments.host}:{arguments.port}/docs, robots of your own in {settings.data_dir}")
+    print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
     uvicorn.run(
         "app.main:from_environment",
         factory=True,

@@ -18,6 +18,7 @@ from app.model.chain import Chain
 from app.model.description import Joint
 from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
 from app.schemas.common import ChainEnds
+from app.schemas.dh import DhTablePayload, table_content
 from app.schemas.pose import Pose
 from app.schemas.robots import (
     EXAMPLE_DH,
@@ -268,6 +269,7 @@ def info(loaded: LoadedRobot) -> RobotInfo:
         root=description.root,
         joints=[_joint(joint) for joint in description.joints],
         joint_names=list(chain.joint_names),
+        dh=None if loaded.table is None else DhTablePayload.model_validate(table_content(loaded.table)),
         degrees_of_freedom=len(description.movable),
         links=list(description.frames),
         frames=list(description.frames),

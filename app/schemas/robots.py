@@ -142,6 +142,7 @@ class RobotInfo(RobotSummary):
     root: str = Field(description="The link without a parent.")
     joints: list[JointInfo]
     joint_names: list[str] = Field(description="The default chain's joints, base to tip: the order of a configuration.")
+    dh: DhTablePayload | None = Field(None, description="The table, of a robot that was given as one.")
     degrees_of_freedom: int = Field(description="Joints of the whole robot with a position of their own.")
     links: list[str]
     frames: list[str]

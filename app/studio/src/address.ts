@@ -58,13 +58,10 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
     if (step) history.pushState(null, "", hash);
     else history.replaceState(null, "", hash);
   };
-  store.watch(
-    ["panel", "robot", "draft", "base", "tip", "target", "positions", "model", "loading", ...FLAGS],
-    () => {
-      clearTimeout(timer);
-      timer = window.setTimeout(update, WRITE_AFTER);
-    },
-  );
+  store.watch(["panel", "robot", "draft", "base", "tip", "target", "positions", "model", "loading", ...FLAGS], () => {
+    clearTimeout(timer);
+    timer = window.setTimeout(update, WRITE_AFTER);
+  });
   const follow = () => {
     if (location.hash === written) return;
     clearTimeout(timer);

@@ -5,7 +5,7 @@ import "./styles/studio.css";
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";
 import { acceptDrops } from "./dropping.ts";
-import { furnish } from "./page.ts";
+import { followTheme, furnish } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
 import { showPart } from "./panels/robot/index.ts";
 import { Loader } from "./robot/load.ts";
@@ -21,16 +21,33 @@ function start(): void {
   const { linked, positions } = read(location.hash);
   const store = new Store(initial(linked));
   const api = new Api(new URL(".", document.baseURI));
+  followTheme(store);
   const view = makeView(place("view"));
   const studio: Studio = { store, api, view };
-  const loader = new Loader(api, store, () => view?.settle());
+  const measure = () => view && store.set({ unit: view.unit });
+  const loader = new Loader(api, store, () => {
+    view?.settle();
+    measure();
+  });
   store.watch(["positions"], ({ model, positions: wanted }) => model?.place(wanted));
-  store.watch(["model"], ({ model }) => model && view?.show(model));
+  store.watch(["model"], ({ model }) => {
+    if (model) view?.show(model);
+    measure();
+  });
   if (view) {
-    store.watch(["theme"], () => view.dress());
+    store.watch(["dark"], () => view.dress());
     mark(view, store);
   }
-  furnish({ tabs: place("tabs"), panel: place("panel"), heading: place("heading"), marks: place("marks"), tools: place("tools") }, studio);
+  furnish(
+    {
+      tabs: place("tabs"),
+      panel: place("panel"),
+      heading: place("heading"),
+      marks: place("marks"),
+      tools: place("tools"),
+    },
+    studio,
+  );
   loader.follow(positions);
   mirror(store, (address) => {
     loader.startAt(address.positions);
@@ -38,7 +55,8 @@ function start(): void {
     const isSame = address.linked.robot === robot && JSON.stringify(address.linked.draft) === JSON.stringify(draft);
     store.set(isSame ? { ...address.linked, robot, draft } : address.linked);
     const { model } = store.value;
-    if (isSame && model) store.set({ positions: model.complete(address.positions, model.ends.base_frame, model.ends.tip_frame) });
+    if (isSame && model)
+      store.set({ positions: model.complete(address.positions, model.ends.base_frame, model.ends.tip_frame) });
   });
   acceptDrops(place("drop"), () => {
     showPart("upload");
@@ -53,7 +71,13 @@ function makeView(host: HTMLElement): View | null {
   try {
     return new View(host);
   } catch {
-    host.append(element("p", { class: "no-view" }, "This browser shows no 3-D pictures (WebGL is off). The numbers work all the same."));
+    host.append(
+      element(
+        "p",
+        { class: "no-view" },
+        "This browser shows no 3-D pictures (WebGL is off). The numbers work all the same.",
+      ),
+    );
     return null;
   }
 }

@@ -2,6 +2,7 @@
 
 import { PANELS } from "./panels/index.ts";
 import type { Studio } from "./panels/panel.ts";
+import { shownChain } from "./robot/chain.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
 import { button, element, toggle } from "./ui/dom.ts";
@@ -26,7 +27,7 @@ export function furnish(places: Places, studio: Studio): void {
   tabs(places, studio);
   heading(places.heading, studio.store);
   marks(places.marks, studio);
-  places.tools.append(theme(studio), element("a", { class: "tool", href: "docs" }, "API"));
+  places.tools.append(themeSwitch(studio), element("a", { class: "tool", href: "docs" }, "API"));
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {
@@ -73,17 +74,23 @@ function heading(host: HTMLElement, store: Store<State>): void {
   const base = frameSelect("Base frame", (frame) => store.set({ base: frame }));
   const tip = frameSelect("Tip frame", (frame) => store.set({ tip: frame }));
   const status = element("p", { class: "status", role: "status" });
-  host.append(pick, element("span", { class: "chain" }, base, element("span", { "aria-hidden": "true" }, "→"), tip), status);
+  host.append(
+    pick,
+    element("span", { class: "chain" }, base, element("span", { "aria-hidden": "true" }, "→"), tip),
+    status,
+  );
   store.watch(["model"], ({ model }) => {
     if (!model) return;
     name.textContent = model.title;
     document.title = `${model.title} · Gelenk`;
-    for (const select of [base, tip]) select.replaceChildren(...model.links.map((link) => element("option", { value: link }, link)));
+    for (const select of [base, tip])
+      select.replaceChildren(...model.links.map((link) => element("option", { value: link }, link)));
   });
   store.watch(["model", "base", "tip"], (state) => {
-    if (!state.model) return;
-    base.value = state.base ?? state.model.ends.base_frame;
-    tip.value = state.tip ?? state.model.ends.tip_frame;
+    const chain = shownChain(state);
+    if (!chain) return;
+    base.value = chain.base;
+    tip.value = chain.tip;
   });
   store.watch(["loading", "failure"], ({ loading, failure }) => {
     status.textContent = loading ? "Loading …" : failure ? "Not on the screen: the panel Robot says why." : "";
@@ -91,7 +98,12 @@ function heading(host: HTMLElement, store: Store<State>): void {
 }
 
 function frameSelect(title: string, choose: (frame: string) => void): HTMLSelectElement {
-  const select = element("select", { class: "select plain", "aria-label": title, title, onchange: () => choose(select.value) });
+  const select = element("select", {
+    class: "select plain",
+    "aria-label": title,
+    title,
+    onchange: () => choose(select.value),
+  });
   return select;
 }
 
@@ -102,25 +114,28 @@ function marks(host: HTMLElement, { store, view }: Studio): void {
     return flip;
   });
   host.append(...made);
-  if (view) host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
+  if (view)
+    host.append(button("Fit", () => view.fit(), { class: "toggle", title: "Look at the whole robot (double click)" }));
 }
 
-/** Follow the system, or be light or dark whatever it says. */
-function theme({ store }: Studio): HTMLElement {
+/** Follow the system, or be light or dark whatever it says; first of all, because others read the colours. */
+export function followTheme(store: Store<State>): void {
   const system = matchMedia("(prefers-color-scheme: dark)");
-  const isDark = () => (store.value.theme === "auto" ? system.matches : store.value.theme === "dark");
-  const flip = button("", () => store.set({ theme: isDark() ? "light" : "dark" }), { class: "tool" });
-  const show = () => {
-    const { theme: wanted } = store.value;
-    if (wanted === "auto") delete document.documentElement.dataset["theme"];
-    else document.documentElement.dataset["theme"] = wanted;
-    flip.textContent = isDark() ? "Light" : "Dark";
-    flip.title = `Change to ${isDark() ? "light" : "dark"} colours`;
+  const follow = () => {
+    const { theme } = store.value;
+    if (theme === "auto") delete document.documentElement.dataset["theme"];
+    else document.documentElement.dataset["theme"] = theme;
+    store.set({ dark: theme === "auto" ? system.matches : theme === "dark" });
   };
-  store.watch(["theme"], show);
-  system.addEventListener("change", () => {
-    show();
-    if (store.value.theme === "auto") store.set({ theme: isDark() ? "dark" : "light" });
+  store.watch(["theme"], follow);
+  system.addEventListener("change", follow);
+}
+
+function themeSwitch({ store }: Studio): HTMLElement {
+  const flip = button("", () => store.set({ theme: store.value.dark ? "light" : "dark" }), { class: "tool" });
+  store.watch(["dark"], ({ dark }) => {
+    flip.textContent = dark ? "Light" : "Dark";
+    flip.title = `Change to ${dark ? "light" : "dark"} colours`;
   });
   return flip;
 }

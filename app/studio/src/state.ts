@@ -37,7 +37,11 @@ export interface State extends Linked {
   table: { dh: DhTable; base: string } | null;
   /** The joint that the pointer or the focus is on, in whatever list of joints. */
   joint: string | null;
+  /** Length that suits marks on the robot on the screen, [m]. */
+  unit: number;
   theme: "auto" | "light" | "dark";
+  /** What the theme comes to on this system. */
+  dark: boolean;
 }
 
 export const FIRST: Linked = {
@@ -63,6 +67,8 @@ export function initial(linked: Linked): State {
     failure: null,
     table: null,
     joint: null,
+    unit: 0.1,
     theme: "auto",
+    dark: false,
   };
 }

@@ -1,13 +1,7 @@
 /** What travels over the public API, as far as the studio uses it; the OpenAPI schema says it in full. */
 
 export type PoseFormat =
-  | "quaternion_xyzw"
-  | "quaternion_wxyz"
-  | "rpy"
-  | "zyz"
-  | "rotation_vector"
-  | "rotation"
-  | "matrix";
+  "quaternion_xyzw" | "quaternion_wxyz" | "rpy" | "zyz" | "rotation_vector" | "rotation" | "matrix";
 
 export interface Pose {
   position?: number[];
@@ -46,6 +40,7 @@ export interface RobotInfo extends RobotSummary {
   chains: Record<string, ChainEnds>;
   root: string;
   joints: JointInfo[];
+  dh: DhTable | null;
   degrees_of_freedom: number;
   links: string[];
   leaf_tips: string[];

@@ -10,7 +10,8 @@ import type { ChainEnds, DhTable, RobotInfo, TableAnswer, ToUrdfAnswer } from ".
 import { type MeshSource, meshSource, quiet } from "./meshes.ts";
 import { RobotModel } from "./model.ts";
 
-const DRAFT_CHAIN: ChainEnds = { base_frame: "base", tip_frame: "tool" };
+/** The links that the service writes a table between. */
+const TABLE_CHAIN: ChainEnds = { base_frame: "base", tip_frame: "tool" };
 const DRAFT_NAME = "draft";
 
 export class Loader {
@@ -57,14 +58,23 @@ export class Loader {
       this.api.get<RobotInfo>(path, signal),
       this.api.text(`${path}/urdf`, signal),
     ]);
-    const source = meshSource((file) => this.api.url(`${path}/meshes/${file.split("/").map(encodeURIComponent).join("/")}`));
+    const source = meshSource((file) =>
+      this.api.url(`${path}/meshes/${file.split("/").map(encodeURIComponent).join("/")}`),
+    );
     const paths = new Map(info.meshes.map(({ reference, path: file }) => [reference, file]));
     return this.#model(name, urdf, info.default_chain, info, (reference) => paths.get(reference) ?? null, source);
   }
 
   async #draft(dh: DhTable, signal: AbortSignal): Promise<RobotModel> {
     const answer = await this.api.post<ToUrdfAnswer>("v1/dh/to-urdf", { name: DRAFT_NAME, dh }, signal);
-    return this.#model(null, answer.urdf, DRAFT_CHAIN, null, () => null, async () => new Mesh());
+    return this.#model(
+      null,
+      answer.urdf,
+      TABLE_CHAIN,
+      null,
+      () => null,
+      async () => new Mesh(),
+    );
   }
 
   #model(
@@ -122,7 +132,7 @@ export class Loader {
     const positions = model.complete(this.#restored ?? (isSame ? state.positions : null), from, to);
     this.#restored = null;
     model.place(positions);
-    const table = state.draft ? { dh: state.draft, base: DRAFT_CHAIN.base_frame } : null;
+    const table = state.draft ? { dh: state.draft, base: TABLE_CHAIN.base_frame } : null;
     this.store.set({ model, positions, base, tip, table, loading: false, failure: null });
   }
 
@@ -137,6 +147,11 @@ export class Loader {
       return;
     }
     try {
+      if (model.info?.dh && isWhole(this.store.value)) {
+        this.#tables.cancel();
+        this.store.set({ table: { dh: model.info.dh, base: TABLE_CHAIN.base_frame } });
+        return;
+      }
       const path = tablePath(name, "standard", base, tip);
       const answer = await this.#tables.run((signal) => this.api.get<TableAnswer>(path, signal));
       if (answer) this.store.set({ table: { dh: answer.dh, base: answer.base_frame } });
@@ -144,6 +159,12 @@ export class Loader {
       this.store.set({ table: null });
     }
   }
+}
+
+/** Whether the chain is the one that a table describes. */
+function isWhole({ model, base, tip }: Readonly<State>): boolean {
+  const ends = [base ?? model?.ends.base_frame, tip ?? model?.ends.tip_frame];
+  return ends[0] === TABLE_CHAIN.base_frame && ends[1] === TABLE_CHAIN.tip_frame;
 }
 
 function namesOf(model: RobotModel): string {
@@ -158,5 +179,7 @@ export function tablePath(robot: string, convention: string, base: string | null
 }
 
 export function asProblem(error: unknown): Problem {
-  return error instanceof Problem ? error : new Problem(NOT_OF_THE_SERVICE, "This robot cannot be shown", String(error));
+  return error instanceof Problem
+    ? error
+    : new Problem(NOT_OF_THE_SERVICE, "This robot cannot be shown", String(error));
 }

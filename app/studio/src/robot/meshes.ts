@@ -1,6 +1,16 @@
 /** Mesh files of a robot, from the service; a file that several links show is fetched once. */
 
-import { type Camera, Color, FileLoader, type Light, LoadingManager, type Material, Mesh, MeshPhongMaterial, type Object3D } from "three";
+import {
+  type Camera,
+  Color,
+  FileLoader,
+  type Light,
+  LoadingManager,
+  type Material,
+  Mesh,
+  MeshPhongMaterial,
+  type Object3D,
+} from "three";
 import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
@@ -30,7 +40,10 @@ async function load(url: string, path: string): Promise<Object3D> {
     case "obj":
       return new OBJLoader(manager).loadAsync(url);
     case "dae": {
-      const collada = new ColladaLoader(manager).parse(asItStands(await new FileLoader(manager).loadAsync(url)), folder(url));
+      const collada = new ColladaLoader(manager).parse(
+        asItStands(await new FileLoader(manager).loadAsync(url)),
+        folder(url),
+      );
       if (!collada) throw new Error("no Collada document");
       for (const extra of lightsAndCameras(collada.scene)) extra.removeFromParent();
       return collada.scene;

@@ -117,7 +117,8 @@ export class RobotModel {
   /** One value for each joint: a given one where it is a number of this robot, else home. */
   complete(given: Positions | readonly number[] | null, base: string, tip: string): Positions {
     const home = this.home(base, tip);
-    if (given && !Array.isArray(given)) return this.#each((joint) => (given as Positions)[joint.name] ?? home[joint.name]!);
+    if (given && !Array.isArray(given))
+      return this.#each((joint) => (given as Positions)[joint.name] ?? home[joint.name]!);
     const numbers = given as readonly number[] | null;
     if (numbers?.length !== this.joints.length) return home;
     return Object.fromEntries(this.joints.map((joint, index) => [joint.name, numbers[index]!]));
@@ -178,7 +179,8 @@ function drive(root: URDFRobot, info: JointInfo, byName: Map<string, JointInfo>)
 /** What urdf-loader has read of a joint, for a draft. */
 function jointInfo(joint: URDFJoint): JointInfo {
   const { lower, upper, velocity, effort } = joint.limit;
-  const mimic = "mimicJoint" in joint ? (joint as unknown as { mimicJoint: string; multiplier: number; offset: number }) : null;
+  const mimic =
+    "mimicJoint" in joint ? (joint as unknown as { mimicJoint: string; multiplier: number; offset: number }) : null;
   return {
     name: joint.name,
     type: joint.jointType,

@@ -33,7 +33,9 @@ export function asPose(T: Matrix4, format: PoseFormat): Pose {
 }
 
 export function orientation(T: Matrix4, format: Exclude<PoseFormat, "matrix">): number[] | number[][] {
-  const R = rows(T).slice(0, 3).map((row) => row.slice(0, 3));
+  const R = rows(T)
+    .slice(0, 3)
+    .map((row) => row.slice(0, 3));
   const at = (i: number, j: number) => R[i]![j]!;
   switch (format) {
     case "rotation":

@@ -13,7 +13,10 @@ export function isName(text: string): boolean {
 export async function suggestedName(file: File): Promise<string> {
   const inside = isArchive(file) ? null : /<robot\b[^>]*\bname\s*=\s*["']([^"']+)["']/.exec(await file.text())?.[1];
   const raw = inside ?? file.name.replace(/(\.urdf|\.xml|\.zip)+$/i, "");
-  const name = raw.replace(/[^A-Za-z0-9_.-]+/g, "_").replace(/^[^A-Za-z0-9]+/, "").slice(0, 64);
+  const name = raw
+    .replace(/[^A-Za-z0-9_.-]+/g, "_")
+    .replace(/^[^A-Za-z0-9]+/, "")
+    .slice(0, 64);
   return isName(name) ? name : "my_robot";
 }
 

@@ -27,7 +27,12 @@ export class RequestView {
       this.#language = language;
       this.#write();
     });
-    const bar = element("div", { class: "bar" }, this.#choice.host, copyButton(() => this.#code.textContent ?? "", "the request"));
+    const bar = element(
+      "div",
+      { class: "bar" },
+      this.#choice.host,
+      copyButton(() => this.#code.textContent ?? "", "the request"),
+    );
     const code = element("pre", { tabindex: "0", role: "region", "aria-label": "The request" }, this.#code);
     this.host = element(
       "details",
@@ -52,7 +57,8 @@ export class RequestView {
 const WRITERS: Record<Language, (url: string, call: Call) => string> = { curl, python, json };
 
 function curl(url: string, call: Call): string {
-  const method = call.method === "GET" || (call.method === "POST" && (call.body || call.form)) ? "" : ` -X ${call.method}`;
+  const method =
+    call.method === "GET" || (call.method === "POST" && (call.body || call.form)) ? "" : ` -X ${call.method}`;
   const parts = [`curl -s${method} ${quoted(url)}`];
   if (call.form) {
     for (const [name, value] of Object.entries(call.form.fields)) parts.push(`-F ${quoted(`${name}=${value}`)}`);
@@ -79,7 +85,11 @@ function python(url: string, call: Call): string {
     ].join("\n");
   }
   const open = call.body === undefined && call.method === "GET" ? `urlopen(${literal(url)})` : "urlopen(request)";
-  const lines = ["import json", `from urllib.request import ${open.includes("request)") ? "Request, " : ""}urlopen`, ""];
+  const lines = [
+    "import json",
+    `from urllib.request import ${open.includes("request)") ? "Request, " : ""}urlopen`,
+    "",
+  ];
   if (call.body !== undefined) lines.push(`call = ${literal(call.body, 0)}`);
   if (open.includes("request)")) {
     lines.push("request = Request(", `    ${literal(url)},`);
@@ -89,7 +99,7 @@ function python(url: string, call: Call): string {
     if (call.method !== "POST" || call.body === undefined) lines.push(`    method=${literal(call.method)},`);
     lines.push(")");
   }
-  const shown = call.path.endsWith("/urdf") ? "answer.read().decode()" : "json.load(answer)";
+  const shown = call.path.endsWith("/urdf") ? "answer.read().decode()" : "json.dumps(json.load(answer), indent=2)";
   return [...lines, `with ${open} as answer:`, `    print(${shown})`].join("\n");
 }
 
@@ -134,5 +144,7 @@ function write(value: unknown, depth: number, scalar: (value: unknown) => string
 function flat(value: unknown, scalar: (value: unknown) => string): string {
   if (Array.isArray(value)) return `[${value.map((item) => flat(item, scalar)).join(", ")}]`;
   if (value === null || typeof value !== "object") return scalar(value);
-  return `{${Object.entries(value).map(([key, item]) => `${JSON.stringify(key)}: ${flat(item, scalar)}`).join(", ")}}`;
+  return `{${Object.entries(value)
+    .map(([key, item]) => `${JSON.stringify(key)}: ${flat(item, scalar)}`)
+    .join(", ")}}`;
 }

@@ -1,76 +1,88 @@
 /** What is drawn on the robot: frames, joint axes, link names, the ends of the chain, and the frames of a DH table. */
 
-import { Group, type Matrix4, Vector3 } from "three";
+import { Group, type Matrix4, type Object3D, Vector3 } from "three";
 import type { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 
+import { shownChain } from "../robot/chain.ts";
 import { frames } from "../robot/dh.ts";
-import type { RobotModel } from "../robot/model.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
 import { colour } from "./colours.ts";
 import { arrow, clear, label, put, rod, stretch, triad } from "./shapes.ts";
 import type { View } from "./view.ts";
 
+/** Moves marks to where the robot is now. */
+type Follow = () => void;
+
 /** Keep the marks as the state wants them, from now on. */
 export function mark(view: View, store: Store<State>): void {
-  const onLinks = new Group();
-  const ofTable = new Group();
-  view.scene.add(onLinks, ofTable);
-  let follow: (() => void)[] = [];
-  store.watch(["model", "frames", "axes", "names", "base", "tip", "joint", "theme"], (state) => {
-    clear(onLinks);
-    follow = state.model ? linkMarks(onLinks, view, state.model, state) : [];
-    move(follow, view);
-  });
-  let draw: () => void = () => {};
-  store.watch(["model", "table", "dh", "theme"], (state) => {
-    clear(ofTable);
-    draw = state.dh && state.table && state.model ? tableMarks(ofTable, view, store) : () => {};
-    move([draw], view);
-  });
-  store.watch(["positions"], () => move([...follow, draw], view));
-}
-
-function move(follow: (() => void)[], view: View): void {
-  for (const update of follow) update();
-  view.draw();
-}
-
-/** Marks that sit on links; the answer moves them to where the links are. */
-function linkMarks(group: Group, view: View, model: RobotModel, state: Readonly<State>): (() => void)[] {
-  const length = view.unit;
-  const [base, tip] = [state.base ?? model.ends.base_frame, state.tip ?? model.ends.tip_frame];
-  const updates: (() => void)[] = [];
-  const on = (T: () => Matrix4, object: Group | CSS2DObject) => {
-    group.add(object);
-    updates.push(() => put(object, T()));
+  const layer = (keys: readonly (keyof State)[], draw: (group: Group, state: Readonly<State>) => Follow) => {
+    const group = new Group();
+    view.scene.add(group);
+    let follow: Follow = () => {};
+    store.watch(["model", "unit", "dark", ...keys], (state) => {
+      clear(group);
+      follow = draw(group, state);
+      follow();
+      view.draw();
+    });
+    store.watch(["positions"], () => {
+      follow();
+      view.draw();
+    });
   };
+  layer(["frames", "names", "base", "tip"], linkMarks);
+  layer(["axes", "joint"], axisMarks);
+  layer(["dh", "table"], (group, { dh, table, model }) => (dh && table && model ? tableMarks(group, store) : () => {}));
+}
+
+/** Frames and names of links. */
+function linkMarks(group: Group, state: Readonly<State>): Follow {
+  const chain = shownChain(state);
+  const length = state.unit;
+  const updates: (() => void)[] = [];
+  if (!chain) return () => {};
+  const { model, base, tip } = chain;
   for (const link of model.links) {
     const T = () => model.link(link).matrixWorld;
     const isEnd = link === base || link === tip;
-    if (state.frames || isEnd) on(T, triad(isEnd ? length : length * 0.6));
-    if (state.names) on(T, label(link, "link"));
+    if (state.frames || isEnd) updates.push(attach(group, triad(isEnd ? length : length * 0.6), T));
+    if (state.names) updates.push(attach(group, label(link, "link"), T));
   }
-  for (const joint of Object.values(model.root.joints)) {
+  return () => updates.forEach((update) => update());
+}
+
+/** The axes of all joints, or of the one that the pointer or the focus is on. */
+function axisMarks(group: Group, state: Readonly<State>): Follow {
+  const length = state.unit;
+  const updates: (() => void)[] = [];
+  for (const joint of Object.values(state.model?.root.joints ?? {})) {
     const isNamed = joint.name === state.joint;
     const moves = joint.jointType !== "fixed" && joint.jointType !== "floating";
     if (!moves || !(state.axes || isNamed)) continue;
     const direction = joint.axis.clone();
     const axis = new Group();
     axis.add(arrow(direction, length * 1.5, length * (isNamed ? 0.045 : 0.025), colour("accent")));
-    axis.add(rod(direction.clone().multiplyScalar(-length * 0.9), new Vector3(), length * 0.015, colour("accent"), 0.6));
-    on(() => joint.matrixWorld, axis);
+    axis.add(
+      rod(direction.clone().multiplyScalar(-length * 0.9), new Vector3(), length * 0.015, colour("accent"), 0.6),
+    );
+    updates.push(attach(group, axis, () => joint.matrixWorld));
   }
-  return updates;
+  return () => updates.forEach((update) => update());
+}
+
+function attach(group: Group, object: Object3D, T: () => Matrix4): Follow {
+  group.add(object);
+  return () => put(object, T());
 }
 
 /** The frames of a table, `x_i` and `z_i`, with the dimensions `a` and `d` between them. */
-function tableMarks(group: Group, view: View, store: Store<State>): () => void {
-  const { model, table } = store.value;
-  const length = view.unit;
+function tableMarks(group: Group, store: Store<State>): Follow {
+  const { model, table, unit: length } = store.value;
   const thickness = length * 0.028;
   const { dh, base } = table!;
   const places = Array.from({ length: dh.joints.length + 1 }, () => triad(length, ["x", "z"]));
+  for (const [i, place] of places.entries()) place.name = `DH frame ${i}`;
   const tips = places.flatMap((_, i) => [named("x", i), named("z", i)]);
   group.add(...places, ...tips.map((tip) => tip.object));
   const lines = dh.joints.map((_, i) => ({
@@ -87,7 +99,10 @@ function tableMarks(group: Group, view: View, store: Store<State>): () => void {
     for (const [i, row] of found.rows.entries()) {
       put(places[i + 1]!, row.T);
       const line = lines[i]!;
-      for (const [name, title] of [["a", "aName"], ["d", "dName"]] as const) {
+      for (const [name, title] of [
+        ["a", "aName"],
+        ["d", "dName"],
+      ] as const) {
         stretch(line[name], ...row[name], thickness);
         line[title].visible = line[name].visible;
         line[title].position.copy(row[name][0]).lerp(row[name][1], 0.5);
@@ -117,7 +132,9 @@ function join(tips: readonly AxisName[], near: number): void {
   const heads: AxisName[] = [];
   for (const tip of tips) {
     const text = `${tip.axis}${subscript(tip.i)}`;
-    const head = heads.find((other) => other.axis === tip.axis && other.object.position.distanceTo(tip.object.position) < near);
+    const head = heads.find(
+      (other) => other.axis === tip.axis && other.object.position.distanceTo(tip.object.position) < near,
+    );
     tip.object.visible = head === undefined;
     if (head) head.object.element.textContent += ` ${text}`;
     else {

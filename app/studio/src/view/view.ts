@@ -49,6 +49,7 @@ export class View {
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "The robot in space. Arrow keys turn the view, plus and minus zoom.");
     this.#labels.domElement.className = "labels";
+    this.#labels.domElement.setAttribute("aria-hidden", "true");
     host.append(this.canvas, this.#labels.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -87,7 +88,8 @@ export class View {
     const box = extent(this.#model);
     const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
     const centre = box.getCenter(new Vector3());
-    this.unit = size * 0.09;
+    // Meshes that arrive change the size a little; marks stay as they are until it has changed much.
+    if (Math.abs(size * 0.09 - this.unit) > 0.15 * this.unit) this.unit = size * 0.09;
     const distance = (size * 0.62) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.near = size / 200;
     this.camera.far = size * 60;

@@ -4,9 +4,8 @@ import type { Matrix4 } from "three";
 
 import { type Api, Latest } from "../../api.ts";
 import { asProblem } from "../../robot/load.ts";
-import type { RobotModel } from "../../robot/model.ts";
+import type { ShownChain } from "../../robot/chain.ts";
 import { asMatrix, difference } from "../../robot/pose.ts";
-import type { Positions } from "../../state.ts";
 import type { ForwardAnswer } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
 import type { ProblemView } from "../../ui/problem.ts";
@@ -29,25 +28,23 @@ export class Agreement {
   }
 
   /** Ask the service for the same pose, and say how far the two are apart. */
-  async check(model: RobotModel, base: string, tip: string, positions: Positions, T: Matrix4): Promise<void> {
-    if (model.name === null) {
+  async check(chain: ShownChain, T: Matrix4): Promise<void> {
+    if (chain.path === null) {
       this.#latest.cancel();
       this.#say("idle", "Add the table to the robots (Robot, DH table) to compare this with the service.");
       return;
     }
-    const joints = model.chain(base, tip);
-    const call = {
-      joint_positions: [joints.map((joint) => positions[joint.name] ?? 0)],
-      base_frame: base,
-      tip_frame: tip,
-      pose_format: "matrix",
-    };
+    const call = { joint_positions: [chain.configuration], ...chain.ends, pose_format: "matrix" };
     try {
-      const path = `v1/robots/${encodeURIComponent(model.name)}/fk`;
+      const path = `${chain.path}/fk`;
       const answer = await this.#latest.run((signal) => this.api.post<ForwardAnswer>(path, call, signal));
       if (!answer) return;
       this.problem.show(null);
-      this.#compare(T, answer, joints.map((joint) => joint.name));
+      this.#compare(
+        T,
+        answer,
+        chain.joints.map((joint) => joint.name),
+      );
     } catch (error) {
       this.#say("idle", "");
       this.problem.show(asProblem(error));
@@ -63,8 +60,8 @@ export class Agreement {
     this.host.dataset["angle"] = String(apart.angle);
     this.#say(
       agrees ? "good" : "bad",
-      `Browser and service ${agrees ? "agree" : "differ"}: ${scientific(apart.position)} m, ${scientific(apart.angle)} rad apart. ` +
-        `Service and Pinocchio: ${certified}.`,
+      `Browser and service ${agrees ? "agree" : "differ"}: ` +
+        `${scientific(apart.position)} m, ${scientific(apart.angle)} rad apart. Service and Pinocchio: ${certified}.`,
     );
   }
 

@@ -1,5 +1,7 @@
 /** Pose: move the joints, read where the tip is, and see that browser and service agree. */
 
+import { shownChain, type ShownChain } from "../../robot/chain.ts";
+import type { Positions } from "../../state.ts";
 import { Choice, button, element, section } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
@@ -17,11 +19,20 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const joints = new JointList(store);
   const tip = new TipPose();
   const agreement = new Agreement(request.api, problem);
-  const unit = new Choice("Unit of angles", [{ value: "rad", text: "rad" }, { value: "deg", text: "deg" }], (chosen) =>
-    store.set({ degrees: chosen === "deg" }),
+  const unit = new Choice(
+    "Unit of angles",
+    [
+      { value: "rad", text: "rad" },
+      { value: "deg", text: "deg" },
+    ],
+    (chosen) => store.set({ degrees: chosen === "deg" }),
   );
   host.append(
-    section("Joints", element("div", { class: "bar" }, ...presets(studio), element("span", { class: "spring" }), unit.host), joints.host),
+    section(
+      "Joints",
+      element("div", { class: "bar" }, ...presets(studio), element("span", { class: "spring" }), unit.host),
+      joints.host,
+    ),
     section("Tip", tip.host, agreement.host, problem.host),
     request.host,
   );
@@ -32,11 +43,11 @@ function open(host: HTMLElement, studio: Studio): () => void {
     }),
     store.watch(["model", "base", "tip", "degrees", "positions"], (state) => {
       joints.update();
-      if (!state.model) return;
-      const [base, end] = [state.base ?? state.model.ends.base_frame, state.tip ?? state.model.ends.tip_frame];
-      const T = state.model.pose(base, end);
-      tip.show(T, base, end, state.degrees);
-      void agreement.check(state.model, base, end, state.positions, T);
+      const chain = shownChain(state);
+      if (!chain) return;
+      const T = chain.model.pose(chain.base, chain.tip);
+      tip.show(T, chain.base, chain.tip, state.degrees);
+      void agreement.check(chain, T);
     }),
     () => agreement.stop(),
     () => store.set({ joint: null }),
@@ -47,15 +58,16 @@ function open(host: HTMLElement, studio: Studio): () => void {
 }
 
 function presets({ store }: Studio): HTMLElement[] {
-  const go = (which: "home" | "zero" | "random") => () => {
-    const { model, base, tip, positions } = store.value;
-    if (!model) return;
-    const ends = [base ?? model.ends.base_frame, tip ?? model.ends.tip_frame] as const;
-    store.set({ positions: which === "zero" ? model.zero() : which === "home" ? model.home(...ends) : model.random(...ends, positions) });
+  const go = (positions: (chain: ShownChain) => Positions) => () => {
+    const chain = shownChain(store.value);
+    if (chain) store.set({ positions: positions(chain) });
   };
+  const home = go(({ model, base, tip }) => model.home(base, tip));
+  const zero = go(({ model }) => model.zero());
+  const random = go(({ model, base, tip }) => model.random(base, tip, store.value.positions));
   return [
-    button("Home", go("home"), { title: "Each joint of the chain in the middle of its range" }),
-    button("Zero", go("zero"), { title: "Every joint at zero" }),
-    button("Random", go("random"), { title: "Each joint of the chain somewhere within its limits" }),
+    button("Home", home, { title: "Each joint of the chain in the middle of its range" }),
+    button("Zero", zero, { title: "Every joint at zero" }),
+    button("Random", random, { title: "Each joint of the chain somewhere within its limits" }),
   ];
 }

@@ -1,5 +1,6 @@
 /** A slider and a number for each joint: first those of the chain, base to tip, then the others of the robot. */
 
+import { shownChain } from "../../robot/chain.ts";
 import { type Joint, isBeyond, range } from "../../robot/model.ts";
 import type { State } from "../../state.ts";
 import type { Store } from "../../store.ts";
@@ -22,18 +23,23 @@ export class JointList {
 
   /** Rows for the robot and the chain that are on the screen now. */
   build(): void {
-    const { model, base, tip } = this.store.value;
+    const chain = shownChain(this.store.value);
     this.#rows = [];
     this.host.replaceChildren();
-    if (!model) return;
-    const chain = model.chain(base ?? model.ends.base_frame, tip ?? model.ends.tip_frame);
-    const others = model.joints.filter((joint) => !chain.includes(joint));
-    this.host.append(...chain.map((joint) => this.#row(joint)));
-    if (chain.length === 0) this.host.append(element("p", { class: "muted" }, "No joint moves between these two frames."));
+    if (!chain) return;
+    const others = chain.model.joints.filter((joint) => !chain.joints.includes(joint));
+    this.host.append(...chain.joints.map((joint) => this.#row(joint)));
+    if (chain.joints.length === 0)
+      this.host.append(element("p", { class: "muted" }, "No joint moves between these two frames."));
     if (others.length) {
       const title = `Other joints (${others.length})`;
       this.host.append(
-        element("details", { class: "others" }, element("summary", {}, title), ...others.map((joint) => this.#row(joint))),
+        element(
+          "details",
+          { class: "others" },
+          element("summary", {}, title),
+          ...others.map((joint) => this.#row(joint)),
+        ),
       );
     }
     this.update();
@@ -71,7 +77,13 @@ export class JointList {
     const text = (value: number) => format(value, kind, degrees(), 3);
     const host = element(
       "div",
-      { class: "joint", onpointerenter: point(joint.name), onpointerleave: point(null), onfocusin: point(joint.name), onfocusout: point(null) },
+      {
+        class: "joint",
+        onpointerenter: point(joint.name),
+        onpointerleave: point(null),
+        onfocusin: point(joint.name),
+        onfocusout: point(null),
+      },
       element("span", { class: "joint-name", title: joint.name }, joint.name),
       element("span", { class: "entry" }, field.input, element("span", { class: "unit" }, unitOf(kind, degrees()))),
       element(

@@ -30,8 +30,18 @@ export class TipPose {
       "div",
       {},
       this.#chain,
-      element("dl", { class: "pose" }, ...line("position", "Position"), ...formats.flatMap(({ format, title }) => line(format, title))),
-      element("details", {}, element("summary", {}, "As matrices"), element("dl", { class: "pose" }, ...matrices.flatMap(({ format, title }) => line(format, title)))),
+      element(
+        "dl",
+        { class: "pose" },
+        ...line("position", "Position"),
+        ...formats.flatMap(({ format, title }) => line(format, title)),
+      ),
+      element(
+        "details",
+        {},
+        element("summary", {}, "As matrices"),
+        element("dl", { class: "pose" }, ...matrices.flatMap(({ format, title }) => line(format, title))),
+      ),
     );
   }
 

@@ -32,14 +32,23 @@ function describe(model: RobotModel): HTMLElement[] {
   return [
     element("h3", {}, model.title),
     element("p", { class: "muted" }, info?.description ?? "A table that the service does not keep yet."),
-    element("dl", { class: "facts" }, ...shown.flatMap(([title, text]) => [element("dt", {}, title), element("dd", {}, text!)])),
+    element(
+      "dl",
+      { class: "facts" },
+      ...shown.flatMap(([title, text]) => [element("dt", {}, title), element("dd", {}, text!)]),
+    ),
     ...(warnings.length ? [warningList(warnings)] : []),
   ];
 }
 
 function warningList(warnings: readonly string[]): HTMLElement {
   const title = `${warnings.length} ${warnings.length === 1 ? "remark" : "remarks"} on the description`;
-  return element("details", {}, element("summary", {}, title), element("ul", { class: "remarks" }, ...warnings.map((text) => element("li", {}, text))));
+  return element(
+    "details",
+    {},
+    element("summary", {}, title),
+    element("ul", { class: "remarks" }, ...warnings.map((text) => element("li", {}, text))),
+  );
 }
 
 function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLElement {
@@ -57,7 +66,10 @@ function actions(model: RobotModel, studio: Studio, problem: ProblemView): HTMLE
     "div",
     { class: "bar" },
     button("Download URDF", () => save(`${file}.urdf`, "application/xml", model.urdf)),
-    button("Download DH", attempt(async () => save(`${file}.dh.json`, "application/json", await table(model, studio)))),
+    button(
+      "Download DH",
+      attempt(async () => save(`${file}.dh.json`, "application/json", await table(model, studio))),
+    ),
     element("span", { class: "spring" }),
     model.info?.source === "uploaded" && button("Remove", removal, { class: "button danger" }),
   );

@@ -21,7 +21,9 @@ export function catalogue(host: HTMLElement, { api, store }: Studio): () => void
   });
   const show = () => {
     const words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const found = robots.filter((robot) => words.every((word) => `${robot.name} ${robot.description} ${robot.format}`.toLowerCase().includes(word)));
+    const found = robots.filter((robot) =>
+      words.every((word) => `${robot.name} ${robot.description} ${robot.format}`.toLowerCase().includes(word)),
+    );
     count.textContent = words.length ? `${found.length} of ${robots.length} robots` : `${robots.length} robots`;
     list.replaceChildren(...found.map((robot) => entry(robot, store.value.robot, () => pick(robot.name))));
   };
@@ -39,7 +41,8 @@ export function catalogue(host: HTMLElement, { api, store }: Studio): () => void
   };
   void load();
   const unwatch = store.watch(["robot"], ({ robot }) => {
-    for (const made of list.querySelectorAll("button")) made.setAttribute("aria-current", String(made.dataset["robot"] === robot));
+    for (const made of list.querySelectorAll("button"))
+      made.setAttribute("aria-current", String(made.dataset["robot"] === robot));
   });
   return () => {
     stop.abort();
@@ -60,7 +63,13 @@ function entry(robot: RobotSummary, chosen: string, onclick: () => void): HTMLEl
     {},
     element(
       "button",
-      { type: "button", class: "robot", "data-robot": robot.name, "aria-current": String(robot.name === chosen), onclick },
+      {
+        type: "button",
+        class: "robot",
+        "data-robot": robot.name,
+        "aria-current": String(robot.name === chosen),
+        onclick,
+      },
       element("span", { class: "robot-name" }, robot.name, marks && element("span", { class: "mark" }, marks)),
       element("span", { class: "robot-description", title: robot.description }, robot.description || "No description"),
     ),

@@ -42,7 +42,12 @@ function open(host: HTMLElement, studio: Studio): () => void {
     close = made;
   };
   const parts = new Choice("Where the robot comes from", PARTS, show);
-  host.append(section("Choose a robot", parts.host, body), problem.host, section("On the screen", card.host), request.host);
+  host.append(
+    section("Choose a robot", parts.host, body),
+    problem.host,
+    section("On the screen", card.host),
+    request.host,
+  );
   show(store.value.draft && !hasDropped() ? "table" : last);
   const stops = [
     card.close,
@@ -60,4 +65,3 @@ function open(host: HTMLElement, studio: Studio): () => void {
     for (const stop of stops) stop();
   };
 }
-

@@ -10,11 +10,22 @@ import type { Studio } from "../panel.ts";
 
 export function keep({ api, store }: Pick<Studio, "api" | "store">, table: () => DhTable | null): HTMLElement {
   const problem = new ProblemView();
-  const name = element("input", { type: "text", class: "text", id: "table-name", value: "my_arm", autocomplete: "off", spellcheck: "false" });
+  const name = element("input", {
+    type: "text",
+    class: "text",
+    id: "table-name",
+    value: "my_arm",
+    autocomplete: "off",
+    spellcheck: "false",
+  });
   const send = (replace: boolean) => async () => {
     const dh = table();
     const wanted = name.value.trim();
-    problem.show(isName(wanted) ? null : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."));
+    problem.show(
+      isName(wanted)
+        ? null
+        : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."),
+    );
     if (!dh || !isName(wanted)) return;
     try {
       const path = `v1/robots/${encodeURIComponent(wanted)}`;
@@ -33,7 +44,13 @@ export function keep({ api, store }: Pick<Studio, "api" | "store">, table: () =>
     "div",
     { class: "keep" },
     element("label", { class: "field", for: "table-name" }, "Name at the service"),
-    element("div", { class: "bar" }, name, button("Add to the robots", () => void send(false)(), { class: "button primary" }), exchange),
+    element(
+      "div",
+      { class: "bar" },
+      name,
+      button("Add to the robots", () => void send(false)(), { class: "button primary" }),
+      exchange,
+    ),
     problem.host,
   );
 }

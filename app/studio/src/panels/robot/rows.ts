@@ -16,7 +16,14 @@ const PARAMETERS: readonly { name: Parameter; latex: string; kind: Kind | "joint
   { name: "lower", latex: "q_{\\min}", kind: "joint" },
   { name: "upper", latex: "q_{\\max}", kind: "joint" },
 ];
-const SIGNS: Record<Parameter, string> = { a: "a", alpha: "α", d: "d", theta: "θ", lower: "lower limit", upper: "upper limit" };
+const SIGNS: Record<Parameter, string> = {
+  a: "a",
+  alpha: "α",
+  d: "d",
+  theta: "θ",
+  lower: "lower limit",
+  upper: "upper limit",
+};
 
 interface Line {
   host: HTMLElement;
@@ -84,16 +91,37 @@ export class TableRows {
   }
 
   #line(row: DhRow, index: number): Line {
-    const line: Line = { host: element("tr"), error: element("tr", { class: "cell-error", hidden: true }), fields: new Map(), unread: new Map(), refused: new Map() };
+    const line: Line = {
+      host: element("tr"),
+      error: element("tr", { class: "cell-error", hidden: true }),
+      fields: new Map(),
+      unread: new Map(),
+      refused: new Map(),
+    };
     const number = index + 1;
     line.host.append(element("th", { scope: "row" }, String(number)), element("td", {}, this.#type(row, number)));
     for (const { name, kind } of PARAMETERS) {
-      const field = this.#field(line, row, name, kind === "joint" ? (row.type === "revolute" ? "angle" : "length") : kind, number);
+      const field = this.#field(
+        line,
+        row,
+        name,
+        kind === "joint" ? (row.type === "revolute" ? "angle" : "length") : kind,
+        number,
+      );
       const isVariable = name === (row.type === "revolute" ? "theta" : "d");
-      const cell = element("td", { class: isVariable ? "variable" : null, title: isVariable ? "The joint's position is added to this" : null }, field.input);
+      const cell = element(
+        "td",
+        { class: isVariable ? "variable" : null, title: isVariable ? "The joint's position is added to this" : null },
+        field.input,
+      );
       line.host.append(cell);
     }
-    const remove = button("×", () => this.#remove(index), { class: "icon", "aria-label": `Remove row ${number}`, title: "Remove", disabled: this.#table.joints.length === 1 });
+    const remove = button("×", () => this.#remove(index), {
+      class: "icon",
+      "aria-label": `Remove row ${number}`,
+      title: "Remove",
+      disabled: this.#table.joints.length === 1,
+    });
     line.host.append(element("td", {}, remove));
     return line;
   }
@@ -139,7 +167,8 @@ export class TableRows {
       },
     });
     field.set(row[name] ?? null);
-    if (optional) field.input.placeholder = kind === "angle" ? (name === "lower" ? "−π" : "π") : name === "lower" ? "−1" : "1";
+    if (optional)
+      field.input.placeholder = kind === "angle" ? (name === "lower" ? "−π" : "π") : name === "lower" ? "−1" : "1";
     line.fields.set(name, field);
     return field;
   }
@@ -159,6 +188,8 @@ function showErrors(line: Line): void {
   const found = new Map<string, string>([...line.refused, ...line.unread]);
   for (const [name, field] of line.fields) field.fail(found.get(name) ?? null);
   line.error.hidden = found.size === 0;
-  const texts = [...found].map(([name, text]) => element("p", {}, name in SIGNS ? `${SIGNS[name as Parameter]}: ${text}` : text));
+  const texts = [...found].map(([name, text]) =>
+    element("p", {}, name in SIGNS ? `${SIGNS[name as Parameter]}: ${text}` : text),
+  );
   line.error.replaceChildren(element("td", { colspan: PARAMETERS.length + 3, role: "alert" }, ...texts));
 }

@@ -28,7 +28,11 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
   const latest = new Latest();
   const problem = new ProblemView();
   const product = element("div", { class: "product" });
-  const placed = element("p", { class: "muted small", hidden: true }, "The base and tool transforms of this table stay as they are.");
+  const placed = element(
+    "p",
+    { class: "muted small", hidden: true },
+    "The base and tool transforms of this table stay as they are.",
+  );
   let table: DhTable | null = null;
   const draw = (dh: DhTable) => store.set({ draft: dh, robot: "", base: null, tip: null });
   const edit = (dh: DhTable) => {
@@ -41,7 +45,9 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
   const convert = async (wanted: Convention) => {
     if (!table || wanted === table.convention) return;
     try {
-      const answer = await latest.run((signal) => api.post<{ dh: DhTable }>("v1/dh/convert", { dh: table, convention: wanted }, signal));
+      const answer = await latest.run((signal) =>
+        api.post<{ dh: DhTable }>("v1/dh/convert", { dh: table, convention: wanted }, signal),
+      );
       if (answer) draw(answer.dh);
       problem.show(null);
     } catch (error) {
@@ -59,7 +65,11 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
     element("div", { class: "bar" }, convention.host, element("span", { class: "spring" }), preset),
     product,
     rows.host,
-    element("div", { class: "bar" }, button("Add a row", () => rows.add())),
+    element(
+      "div",
+      { class: "bar" },
+      button("Add a row", () => rows.add()),
+    ),
     placed,
     problem.host,
     kept,

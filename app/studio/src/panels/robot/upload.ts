@@ -22,12 +22,26 @@ export function hasDropped(): boolean {
 export function uploads(host: HTMLElement, { api, store }: Studio): () => void {
   const problem = new ProblemView();
   const picker = element("input", { type: "file", accept: ".urdf,.xml,.zip", class: "file", id: "robot-file" });
-  const name = element("input", { type: "text", class: "text", id: "robot-name", autocomplete: "off", spellcheck: "false" });
-  const chosen = element("p", { class: "muted" }, "A URDF with its xacro expanded, or a zip of one URDF and its meshes. It may be dropped anywhere on the page.");
+  const name = element("input", {
+    type: "text",
+    class: "text",
+    id: "robot-name",
+    autocomplete: "off",
+    spellcheck: "false",
+  });
+  const chosen = element(
+    "p",
+    { class: "muted" },
+    "A URDF with its xacro expanded, or a zip of one URDF and its meshes. It may be dropped anywhere on the page.",
+  );
   const send = (replace: boolean) => async () => {
     if (!waiting) return;
     const wanted = name.value.trim();
-    problem.show(isName(wanted) ? null : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."));
+    problem.show(
+      isName(wanted)
+        ? null
+        : new Problem(422, "This is no name", "1 to 64 letters, digits, _, . or -, the first one a letter or digit."),
+    );
     if (!isName(wanted)) return;
     busy(true);
     try {

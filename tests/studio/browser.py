@@ -1,0 +1,140 @@
+"""A page of the studio under test: what it does is asked of the page itself, and whatever it complains of is kept."""
+
+import json
+import time
+from dataclasses import dataclass, field
+from typing import Any
+from urllib.parse import quote
+
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request, Response
+
+from tests.test_serve import get
+
+ARGUMENTS = [
+    *("--no-sandbox", "--no-first-run", "--disable-quic", "--disable-background-networking"),
+    *("--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+]
+"""Chromium speaks to nobody else, and draws without a graphics card."""
+
+_WATCH_POLICY = """
+globalThis.violations = [];
+addEventListener("securitypolicyviolation", ({violatedDirective, blockedURI}) => {
+  violations.push(`${violatedDirective} ${blockedURI}`);
+});
+"""
+
+
+@dataclass
+class Studio:
+    """The studio of one test.
+
+    Attributes:
+        page: Playwright's page.
+        url: Where the service is.
+        complaints: Errors and warnings of the console, exceptions, requests to another host.
+        refused: Statuses of the service's refusals, which the console reports by itself.
+    """
+
+    page: Page
+    url: str
+    complaints: list[str] = field(default_factory=list)
+    refused: list[int] = field(default_factory=list)
+
+    @classmethod
+    def new(cls, browser: Browser, url: str, width: int = 1024, height: int = 640, scheme: Any = "light") -> "Studio":
+        """A page with nothing opened yet, in a profile of its own."""
+        context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme)
+        context.add_init_script(_WATCH_POLICY)
+        studio = cls(context.new_page(), url)
+        studio.page.on("console", studio._hear)
+        studio.page.on("pageerror", lambda error: studio.complaints.append(str(error)))
+        studio.page.on("request", studio._see)
+        studio.page.on("response", studio._note)
+        return studio
+
+    def close(self, expected: set[int]) -> None:
+        """End the page; it may have complained of nothing, and been refused nothing but with these statuses."""
+        complaints = [*self.complaints, *self.run("globalThis.violations ?? []")]
+        self.page.context.close()
+        assert complaints == []
+        assert set(self.refused) == expected
+
+    def open(self, panel: str = "pose", **address: str) -> None:
+        """Open the page at a state, and wait for its robot."""
+        self.go(
+            "#"
+            + "&".join(f"{key.replace('_', '-')}={quote(value)}" for key, value in {"panel": panel, **address}.items())
+        )
+        self.wait_for_robot(address.get("robot", None if "dh_table" in address else "panda"))
+
+    def go(self, fragment: str) -> None:
+        """Load the page anew at an address."""
+        self.page.goto("about:blank")
+        self.page.goto(f"{self.url}/{fragment}")
+
+    def wait_for_robot(self, name: str | None) -> None:
+        """Wait until a robot is on the screen with its meshes."""
+        wanted = json.dumps(name)
+        self.until(
+            f"studio.store.value.model && studio.store.value.model.name === {wanted} && !studio.store.value.loading"
+        )
+        self.until("(({shown, failed, wanted}) => shown + failed.length >= wanted)(studio.store.value.model.meshes)")
+
+    def run(self, expression: str, argument: Any = None) -> Any:
+        """The value of an expression in the page; playwright's own waiting would need `unsafe-eval`."""
+        return self.page.evaluate(expression, argument)
+
+    def until(self, expression: str, seconds: float = 60.0) -> None:
+        """Wait until an expression is true in the page."""
+        deadline = time.monotonic() + seconds
+        while not self.run(f"globalThis.studio !== undefined && Boolean({expression})"):
+            assert time.monotonic() < deadline, f"never true: {expression}"
+            time.sleep(0.02)
+
+    def state(self, key: str) -> Any:
+        """A value of the page's state."""
+        return self.run("(key) => studio.store.value[key]", key)
+
+    def button(self, name: str) -> Locator:
+        """A button by its very name."""
+        return self.page.get_by_role("button", name=name, exact=True)
+
+    def field(self, label: str) -> Locator:
+        """A field by its very label."""
+        return self.page.get_by_label(label, exact=True)
+
+    def type(self, label: str, text: str) -> None:
+        """Type into a field as a person does, and leave it by Enter."""
+        self.field(label).fill(text)
+        self.field(label).press("Enter")
+
+    def tip(self) -> list[list[float]]:
+        """T_base_tip as the Pose panel has it, to the last digit."""
+        shown = self.page.locator("[data-matrix]").get_attribute("data-matrix")
+        assert shown is not None
+        matrix: list[list[float]] = json.loads(shown)
+        return matrix
+
+    def fk(self, robot: str, call: dict[str, Any]) -> Any:
+        """What the service says, asked without the page."""
+        status, answer = get(f"{self.url}/v1/robots/{robot}/fk", "POST", call)
+        assert status == 200, answer
+        return answer
+
+    def _hear(self, message: ConsoleMessage) -> None:
+        # Chromium reports every refusal of the service and what its software renderer finds slow, and the reader of
+        # Collada what is odd about a file of the catalogue.
+        if message.type not in {"error", "warning"} or "GPU stall due to ReadPixels" in message.text:
+            return
+        if message.type == "warning" and message.text.startswith("THREE.ColladaLoader"):
+            return
+        if not message.text.startswith("Failed to load resource: the server responded"):
+            self.complaints.append(message.text)
+
+    def _see(self, request: Request) -> None:
+        if not request.url.startswith((f"{self.url}/", "about:", "blob:", "data:")):
+            self.complaints.append(f"asked {request.url}")
+
+    def _note(self, response: Response) -> None:
+        if response.status >= 400:
+            self.refused.append(response.status)

@@ -1,0 +1,63 @@
+"""One service and one browser for all tests of a process; every test has a page of its own."""
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from tests.studio.browser import ARGUMENTS, Studio
+from tests.test_serve import service
+
+_NAMES = ("chromium", "chromium-browser", "google-chrome")
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """Chromium: that of the variable CHROMIUM, which must be there, or one that is installed."""
+    given = os.environ.get("CHROMIUM")
+    found = given or next(filter(None, map(shutil.which, _NAMES)), None)
+    if found is None:
+        pytest.skip("there is no Chromium to show the studio in: apt-get install chromium")
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=found, args=ARGUMENTS)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture(scope="session")
+def url(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:  # noqa: ARG001 - none, no service
+    """A running service with no robots but the catalogue's."""
+    data_dir: Path = tmp_path_factory.mktemp("data")
+    with service(data_dir) as (_, address):
+        yield address
+
+
+@pytest.fixture
+def refusals() -> set[int]:
+    """The statuses that the service is to refuse something with; a test adds to them."""
+    return set()
+
+
+@pytest.fixture
+def studio(browser: Browser, url: str, refusals: set[int]) -> Iterator[Studio]:
+    """A page; at the end it must have complained of nothing."""
+    made = Studio.new(browser, url)
+    yield made
+    made.close(refusals)
+
+
+@pytest.fixture
+def another(browser: Browser, url: str) -> Iterator[Callable[..., Studio]]:
+    """Further pages, of another size or colour scheme."""
+    made: list[Studio] = []
+
+    def make(**options: object) -> Studio:
+        made.append(Studio.new(browser, url, **options))  # type: ignore[arg-type]
+        return made[-1]
+
+    yield make
+    for page in made:
+        page.close(set())

@@ -1,0 +1,77 @@
+"""The address bar: what a link reopens."""
+
+import json
+
+import pytest
+
+from tests.studio.browser import Studio
+from tests.studio.tables import ANTHROPOMORPHIC, type_table
+
+KEPT = ("panel", "robot", "draft", "base", "tip", "target", "positions", "degrees", "frames", "axes", "names", "dh")
+
+
+def states(studio: Studio) -> dict[str, object]:
+    return {key: studio.state(key) for key in KEPT}
+
+
+def settled(studio: Studio) -> str:
+    """The address, once it has followed the state."""
+    studio.page.wait_for_timeout(600)
+    return studio.page.url
+
+
+def test_a_reload_restores_everything(studio: Studio) -> None:
+    studio.open(robot="ur5")
+    studio.button("Random").click()
+    studio.button("deg").click()
+    for mark in ("Frames", "Names", "DH frames"):
+        studio.button(mark).click()
+    studio.field("Tip frame").select_option("wrist_2_link")
+    target = {"position": [0.3, 0.1, 0.4], "rpy": [0.1, 0.2, 0.3]}
+    studio.run("(target) => studio.store.set({target})", target)
+    settled(studio)
+    before, tip = states(studio), studio.tip()
+    studio.page.reload()
+    studio.wait_for_robot("ur5")
+    assert states(studio) == before
+    assert studio.tip() == tip
+
+
+def test_a_draft_is_reopened(studio: Studio) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.page.get_by_role("tab", name="Pose").click()
+    studio.type("joint_2, number", "0.7")
+    link, before, tip = settled(studio), states(studio), studio.tip()
+    studio.go("#" + link.split("#")[1])
+    studio.wait_for_robot(None)
+    assert states(studio) == before
+    assert studio.tip() == tip
+
+
+def test_back_returns_to_the_robot_before(studio: Studio) -> None:
+    studio.open(robot="planar_2r", q="0.25,0.5")
+    settled(studio)
+    studio.run("studio.store.set({robot: 'scara'})")
+    studio.wait_for_robot("scara")
+    settled(studio)
+    studio.page.go_back()
+    studio.wait_for_robot("planar_2r")
+    assert studio.state("positions") == {"joint_1": 0.25, "joint_2": 0.5}
+
+
+@pytest.mark.parametrize(
+    "fragment",
+    [
+        "#robot=panda&q=1,2",
+        "#robot=panda&q=a,b",
+        "#panel=nothing",
+        "#robot=panda&base=nowhere&tip=nowhere",
+        "#target={",
+        "#%%%",
+    ],
+)
+def test_a_broken_link_still_opens(studio: Studio, fragment: str) -> None:
+    studio.go(fragment)
+    studio.wait_for_robot("panda")
+    assert len(studio.state("positions")) == 8
+    assert json.dumps(studio.state("base")) == "null"

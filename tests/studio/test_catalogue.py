@@ -1,0 +1,43 @@
+"""Every robot of the catalogue on the screen: its meshes, and the browser's poses against Pinocchio's."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from app.kinematics.certify import certify_poses
+from app.model.poses import Poses
+from tests.oracles import catalogue
+from tests.robots import by_name, robot, samples
+from tests.studio.browser import Studio
+
+CONFIGURATIONS = 3
+TOLERANCE = 1e-12
+
+POSES = """([root, leaf, configurations]) => configurations.map((positions) => {
+  const {model} = studio.store.value;
+  model.place(positions);
+  return model.pose(root, leaf).elements;
+})"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", catalogue.NAMES)
+def test_a_robot_is_shown_as_pinocchio_places_it(another: Callable[..., Studio], name: str) -> None:
+    studio = another(width=1024, height=240)
+    studio.open(robot=name)
+    meshes = studio.run("studio.store.value.model.meshes")
+    assert meshes["failed"] == []
+    if name in catalogue.TABLES or "<visual" in catalogue.urdf_text(name):
+        assert studio.run("studio.view.countMeshes()") > 0
+    machine = robot(name)
+    for leaf in machine.description.leaves:
+        chain = machine.chain(machine.description.root, leaf)
+        qs = samples(chain, CONFIGURATIONS)
+        columns = by_name(chain, qs)
+        configurations = [{joint: float(values[i]) for joint, values in columns.items()} for i in range(len(qs))]
+        Ts = np.array(studio.run(POSES, [chain.base_frame, leaf, configurations])).reshape(-1, 4, 4).transpose(0, 2, 1)
+        poses = Poses(np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3]))
+        certificate = certify_poses(machine, chain, qs, {leaf: poses})
+        assert certificate.samples == CONFIGURATIONS
+        assert max(certificate.max_position_error, certificate.max_orientation_error) < TOLERANCE, leaf

@@ -1,0 +1,238 @@
+"""The Robot panel: the catalogue, a file from outside, and a table that is typed."""
+
+import io
+import json
+import zipfile
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.oracles import catalogue
+from tests.studio.browser import Studio
+from tests.studio.tables import ANTHROPOMORPHIC, keep, open_editor, type_table
+from tests.test_serve import get
+
+URDF = """<robot name="two links">
+  <link name="foot"><visual><geometry><mesh filename="meshes/foot.stl"/></geometry></visual></link>
+  <link name="hand"/>
+  <joint name="turn" type="revolute"><parent link="foot"/><child link="hand"/>
+    <origin xyz="0 0 0.4"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+</robot>
+"""
+STL = b"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"
+
+FRAMES = """(count) => {
+  const {view, store} = studio;
+  view.scene.updateMatrixWorld(true);
+  const all = [...Array(count).keys()];
+  const drawn = all.map((i) => view.scene.getObjectByName(`DH frame ${i}`).matrixWorld.elements);
+  return [drawn, all.map((i) => store.value.model.link(`frame_${i}`).matrixWorld.elements)];
+}"""
+DROP = """([name, bytes]) => {
+  const transfer = new DataTransfer();
+  transfer.items.add(new File([new Uint8Array(bytes)], name));
+  for (const kind of ["dragover", "drop"]) {
+    document.body.dispatchEvent(new DragEvent(kind, {dataTransfer: transfer, bubbles: true, cancelable: true}));
+  }
+}"""
+
+
+def archive() -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as made:
+        made.writestr("arm/robot.urdf", URDF)
+        made.writestr("arm/meshes/foot.stl", STL)
+    return content.getvalue()
+
+
+def download(studio: Studio, button: str) -> str:
+    with studio.page.expect_download() as event:
+        studio.button(button).click()
+    return event.value.path().read_text()
+
+
+def test_a_robot_is_found_and_picked(studio: Studio) -> None:
+    studio.open("robot")
+    robots = studio.page.locator("button.robot")
+    robots.first.wait_for()
+    assert robots.count() == len(catalogue.NAMES)
+    studio.page.get_by_role("searchbox").fill("universal ur10 limit")
+    assert [entry.get_attribute("data-robot") for entry in robots.all()] == ["ur10_joint_limited"]
+    robots.first.click()
+    studio.wait_for_robot("ur10_joint_limited")
+    assert studio.page.get_by_role("heading", level=1).text_content() == "ur10_joint_limited"
+    assert robots.first.get_attribute("aria-current") == "true"
+
+
+def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(404)
+    studio.go("#robot=pandaa&panel=robot")
+    problem = studio.page.locator(".problem:visible")
+    problem.wait_for()
+    assert "pandaa" in (problem.text_content() or "")
+    studio.page.locator("button.robot[data-robot=panda]").click()
+    studio.wait_for_robot("panda")
+    assert studio.page.locator(".problem:visible").count() == 0
+
+
+@pytest.mark.parametrize("name", ["panda", "anthropomorphic"])
+def test_a_robot_is_downloaded_as_urdf_and_as_dh(studio: Studio, name: str) -> None:
+    studio.open("robot", robot=name)
+    assert download(studio, "Download URDF") == studio.page.request.get(f"{studio.url}/v1/robots/{name}/urdf").text()
+    table = json.loads(download(studio, "Download DH"))
+    chain = {"robot": name, "dh": table}
+    status, answer = get(f"{studio.url}/v1/dh/compare", "POST", chain)
+    assert (status, answer["equivalent"]) == (200, True)
+
+
+def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
+    studio.open("pose")
+    studio.run(DROP, ["my arm.zip", list(archive())])
+    studio.wait_for_robot("my_arm")
+    assert studio.run("studio.store.value.model.meshes") == {"wanted": 1, "shown": 1, "failed": []}
+    assert studio.run("studio.view.countMeshes()") == 1
+    assert get(f"{studio.url}/v1/robots/my_arm")[1]["source"] == "uploaded"
+    studio.button("Remove").click()
+    studio.wait_for_robot("panda")
+    assert get(f"{studio.url}/v1/robots/my_arm")[0] == 404
+
+
+def test_a_urdf_is_chosen_renamed_and_replaced(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(409)
+    studio.open("robot")
+    studio.button("Upload").click()
+    choose(studio, URDF.replace("0.4", "0.7"))
+    studio.wait_for_robot("two_links")
+    studio.button("Upload").click()
+    choose(studio, URDF)
+    exchange = studio.button("Replace the one of this name")
+    exchange.wait_for()
+    exchange.click()
+    studio.until("studio.store.value.model.urdf.includes('0 0 0.4')")
+    assert "0 0 0.4" in studio.page.request.get(f"{studio.url}/v1/robots/two_links/urdf").text()
+
+
+def choose(studio: Studio, urdf: str) -> None:
+    file: Any = {"name": "arm.urdf", "mimeType": "text/xml", "buffer": urdf.encode()}
+    studio.field("File").set_input_files(file)
+
+
+@pytest.mark.parametrize(
+    ("urdf", "reason"),
+    [
+        (URDF.replace("revolute", "revolut"), "revolut"),
+        (URDF.replace('<child link="hand"/>', '<child link="nothing"/>'), "nothing"),
+        (URDF.replace("</robot>", ""), "line"),
+        ("<html></html>", "robot"),
+    ],
+)
+def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int], urdf: str, reason: str) -> None:
+    refusals.add(422)
+    studio.open("robot", robot="planar_2r")
+    studio.button("Upload").click()
+    choose(studio, urdf)
+    problem = studio.page.locator(".problem:visible")
+    problem.wait_for()
+    assert reason in (problem.text_content() or "")
+    assert studio.state("model") is not None
+    assert studio.page.get_by_role("heading", level=1).text_content() == "planar_2r"
+
+
+def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.until("document.querySelectorAll('.label.z').length === 4")
+    shown = studio.page.locator(".label:visible")
+    texts = set(" ".join(shown.all_text_contents()).split())
+    assert {"x₀", "z₀", "x₃", "z₃", "a₂", "a₃"} <= texts
+    assert not {"a₁", "d₁", "d₂"} & texts  # they are zero
+    assert studio.run("studio.view.countMeshes()") > 0
+
+
+def test_the_frames_of_a_table_are_those_of_its_urdf(studio: Studio) -> None:
+    """The picture's own product of rows against the links `frame_i` of the URDF that the service writes."""
+    for name in catalogue.TABLES:
+        studio.open("pose", robot=name, show="dh")
+        studio.until("studio.store.value.table")
+        studio.button("Random").click()
+        count = len(catalogue.dh_table(name)["joints"])
+        drawn, written = np.array(studio.run(FRAMES, count + 1))
+        assert np.abs(drawn - written).max() < 1e-12, name
+
+
+def test_the_other_convention_is_the_same_arm(studio: Studio) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.page.get_by_role("tab", name="Pose").click()
+    for name, value in {"joint_1": "0.3", "joint_2": "-0.8", "joint_3": "1.1"}.items():
+        studio.type(f"{name}, number", value)
+    before = np.array(studio.tip())
+    studio.page.get_by_role("tab", name="Robot").click()
+    studio.button("Modified").click()
+    studio.until("studio.store.value.draft?.convention === 'modified' && !studio.store.value.loading")
+    assert studio.field("Row 2, α").input_value() == "π/2"
+    studio.page.get_by_role("tab", name="Pose").click()
+    assert np.abs(np.array(studio.tip()) - before).max() < 1e-12
+
+
+def test_rows_are_added_and_removed(studio: Studio) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.button("Remove row 2").click()
+    studio.until("studio.store.value.model.joints.length === 2")
+    studio.button("Add a row").click()
+    studio.until("studio.store.value.model.joints.length === 3")
+    names = [row["name"] for row in studio.state("draft")["joints"]]
+    assert len(set(names)) == 3
+    studio.field("Row 3, type").select_option("P")
+    studio.until("studio.store.value.model.joints[2].type === 'prismatic'")
+
+
+@pytest.mark.parametrize(
+    ("cell", "text", "reason"),
+    [
+        ("a", "abc", "Write a number"),
+        ("α", "pi/x", "Write a number"),
+        ("d", "1e9", "d:"),
+        ("lower limit", "4", "upper"),
+    ],
+)
+def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int], cell: str, text: str, reason: str) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.type("Row 2, upper limit", "3")
+    studio.until("!studio.store.value.loading")
+    studio.type(f"Row 2, {cell}", text)
+    error = studio.page.locator("tr.cell-error:visible")
+    error.wait_for()
+    assert reason in (error.text_content() or "")
+    assert studio.field(f"Row 2, {cell}").get_attribute("aria-invalid") == "true"
+    assert studio.page.locator("[aria-invalid=true]").count() == 1
+    if "Write" not in reason:
+        refusals.add(422)  # the service says it
+    studio.type(f"Row 2, {cell}", "0.2")
+    error.wait_for(state="hidden")
+    studio.until("!studio.store.value.loading && !studio.store.value.failure")
+
+
+def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(409)
+    type_table(studio, ANTHROPOMORPHIC[1:])
+    keep(studio, "taken")
+    studio.type("Row 1, a", "0.9")
+    studio.wait_for_robot(None)
+    studio.field("Name at the service").fill("taken")
+    studio.button("Add to the robots").click()
+    studio.button("Replace the one of this name").click()
+    studio.until("studio.store.value.model.name === 'taken' && !studio.store.value.loading")
+    assert get(f"{studio.url}/v1/robots/taken/fk", "POST", {"joint_positions": [[0.0, 0.0]]})[1]["poses"][0][
+        "position"
+    ][0] == pytest.approx(1.3)
+
+
+@pytest.mark.parametrize("preset", range(9))
+def test_a_table_of_the_course_is_started_from(studio: Studio, preset: int) -> None:
+    open_editor(studio)
+    studio.field("Start from a table of the course").select_option(str(preset))
+    studio.until("studio.store.value.draft.joints.length > 1 && !studio.store.value.loading")
+    assert studio.state("failure") is None
+    rows = studio.state("draft")["joints"]
+    assert rows in [catalogue.dh_table(name)["joints"] for name in catalogue.TABLES]
+    assert studio.page.locator("table.dh tbody tr:not(.cell-error)").count() == len(rows)
