@@ -56,7 +56,7 @@ def test_a_robot_is_found_and_picked(studio: Studio) -> None:
     studio.open("robot")
     robots = studio.page.locator("button.robot")
     robots.first.wait_for()
-    assert robots.count() == len(catalogue.NAMES)
+    assert {entry.get_attribute("data-robot") for entry in robots.all()} >= set(catalogue.NAMES)
     studio.page.get_by_role("searchbox").fill("universal ur10 limit")
     assert [entry.get_attribute("data-robot") for entry in robots.all()] == ["ur10_joint_limited"]
     robots.first.click()

@@ -2,7 +2,8 @@
 
 import { Color } from "three";
 
-export type Hue = "view" | "grid" | "grid-strong" | "x" | "y" | "z" | "accent" | "ink" | "dimension-a" | "dimension-d";
+export type Hue =
+  "view" | "grid" | "grid-strong" | "x" | "y" | "z" | "axis" | "accent" | "ink" | "dimension-a" | "dimension-d";
 
 const probe = document.createElement("span");
 probe.hidden = true;

@@ -62,10 +62,8 @@ function axisMarks(group: Group, state: Readonly<State>): Follow {
     if (!moves || !(state.axes || isNamed)) continue;
     const direction = joint.axis.clone();
     const axis = new Group();
-    axis.add(arrow(direction, length * 1.5, length * (isNamed ? 0.045 : 0.025), colour("accent")));
-    axis.add(
-      rod(direction.clone().multiplyScalar(-length * 0.9), new Vector3(), length * 0.015, colour("accent"), 0.6),
-    );
+    axis.add(arrow(direction, length * 1.5, length * (isNamed ? 0.045 : 0.025), colour("axis")));
+    axis.add(rod(direction.clone().multiplyScalar(-length * 0.9), new Vector3(), length * 0.015, colour("axis"), 0.6));
     updates.push(attach(group, axis, () => joint.matrixWorld));
   }
   return () => updates.forEach((update) => update());
