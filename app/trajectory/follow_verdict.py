@@ -190,7 +190,12 @@ def _missing(inquiry: Inquiry, s: float, trace: Trace) -> str:
         return ""
     names = [name for name in DIRECTIONS if name in course.task.directions]
     named = [name for name, part in zip(names, missing, strict=True) if part > _MISSED * missing.max()]
-    return f": the joints cannot move the tip on in {' '.join(named)} as the way asks"
+    few = (
+        f"; {len(q)} joints cannot serve {len(names)} directions: `task` says which count"
+        if len(q) < len(names)
+        else ""
+    )
+    return f": the joints cannot move the tip on in {' '.join(named)} as the way asks{few}"
 
 
 def _other_branch(inquiry: Inquiry) -> Array | None:

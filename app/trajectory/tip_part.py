@@ -155,10 +155,17 @@ def _reports(
             angle,
             (joints.path_deviation, joints.orientation_deviation) if damped else None,
             i + 1 < len(segments),
-            (*way.notes, *timing.notes),
+            (*way.notes, *_of_corners(segments), *timing.notes),
         )
         reports.append(report)
     return tuple(reports)
+
+
+def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
+    """That lines with stops can take less time than blended ones."""
+    if len(segments) == 1 or segments[0].law == "time_optimal":
+        return ()
+    return ("one law runs through all blended lines: a corner makes it slow everywhere, `time_optimal` only there",)
 
 
 def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
