@@ -4,7 +4,10 @@
 - `kernels`: many starts of damped least squares, eight at a time. No Pinocchio.
 - `search`: those kernels on a batch, in threads, within limits; `retrace` tells what they did, step by step.
 - `steps`, `linearise`, `descent`: the course's methods from one start, with a trace.
-- `branches`: every distinct solution; `null_space`: what to do with a redundant arm's freedom.
+- `closed_form`: which composition of `subproblems` a chain is served by; `compositions` and `branch_kernels` find all
+  branches, `elimination` those of six turning joints without one; `analytic` puts them together, and `valleys` finds
+  what rounding hides next to a singularity.
+- `branches`: every distinct solution by search; `null_space`: what to do with a redundant arm's freedom.
 - `reach`, `verdict`: why a target is not solved. `result`: what the answer holds.
 - `solve`: all of it for a robot, each solution recomputed through Pinocchio.
 """

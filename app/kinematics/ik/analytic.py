@@ -1,5 +1,6 @@
 """Inverse kinematics by a closed form, in batches: the branch nearest to the seed, or all of them."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
@@ -11,10 +12,10 @@ from app.kinematics.ik.branches import SPACING, all_branches, thin_out, wound
 from app.kinematics.ik.closed_form import ClosedForm
 from app.kinematics.ik.compositions import MOST
 from app.kinematics.ik.judge import judged
-from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches, Status
-from app.kinematics.ik.search import free_variables, is_over, limits_of, pieces, processors, shared, target_rows
+from app.kinematics.ik.search import free_variables, is_over, pieces, processors, shared, target_rows
 from app.kinematics.ik.task import DIRECTIONS
+from app.kinematics.ik.valleys import distinct, refined, with_partners
 from app.kinematics.ik.verdict import Question
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array, Flags, Indices
@@ -30,15 +31,9 @@ _BESIDE, _BESIDE_DOUBLE_ROOTS = 1e-9, 1e-6
 """How far beside a target its branches are counted once more, along each axis, [m]."""
 _NEIGHBOURS, _NEIGHBOURS_EACH = (1e-6, 1e-7, 1e-8), 8
 """How far beside a doubtful target others are solved, [m, rad], and how many at each distance."""
-_NEWTON_STEPS, _CORRECTIONS, _LONGEST, _SHORTEST_SHARE = 20, 2, 0.5, 1e-3
-"""Of refining: steps, corrections after each, the longest step [rad or m], the share of one after which it ends."""
-_SINGULAR, _WEAK = 1e-15, 1e-3
-"""Shares of the largest singular value: what is none but rounding, and what leads along a valley."""
-_EXACT, _ROUNDING, _PERFECT = 1e-11, 1e-13, 1e-14
-"""Errors up to which it has come to a solution: of the arm where a form is only nearly its own, and of a form next to
-a singularity; and the error that is left alone, [m, rad]."""
-_SAME_BESIDE = 1e-4
-"""How far apart two solutions next to a singularity are, where an error of rounding moves them far, [rad or m]."""
+_EXACT, _ROUNDING = 1e-11, 1e-14
+"""Errors up to which refining has come to a solution: of the arm where a form is only nearly its own, and of a form
+next to a singularity, [m, rad]."""
 _FREE_SAMPLED = 24
 """Positions of a joint that a singularity leaves free."""
 _ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
@@ -176,7 +171,7 @@ def _piece(
             whole = False
             if not form.is_exact:
                 own = _completed(question, i, own, most)
-            elif (unsteady[k] or form.has_double_roots) and not free.any():
+            elif form.has_double_roots or (unsteady[k] and not free.any()):
                 own = _from_neighbours(question, form, i, own, most)
         if windings and len(own.qs):
             own, whole = _turned(question, i, own, most, whole)
@@ -192,7 +187,7 @@ def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
     count = len(table.firsts) - 1
     owners = np.repeat(np.arange(count), np.diff(table.firsts))
     near = _near_singular(chain_jacobians(question.chain.flat, table.qs)[2], len(question.task), form.doubt)
-    flags: Flags = np.bincount(owners, near, minlength=count) > 0
+    flags: Flags = (np.bincount(owners, near, minlength=count) > 0) | (table.doubtful > 0)
     return flags if form.is_exact else flags | (np.diff(table.firsts) == 0)
 
 
@@ -239,7 +234,8 @@ def _completed(question: Question, i: int, table: Branches, most: int) -> Branch
         most=most,
         windings=False,
     )
-    return _joined(question, i, table, _refined(question, i, found.qs, _EXACT), most, _APART)
+    more, free = refined(question, i, found.qs, _EXACT), free_variables(question.chain)
+    return _joined(question, i, table, more, most, lambda qs: thin_out(qs, free, _APART, most))
 
 
 def _from_neighbours(question: Question, form: ClosedForm, i: int, table: Branches, most: int) -> Branches:
@@ -256,50 +252,21 @@ def _from_neighbours(question: Question, form: ClosedForm, i: int, table: Branch
         tolerances=question.tolerances,
         respect_limits=question.respect_limits,
     )
-    return _joined(question, i, table, _refined(question, i, found.qs, _ROUNDING), most, _SAME_BESIDE)
+    more = with_partners(question, i, np.concatenate((table.qs, found.qs)), _ROUNDING)
+    return _joined(question, i, table, more, most, lambda qs: distinct(question, i, qs))
 
 
-def _joined(question: Question, i: int, table: Branches, more: Array, most: int, apart: float) -> Branches:
-    """The branches of one target and other solutions, whose code is -1, nearest to the seed first."""
+def _joined(
+    question: Question, i: int, table: Branches, more: Array, most: int, pick: Callable[[Array], Indices]
+) -> Branches:
+    """The branches of one target and other solutions, whose code is -1, nearest to the seed first; one of each."""
     qs = np.concatenate((table.qs, more))
     codes = np.concatenate((table.codes, np.full(len(more), -1, dtype=np.int64)))
     free = np.concatenate((table.free, np.zeros(len(more), dtype=np.int64)))
     # The form's come first, so that of two that are the same the named one stays.
-    order = thin_out(qs, free_variables(question.chain), apart, most)
+    order = pick(qs)[:most]
     order = order[np.argsort(np.square(qs[order] - question.seed(i)).sum(axis=1), kind="stable")]
     return Branches(qs[order], codes[order], free[order], _firsts_of_one(len(order)))
-
-
-def _refined(question: Question, i: int, qs: Array, least: float) -> Array:
-    """Configurations driven to rounding by Newton's method; only those that come to an error so small.
-
-    Next to a singularity a solution lies somewhere along a narrow valley in which all equations but one hold. So after
-    each step these are met again before the errors are compared, as in `branch_kernels`.
-    """
-    target, limits = question.target(i), limits_of(question.chain, question.respect_limits)
-
-    def stepped(qs: Array, weak: float, shares: Array) -> Array:
-        es, Js = linearise(question.chain, target, qs, question.task)
-        steps = np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=weak), es)
-        shares = shares * np.minimum(1.0, _LONGEST / np.maximum(np.abs(steps).max(axis=1, initial=0.0), _LONGEST))
-        return np.asarray(np.clip(qs + shares[:, None] * steps, *limits))
-
-    def misses(qs: Array) -> Array:
-        return np.asarray(np.linalg.norm(linearise(question.chain, target, qs, question.task)[0], axis=1))
-
-    errors, shares = misses(qs), np.ones(len(qs))
-    for _ in range(_NEWTON_STEPS):
-        rows = np.flatnonzero((errors > _PERFECT) & (shares > _SHORTEST_SHARE))
-        if not len(rows):
-            break
-        moved = stepped(qs[rows], _SINGULAR, shares[rows])
-        for _ in range(_CORRECTIONS):
-            moved = stepped(moved, _WEAK, np.ones(len(rows)))
-        after = misses(moved)
-        better = after < errors[rows]
-        qs[rows[better]], errors[rows[better]] = moved[better], after[better]
-        shares[rows] = np.where(better, np.minimum(2.0 * shares[rows], 1.0), 0.25 * shares[rows])
-    return qs[errors <= least]
 
 
 def _sampled(

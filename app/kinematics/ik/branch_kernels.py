@@ -46,6 +46,8 @@ _DAMPING, _LEAST_DAMPING = 1e-12, 1e-22
 """λ of the first step, and how far steps that succeed bring it down: next to a singularity it must not hold back."""
 _SAME = 1e-7
 """Candidates no further apart in any joint are one, [rad or m]."""
+_MOVED = 1e-4
+"""By how much polishing moves a joint that is not free, [rad or m]."""
 _ROUNDING = 1e-10
 """How far beyond a limit counts as at it, [rad or m]."""
 _POSITION, _ORIENTATION = SINCE, COUNT
@@ -60,12 +62,14 @@ class Branches(NamedTuple):
         codes: Which roots each took; shape (M,).
         free: Bit j where variable j was free and has kept the seed's value; shape (M,).
         firsts: Where each target's begin; shape (N + 1,).
+        doubtful: 1 of a target where rounding may have cost solutions; shape (N,), or empty where that is not asked.
     """
 
     qs: Array
     codes: Indices
     free: Indices
     firsts: Indices
+    doubtful: Indices = np.zeros(0, dtype=np.int64)
 
 
 class _Kept(NamedTuple):
@@ -104,8 +108,8 @@ def branches(
     """
     # To hand over a tuple costs a compiled function much more than its parts.
     arguments: tuple[Any, ...] = (*flat, *plan, *goal, limits, targets, seeds, elbow_angles, min(most, MOST))
-    qs, labels, firsts = _branches(*arguments)
-    return Branches(qs, labels[0], labels[1], firsts)
+    qs, labels, firsts, doubtful = _branches(*arguments)
+    return Branches(qs, labels[0], labels[1], firsts, doubtful)
 
 
 @compiled
@@ -139,7 +143,7 @@ def _branches(
     seeds: Array,
     elbow_angles: Array,
     most: int,
-) -> tuple[Array, Indices, Indices]:
+) -> tuple[Array, Indices, Indices, Indices]:
     """See `branches`."""
     flat = FlatChain(placements, joints, drives)
     plan = Plan(kind, backwards, form, placed, axes, points, slides, order, lines, zero, reach, terms)
@@ -153,6 +157,7 @@ def _branches(
         np.empty((8, 3)),
         np.empty((2, 8), np.int64),
         make_space(),
+        np.zeros(1, np.int64),
     )
     kept = _Kept(
         np.empty((MOST + 1, n)),
@@ -165,9 +170,10 @@ def _branches(
     )
     work = workspace(flat, n)
     qs, labels = np.empty((count * most, n)), np.empty((2, count * most), np.int64)
-    firsts = np.zeros(count + 1, np.int64)
-    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, kept, work, qs, labels, firsts)
-    return qs[: firsts[count]], labels[:, : firsts[count]], firsts
+    firsts, doubtful = np.zeros(count + 1, np.int64), np.zeros(count, np.int64)
+    table = qs, labels, firsts, doubtful
+    _solve_all(flat, plan, goal, limits, targets, seeds, elbow_angles, most, found, kept, work, table)
+    return qs[: firsts[count]], labels[:, : firsts[count]], firsts, doubtful
 
 
 def elbow_angles(flat: FlatChain, plan: Plan, qs: Array) -> Array:
@@ -215,11 +221,10 @@ def _solve_all(
     found: Candidates,
     kept: _Kept,
     work: Work,
-    qs: Array,
-    labels: Indices,
-    firsts: Indices,
+    table: tuple[Array, Indices, Indices, Indices],
 ) -> None:
     """Fill the table, a target after the other."""
+    qs, labels, firsts, doubtful = table
     total, n = 0, seeds.shape[1]
     for i in range(len(targets)):
         seed = seeds[i if len(seeds) > 1 else 0]
@@ -230,7 +235,7 @@ def _solve_all(
                 qs[total, j] = kept.qs[k, j]
             labels[0, total], labels[1, total] = kept.labels[0, k], kept.labels[1, k]
             total += 1
-        firsts[i + 1] = total
+        firsts[i + 1], doubtful[i] = total, found.doubtful[0]
 
 
 @unmanaged
@@ -270,7 +275,8 @@ def _solve(
                 if _wound(flat, limits, seed, own):
                     error = work.state[_POSITION * LANES + lane] + work.state[_ORIENTATION * LANES + lane]
                     kept.errors[MOST], kept.labels[0, MOST] = error, found.codes[first + lane]
-                    kept.labels[1, MOST] = _mask(found.free[first + lane], n, plan.backwards)
+                    free = _unmoved(flat, plan, found, work, first + lane, lane)
+                    kept.labels[1, MOST] = _mask(free, n, plan.backwards)
                     solutions = _insert(kept, solutions, flat, seed)
     return _without_near_misses(kept, solutions)
 
@@ -419,6 +425,19 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
         inside &= lower - _ROUNDING <= x <= upper + _ROUNDING
         q[j] = min(max(x, lower), upper)
     return inside
+
+
+@unmanaged
+def _unmoved(flat: FlatChain, plan: Plan, found: Candidates, work: Work, row: int, lane: int) -> int:
+    """Of a candidate's free joints those that polishing has left alone: what had to move was not free; in its order."""
+    n = found.values.shape[1]
+    free: int = found.free[row]
+    for j in range(n):
+        i = n - 1 - j if plan.backwards else j
+        reached = flat.drives[j, 0] * work.previous[j * LANES + lane] + flat.drives[j, 1]
+        if abs(reached - found.values[row, i]) > _MOVED:
+            free &= ~(1 << i)
+    return free
 
 
 @inlined

@@ -53,6 +53,8 @@ _OF_DOUBLE_ROOT = 1e-6
 
 _TURNS_TRIED = 16
 """Angles of a free joint at which others are looked for that go with it."""
+_MOST_BEFORE_LAST = 12
+"""Candidates after which there might be no room for those at the last angles of a free joint."""
 
 Motion: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float, float, float]
 """A displacement: rotation row by row, then translation."""
@@ -101,6 +103,7 @@ class Candidates(NamedTuple):
         first: Positions of the first joints, in the order of elimination; shape (8, 3).
         marks: Their codes and free joints; shape (2, 8).
         space: Room for a general arm.
+        doubtful: 1 where a root is double as far as it is known, so that rounding may have cost some; shape (1,).
     """
 
     values: Array
@@ -110,6 +113,7 @@ class Candidates(NamedTuple):
     first: Array
     marks: Indices
     space: Space
+    doubtful: Indices
 
 
 # Rows of `Plan.lines`.
@@ -131,6 +135,7 @@ def compose(plan: Plan, target: Array, seed: Array, elbow_angle: float, found: C
         How many there are.
     """
     M = _displacement(plan, target)
+    found.doubtful[0] = 0
     if plan.kind == PARALLEL:
         return _parallel(plan, M, seed, found)
     if plan.kind == ELBOW:
@@ -628,18 +633,57 @@ def _in_plane(
     if flat and side != 0.0:
         b = scaled(-side, cross(h5, b))
     told = not flat or dot(level, level) >= _NO_ARM * _NO_ARM
+    before = count
     if told:
         q6 = angle_onto(h6, g, b)
-        more = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
-        if more > count or side != 0.0 or dot(level, level) >= _OF_DOUBLE_ROOT * _OF_DOUBLE_ROOT:
-            return more
-    for k in range(_TURNS_TRIED):
-        # Joint 6 is free where it is: where the plane's joints do not reach then, the next angle that they reach.
+        count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 0, code, seed, found, count)
+        if side != 0.0 or dot(level, level) >= _OF_DOUBLE_ROOT * _OF_DOUBLE_ROOT:
+            return count
+    if side == 0.0:
+        found.doubtful[0] = 1
+    mean, swing, furthest = _reaches(plan, M, q1, q5)
+    for k in range(_TURNS_TRIED + 2):
+        if count > before:
+            break
+        # Joint 6 is free where it is: where the plane's joints do not reach then, the next angle that they reach, at
+        # last where the way is shortest, and longest.
         q6 = seed[5] + (k + 1) // 2 * (2.0 * math.pi / _TURNS_TRIED) * (1.0 if k % 2 else -1.0)
-        more = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
-        if more > count:
-            return more
+        if k >= _TURNS_TRIED:
+            q6 = furthest + (math.pi if k == _TURNS_TRIED else 0.0)
+        count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
+    for k in range(4 if side == 0.0 else 0):
+        # The last angles that they reach, stretched and folded: there joint 3 is next to a singularity too.
+        away = _span(plan, k < 2) ** 2 - mean
+        if abs(away) <= swing and count < _MOST_BEFORE_LAST:
+            q6 = furthest + (1.0 if k % 2 else -1.0) * math.acos(away / swing)
+            count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
     return count
+
+
+@unmanaged
+def _span(plan: Plan, stretched: bool) -> float:
+    """How far joint 4 is from joint 2 where joint 3 is stretched, or folded, [m]."""
+    h, o2, o3, o4 = row(plan.axes, 1), row(plan.points, 1), row(plan.points, 2), row(plan.points, 3)
+    base, arm = _flattened(h, minus(o3, o2)), _flattened(h, minus(o4, o3))
+    return math.sqrt(dot(base, base)) + (1.0 if stretched else -1.0) * math.sqrt(dot(arm, arm))
+
+
+@unmanaged
+def _reaches(plan: Plan, M: Motion, q1: float, q5: float) -> tuple[float, float, float]:
+    """The square of the way from joint 2 to joint 4 as joint 6 turns, where its axis is parallel to theirs.
+
+    Returns:
+        Its mean and how far it swings from there [m²], and joint 6 where it is largest [rad].
+    """
+    h, o2, p5 = row(plan.axes, 1), row(plan.points, 1), _about(plan, 4, -q5, row(plan.points, 3))
+    squares = (0.0, 0.0, 0.0)
+    for k in range(3):
+        p4 = _about(plan, 0, -q1, _displaced(M, _about(plan, 5, -0.5 * math.pi * k, p5)))
+        reach = _flattened(h, minus(p4, o2))
+        squares = (squares[1], squares[2], dot(reach, reach))
+    mean = 0.5 * (squares[0] + squares[2])
+    along, across = squares[0] - mean, squares[1] - mean
+    return mean, math.hypot(along, across), math.atan2(across, along)
 
 
 @unmanaged
