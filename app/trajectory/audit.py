@@ -26,6 +26,8 @@ Check: TypeAlias = Literal["velocity", "acceleration", "jerk", "joint_limit", "c
 
 DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
+_DIGIT = 10.0
+"""By how much more than the one before a derivative may jump: coefficients have fewer digits for it."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
@@ -204,7 +206,9 @@ def _jumps(
             break
         jump = _worst(largest_jumps(pieces, order), names, None)
         jumps.append(jump)
-        if order <= demands.continuous and not jump.value <= demands.tolerance * _scale(peaks, quantity):
+        if order <= demands.continuous and not jump.value <= _DIGIT**order * demands.tolerance * _scale(
+            peaks, quantity
+        ):
             detail = f"{quantity} jumps by {jump.value:.6g}"
             reasons.append(Reason("continuity", detail, jump.joint, jump.time))
     return tuple(jumps)

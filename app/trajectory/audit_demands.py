@@ -71,8 +71,8 @@ class Demands:
         path_tolerance: Allowed distance from it, [m].
         orientation_tolerance: Allowed angle from it, [rad].
         continuous: Derivatives up to this order do not jump; 1 is C¹.
-        tolerance: Allowed excess over a limit, relatively, and error of ends and jumps, relative to the largest value
-            of that derivative or to 1.
+        tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
+            derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
     """
 
     joints: JointLimits = field(default_factory=JointLimits)

@@ -6,6 +6,7 @@ and jerk of q(s(t)) at both of its ends, those on its own side where they jump, 
 is within a tolerance.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,20 +39,43 @@ class _Expansion:
         law: s less its value there; shape (M, d + 1, 1).
         joints: q, less its value there, of that s; shape (M, D + 1, n).
         starts: The values of q; shape (M, n).
+        places: The values of s; shape (M,).
     """
 
     breaks: Array
     law: Array
     joints: Array
     starts: Array
+    places: Array
 
     def at(self, local: Array) -> Array:
         """Of q what each piece has added so far, and three derivatives, at a time in it; (M, 1) → (4, M, n)."""
-        s, v, a, j = derivatives(self.law, local)
-        q, first, second, third = derivatives(self.joints, s)
-        return np.stack(
-            (q, first * v, first * a + second * v**2, first * j + second * (3.0 * v * a) + third * v**3),
-        )
+        s, *rates = derivatives(self.law, local)
+        return _chained(derivatives(self.joints, s), rates)
+
+    def at_edges(self, joints: PiecewisePolynomial) -> tuple[Array, Array]:
+        """The same where each piece begins and where it ends; shape (4, M, n) each.
+
+        Knots of the joints that are too near to each other in time share a piece. Its edges are then those of the
+        polynomials that belong there, so that nothing jumps.
+        """
+        widths = np.diff(self.breaks)[:, None]
+        places = np.append(self.places, joints.breaks[-1])
+        reach = _SAME * (joints.breaks[-1] - joints.breaks[0])
+        middle = np.searchsorted(joints.breaks, 0.5 * (places[:-1] + places[1:]), side="right") - 1
+        first = np.searchsorted(joints.breaks, places[:-1] + reach, side="right") - 1
+        last = np.searchsorted(joints.breaks, places[1:] - reach) - 1
+        edges = []
+        for owners, s, local in ((first, places[:-1], 0.0 * widths), (last, places[1:], widths)):
+            edge = self.at(local)
+            rows = np.flatnonzero((owners != middle) & (owners >= 0) & (owners < len(joints.breaks) - 1))
+            if len(rows):
+                mine = owners[rows]
+                along = derivatives(joints.coefficients[mine], (s[rows] - joints.breaks[mine])[:, None])
+                edge[:, rows] = _chained(along, derivatives(self.law[rows], local[rows])[1:])
+                edge[0, rows] -= self.starts[rows]
+            edges.append(edge)
+        return edges[0], edges[1]
 
 
 def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewisePolynomial:
@@ -70,7 +94,7 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
     breaks = _breaks(joints, law, _SHORTEST)
     for _ in range(_ROUNDS):
         exact = _expanded(joints, law, breaks)
-        coefficients = _septics(exact)
+        coefficients = _septics(exact, joints)
         parts = _parts(exact, coefficients)
         if (parts == 1).all():
             break
@@ -78,8 +102,8 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
         breaks = np.append(np.repeat(breaks[:-1], parts) + shares * np.repeat(np.diff(breaks), parts), breaks[-1])
     else:
         exact = _expanded(joints, law, breaks)
-        coefficients = _septics(exact)
-    coefficients[:, 0] = exact.starts
+        coefficients = _septics(exact, joints)
+    coefficients[:, 0] += exact.starts
     return PiecewisePolynomial(exact.breaks, coefficients)
 
 
@@ -126,9 +150,16 @@ def _breaks(joints: PiecewisePolynomial, law: PiecewisePolynomial, least: float)
 def _expanded(joints: PiecewisePolynomial, law: PiecewisePolynomial, breaks: Array) -> _Expansion:
     by_time = cut(law, breaks)
     by_s = cut(joints, np.append(by_time[:, 0, 0], joints.breaks[-1]))
-    starts = by_s[:, 0].copy()
+    starts, places = by_s[:, 0].copy(), by_time[:, 0, 0].copy()
     by_time[:, 0], by_s[:, 0] = 0.0, 0.0
-    return _Expansion(breaks, by_time, by_s, starts)
+    return _Expansion(breaks, by_time, by_s, starts, places)
+
+
+def _chained(along: Sequence[Array], rates: Sequence[Array]) -> Array:
+    """q(s) and its derivatives by s, and those of s by time, to q and its derivatives by time; shape (4, M, n)."""
+    q, first, second, third = along
+    v, a, j = rates
+    return np.stack((q, first * v, first * a + second * v**2, first * j + second * (3.0 * v * a) + third * v**3))
 
 
 def _composed(joints: Array, law: Array) -> Array:
@@ -144,11 +175,9 @@ def _composed(joints: Array, law: Array) -> Array:
     return result
 
 
-def _septics(exact: _Expansion) -> Array:
+def _septics(exact: _Expansion, joints: PiecewisePolynomial) -> Array:
     """The pieces less their values at the start, which would cost digits; shape (M, 8, n)."""
-    widths = np.diff(exact.breaks)
-    starts, ends = exact.at(np.zeros((len(widths), 1))), exact.at(widths[:, None])
-    return hermite_pieces(starts, ends, widths)
+    return hermite_pieces(*exact.at_edges(joints), np.diff(exact.breaks))
 
 
 def _parts(exact: _Expansion, coefficients: Array) -> Indices:

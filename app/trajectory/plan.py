@@ -26,6 +26,9 @@ from app.trajectory.whole_audit import whole
 _SAME_DURATION = 1e-9
 """Share by which a duration may be less than the shortest one: it is meant to be that."""
 
+_LIMITS = {"velocity", "acceleration", "jerk", "tip"}
+_ROUNDING, _MARGIN = 1e-5, 1e-12
+"""Share of a limit that may be exceeded before a motion is slowed down by it, and how much more it then is."""
 _TOLD = 4
 """Reasons that a refused motion names."""
 _MOMENT = 1e-9
@@ -48,11 +51,17 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
     check_limits(chain, problem.start[None])
     parts, halt = _parts(robot, chain, problem)
     factor = _factor(parts, problem, halt)
-    parts = [part.slowed(factor) for part in parts]
-    moving = [part for part in parts if part.motion.duration > 0.0]
+    parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
     starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
-    motion = joined([part.motion for part in moving]) if moving else standing(problem.start)
-    judgement = _audited(robot, chain, moving, motion)
+    moving = [
+        (part, float(start)) for part, start in zip(parts, starts[:-1], strict=True) if part.motion.duration > 0.0
+    ]
+    motion = joined([part.motion for part, _ in moving]) if moving else standing(problem.start)
+    if moving:
+        judgement = whole(chain, motion, audits, [start for _, start in moving])
+    else:
+        judgement = _of_standing(robot, chain, motion)
+    refuse_failed(judgement)
     return Trajectory(
         motion,
         tuple(report for part, start in zip(parts, starts[:-1], strict=True) for report in part.moved(float(start))),
@@ -134,21 +143,34 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
     return max(1.0, problem.duration / least)
 
 
-def _audited(robot: Robot, chain: Chain, parts: list[Part], motion: PiecewisePolynomial) -> Audit:
-    """The judgement of a motion that passes.
+def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], list[Audit]]:
+    """Parts, and the judgement of each that moves; what exceeds a limit by rounding alone is slowed down by as much."""
+    judged, audits = [], []
+    for planned in parts:
+        part = planned
+        if part.motion.duration > 0.0:
+            found = audit(robot, chain, part.motion, part.demands)
+            excess = _excess(found)
+            if 1.0 < excess <= 1.0 + _ROUNDING:
+                part = planned.slowed(excess * (1.0 + _MARGIN))
+                found = audit(robot, chain, part.motion, part.demands)
+            audits.append(found)
+        judged.append(part)
+    return judged, audits
 
-    Raises:
-        AuditFailed: It does not.
-    """
-    if not parts:
-        # An audit looks at pieces that take time.
-        still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
-        return audit(robot, chain, still, Demands())
-    audits = [audit(robot, chain, part.motion, part.demands) for part in parts]
-    starts = [0.0, *np.cumsum([part.motion.duration for part in parts])[:-1]]
-    judgement = whole(chain, motion, audits, starts)
-    refuse_failed(judgement)
-    return judgement
+
+def _excess(found: Audit) -> float:
+    """The largest ratio to a limit, where nothing else is wrong."""
+    if found.passed or any(reason.check not in _LIMITS for reason in found.reasons):
+        return 1.0
+    peaks = (found.velocity, found.acceleration, found.jerk, *found.tip.values())
+    return max(peak.ratio or 0.0 for peak in peaks if peak is not None)
+
+
+def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:
+    """The judgement of joints that stand still for no time: an audit looks at pieces that take time."""
+    still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
+    return audit(robot, chain, still, Demands())
 
 
 def refuse_failed(judgement: Audit) -> None:
