@@ -71,6 +71,7 @@ class Demands:
         path_tolerance: Allowed distance from it, [m].
         orientation_tolerance: Allowed angle from it, [rad].
         continuous: Derivatives up to this order do not jump; 1 is C¹.
+        keeps_jerk: Whether limits of jerk are kept, or only compared with.
         tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
             derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
     """
@@ -83,4 +84,5 @@ class Demands:
     path_tolerance: float = 1e-4
     orientation_tolerance: float = 1e-3
     continuous: int = 1
+    keeps_jerk: bool = True
     tolerance: float = 1e-9

@@ -1,11 +1,10 @@
 """Joints from one configuration to another, at rest at both ends.
 
-But for the trapezoid every law leads along the straight line of joint space: q = q_i + s(t) Δq, with one s from 0 to 1
-for all joints. What s may do are the least of the joints' limits over |Δq_j|, so that the least duration is a closed
-form of three numbers. In the trapezoid each joint has a profile of its own, and all are slowed to the slowest one, as
-in the course; such a motion does not follow the line. It takes T = max_j T_j, as long as some joint needs by itself, so
-that no motion takes less: where one joint limits the velocity of the line and another one its acceleration, the fastest
-motion along the line takes longer.
+The polynomials lead along the straight line of joint space: q = q_i + s(t) Δq, with one s from 0 to 1 for all joints.
+What s may do are the least of the joints' limits over |Δq_j|, so that the least duration is a closed form of three
+numbers. In the trapezoid each joint has a profile of its own, and all are slowed to the slowest one, as in the course:
+no motion of any shape takes less time, T = max_j T_j, so that it is the time-optimal one too. The jerk-limited motion
+is of that kind as well where the line would take longer: where the joints' limits are not in one proportion.
 """
 
 import math
@@ -18,7 +17,6 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
-from app.trajectory.phases import of_phases
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.problem import Law, MotionLimits
 from app.trajectory.time_scaling import QUANTITIES, Limits, uniform_scaling
@@ -33,10 +31,10 @@ ROUNDING = 2e-10
 KEEPS_JERK: Final[frozenset[Law]] = frozenset({"quintic", "septic", "jerk_limited"})
 """Laws without jumps of acceleration, the ends included; they keep limits of jerk."""
 
-_UNRESOLVED = 1e-6
-"""Share of a motion below which a double has no digits for the time of an acceleration."""
 _SHORTEST_RAMP = 1e-5
 """Share of a given duration that a trapezoid takes at least to accelerate."""
+_WORTH = 1e-6
+"""Share of the duration for which the straight line is left."""
 _MOST = 1e6
 """Limits of s beyond that, in units of the time it would take under one of them alone, are as good as none."""
 
@@ -64,10 +62,11 @@ def point_to_point_motion(
     - cubic, quintic, septic: T is the largest of c₁Δ/v, √(c₂Δ/a) and, but for the cubic, ∛(c₃Δ/j) of any joint, with
       the peaks c of the law: 1.5, 6; 1.875, 5.7735, 60; 2.1875, 7.5132, 52.5. Acceleration is zero at both ends of a
       quintic, jerk too of a septic.
-    - jerk_limited: the least time along the straight line under limits of velocity, acceleration and jerk.
-    - time_optimal: the same under those of velocity and acceleration: a trapezoid of the common parameter.
+    - jerk_limited: the least time under limits of velocity, acceleration and jerk, along the straight line where that
+      takes no longer.
     - trapezoidal: a trapezoid of each joint, the slowest one's as fast as its limits allow, the others slowed by
       k = T/T_j: v/k, a/k². In a given time each keeps its acceleration and coasts more slowly.
+    - time_optimal: the same; in a given time it is slowed as a whole.
 
     In a given time all but the trapezoid are slowed as a whole. Limits of the tip are not looked at.
 
@@ -92,10 +91,12 @@ def point_to_point_motion(
         return standing(start, duration or 0.0)
     if law == "trapezoidal":
         return _trapezoid(start, steps, limits, duration, field)
-    s = _along_line(law, _bounds(steps, limits), field)
-    coefficients = s.coefficients * steps
-    coefficients[:, 0] += start
-    motion = PiecewisePolynomial(s.breaks, coefficients)
+    if law == "time_optimal":
+        motion = _trapezoid(start, steps, limits, None, field)
+    else:
+        motion = _on_line(start, steps, _along_line(law, _bounds(steps, limits)))
+        if law == "jerk_limited":
+            motion = _beside_line(start, target, limits, motion)
     return motion if duration is None else lasting(motion, duration, kept(law, limits), field)
 
 
@@ -239,12 +240,30 @@ def _bounds(steps: Array, limits: MotionLimits) -> tuple[float, float, float]:
     return velocity, acceleration, jerk
 
 
-def _along_line(law: Law, bounds: tuple[float, float, float], field: str) -> PiecewisePolynomial:
+def _on_line(start: Array, steps: Array, s: PiecewisePolynomial) -> PiecewisePolynomial:
+    """The joints on the straight line, at s(t)."""
+    coefficients = s.coefficients * steps
+    coefficients[:, 0] += start
+    return PiecewisePolynomial(s.breaks, coefficients)
+
+
+def _beside_line(
+    start: Array, target: Array, limits: MotionLimits, on_line: PiecewisePolynomial
+) -> PiecewisePolynomial:
+    """The jerk-limited motion whose joints only end together, where that takes less time than the one on the line."""
+    bounds = JerkLimits(limits.velocity, limits.acceleration, limits.jerk)
+    try:
+        found = jerk_limited(at_rest(start), at_rest(target), bounds, synchronization="time")
+    except InvalidField:
+        # Numbers too many powers of ten apart for it; the line's have one unit.
+        return on_line
+    return found if found.duration < on_line.duration * (1.0 - _WORTH) else on_line
+
+
+def _along_line(law: Law, bounds: tuple[float, float, float]) -> PiecewisePolynomial:
     """The fastest s from 0 to 1; one coordinate."""
     if law == "jerk_limited":
         return _jerk_limited(bounds)
-    if law == "time_optimal":
-        return _fastest(bounds[0], bounds[1], field)
     shape = _SHAPES[law]
     duration = max(
         (peak / bound) ** (1.0 / k) for k, (peak, bound) in enumerate(zip(shape.peaks, bounds, strict=False), 1)
@@ -258,18 +277,6 @@ def _jerk_limited(bounds: tuple[float, float, float]) -> PiecewisePolynomial:
     unit = max(bound ** (-1.0 / k) for k, bound in enumerate(bounds, 1))
     units = [np.array([min(bound * unit**k, _MOST)]) for k, bound in enumerate(bounds, 1)]
     return jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), JerkLimits(*units)).scaled(unit)
-
-
-def _fastest(velocity: float, acceleration: float, field: str) -> PiecewisePolynomial:
-    """The trapezoid of the common parameter."""
-    profile = fastest(Task(1.0, 0.0, 0.0, velocity, acceleration))
-    if profile.first < _UNRESOLVED * profile.duration:
-        raise InvalidField(
-            named(field, "limits.joint_acceleration"),
-            f"the joints reach their speed within {profile.first:.3g} s of a motion of {profile.duration:.3g} s: less "
-            "than a millionth of that cannot be told apart; let them accelerate more slowly",
-        )
-    return of_phases(np.zeros(1), np.zeros(1), [profile.phases()])
 
 
 def _trapezoid(

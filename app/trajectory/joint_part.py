@@ -175,11 +175,11 @@ def _comparison(
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
     promise = Promise(1, False) if segment.blends else promised(segment)
     limits = segment.limits
-    jerk = limits.jerk if promise.has_bounded_jerk else None
     return Demands(
-        JointLimits(limits.velocity, limits.acceleration, jerk),
+        JointLimits(limits.velocity, limits.acceleration, limits.jerk),
         limits.tip,
         Ends(start, end),
         task=task,
         continuous=promise.continuous,
+        keeps_jerk=promise.has_bounded_jerk,
     )

@@ -62,6 +62,12 @@ class Part:
         demands = self.demands if path is None else replace(self.demands, path=_slowed(path, factor))
         return replace(self, motion=self.motion.scaled(factor), reports=reports, demands=demands)
 
+    def noted(self, notes: tuple[str, ...]) -> "Part":
+        """The same with something more to be known of its segments."""
+        if not notes:
+            return self
+        return replace(self, reports=tuple(replace(one, notes=(*one.notes, *notes)) for one in self.reports))
+
     def moved(self, start: float) -> tuple[SegmentReport, ...]:
         """Its segments, the part beginning at a time, [s]."""
         return tuple(

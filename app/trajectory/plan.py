@@ -155,16 +155,27 @@ def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], 
                 part = planned.slowed(excess * (1.0 + _MARGIN))
                 found = audit(robot, chain, part.motion, part.demands)
             audits.append(found)
+            part = part.noted(_of_jerk(part, found))
         judged.append(part)
     return judged, audits
+
+
+def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
+    """That a law does not keep limits of jerk, where that shows."""
+    jerk = found.jerk
+    if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0:
+        return ()
+    return (f"limits of jerk are not kept: {jerk.joint} comes to {jerk.ratio:.4g} times its own",)
 
 
 def _excess(found: Audit) -> float:
     """The largest ratio to a limit, where nothing else is wrong."""
     if found.passed or any(reason.check not in _LIMITS for reason in found.reasons):
         return 1.0
-    peaks = (found.velocity, found.acceleration, found.jerk, *found.tip.values())
-    return max(peak.ratio or 0.0 for peak in peaks if peak is not None)
+    checks = {reason.check for reason in found.reasons}
+    peaks = {"velocity": found.velocity, "acceleration": found.acceleration, "jerk": found.jerk}
+    beyond = [peak for check, peak in peaks.items() if check in checks] + list(found.tip.values())
+    return max(peak.ratio or 0.0 for peak in beyond if peak is not None)
 
 
 def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:

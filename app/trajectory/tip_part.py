@@ -108,9 +108,8 @@ def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, 
         position = max(position, _SLACK * joints.path_deviation)
         orientation = max(orientation, _SLACK * joints.orientation_deviation)
     last = joints.positions.at(np.array([joints.reached]))[0]
-    jerk = limits.jerk if timing.has_bounded_jerk else None
     return Demands(
-        JointLimits(limits.velocity, limits.acceleration, jerk),
+        JointLimits(limits.velocity, limits.acceleration, limits.jerk),
         limits.tip,
         Ends(joints.positions.at(np.zeros(1))[0], last),
         lambda times: path.at(np.clip(law.at(times)[:, 0], 0.0, joints.reached)).poses,
@@ -118,6 +117,7 @@ def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, 
         position,
         orientation,
         timing.continuous,
+        timing.has_bounded_jerk,
     )
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TypeVar, cast
+from typing import TypeVar
 
 from app.kinematics.certify import Certificate
 from app.model.chain import Chain
@@ -32,7 +32,7 @@ def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], st
         jumps,
         min((_moved(one.limit_margin, at) for one, at in timed if one.limit_margin), key=_distance, default=None),
         {**_of(audits[0], "start"), **_of(audits[-1], "end")},
-        {name: cast(Peak, _worst((one.tip[name], at) for one, at in timed)) for name in audits[0].tip},
+        {name: _of_tip([_moved(one.tip[name], at) for one, at in timed]) for name in audits[0].tip},
         _worst((one.path_deviation, at) for one, at in timed),
         _worst((one.orientation_deviation, at) for one, at in timed),
         min(
@@ -52,6 +52,12 @@ def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
     if limited:
         return max(limited, key=lambda peak: peak.ratio or 0.0)
     return max(found, key=lambda peak: abs(peak.value), default=None)
+
+
+def _of_tip(peaks: Sequence[Peak]) -> Peak:
+    """The largest value of all parts, and the largest ratio to the limit that holds in a part."""
+    largest = max(peaks, key=lambda peak: peak.value)
+    return replace(largest, ratio=max((peak.ratio for peak in peaks if peak.ratio is not None), default=None))
 
 
 def _distance(margin: Margin) -> float:
