@@ -21,5 +21,5 @@
 - `problem`: what is asked of a trajectory and what comes of it; `plan` joins its `parts`: `joint_part`, and `tip_part`
   along `ways`; `whole_audit` joins their judgements.
 - `audit`: a motion judged by code that shares nothing with what planned it: `audit_pieces` of the joints, `audit_tip`
-  of the tip, by `audit_demands`.
+  of the tip, both between samples too by `audit_peaks`; what it has to keep to are `audit_demands`.
 """

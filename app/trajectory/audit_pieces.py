@@ -13,6 +13,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.model.arrays import Array, Flags, Indices
+from app.trajectory.audit_peaks import highest
 from app.trajectory.polynomial import PiecewisePolynomial
 
 Sense: TypeAlias = Literal["absolute", "highest", "lowest"]
@@ -20,9 +21,6 @@ Sense: TypeAlias = Literal["absolute", "highest", "lowest"]
 _MIN_INTERVALS = 12
 _CHUNK = 1024
 """Pieces that are sampled at a time."""
-_ROUNDS = 9
-"""Of refinement: each cuts the interval around a peak to a quarter."""
-_OFFSETS = np.linspace(0.0, 1.0, 9)
 _ROUNDING = 1e-13
 _SAME = 1e-12
 """Share by which another piece has to be able to exceed the largest sample to be refined."""
@@ -76,6 +74,19 @@ class Pieces:
         powers = _powers(tau, order, self.degree)
         values: Array = np.einsum("nk,knj->nj", powers, self.scaled[:, piece])
         return values / self.widths[piece, None] ** order if order else values
+
+    def rates(self, piece: Indices, tau: Array) -> tuple[Array, Array, Array]:
+        """Positions, velocities and accelerations at τ of some pieces; shape (N,) each → three of (N, n)."""
+        scaled, per_width = self.scaled[:, piece], 1.0 / self.widths[piece, None]
+        values, first, second = (
+            np.einsum("nk,knj->nj", _powers(tau, order, self.degree), scaled) for order in range(3)
+        )
+        return values, first * per_width, second * per_width**2
+
+    def positions(self, times: Array) -> Array:
+        """Positions at some times, [s]; shape (N,) → (N, n)."""
+        piece = np.clip(np.searchsorted(self.starts, times, side="right") - 1, 0, len(self.starts) - 1)
+        return self.at(piece, (times - self.starts[piece]) / self.widths[piece], 0)
 
     def joint_at(self, piece: Indices, joint: Indices, tau: Array, order: int) -> Array:
         """A derivative in time of one joint each at several τ; shapes (C,), (C,), (C, P) → (C, P)."""
@@ -183,16 +194,17 @@ def _refine(
     padded = np.pad(samples, ((1, 1), (0, 0)), constant_values=-np.inf)
     node, candidate = np.nonzero((samples >= padded[:-2]) & (samples >= padded[2:]))
     piece, joint = piece[candidate], joint[candidate]
-    low, high = nodes[np.maximum(node - 1, 0)], nodes[np.minimum(node + 1, len(nodes) - 1)]
     if len(piece) == 0:
         return
-    rows = np.arange(len(piece))
-    for _ in range(_ROUNDS):
-        tau = low[:, None] + (high - low)[:, None] * _OFFSETS
-        values = _signed(part.joint_at(piece, joint, tau, order), sense)
-        peak = values.argmax(axis=1)
-        low, high = tau[rows, np.maximum(peak - 1, 0)], tau[rows, np.minimum(peak + 1, len(_OFFSETS) - 1)]
-    found.take(values[rows, peak], joint, piece + first, tau[rows, peak])
+
+    def values_at(tau: Array) -> Array:
+        return _signed(part.joint_at(piece, joint, tau, order), sense)
+
+    near = np.clip(node, 1, len(nodes) - 2)[:, None] + np.arange(-1, 2)
+    largest, where = highest(
+        values_at, nodes[near], samples[near, candidate[:, None]], _ROUNDING * np.abs(found.best[joint])
+    )
+    found.take(largest, joint, piece + first, where)
 
 
 @dataclass(slots=True)

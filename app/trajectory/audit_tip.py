@@ -1,7 +1,7 @@
 """What the tip does while the joints move: speeds, accelerations, distance from the path, nearness to a singularity.
 
-Everything is sampled densely, both ends of each piece among the samples, and around the largest samples once more and
-again. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
+Everything is sampled densely, both ends of each piece among the samples, and where parabolas through these reach higher
+looked at more closely. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
 """
 
 from collections.abc import Callable
@@ -15,6 +15,7 @@ from app.kinematics.kernels import chain_jacobians, chain_poses
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.poses import Poses
+from app.trajectory.audit_peaks import highest, promising
 from app.trajectory.audit_pieces import Pieces
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
@@ -23,31 +24,36 @@ PathOfTime: TypeAlias = Callable[[Array], Poses]
 MIN_SAMPLES = 1500
 """Of the whole motion; more where there are many pieces."""
 _SIGMA_SAMPLES = 400
-_CHUNK = 4096
-_CANDIDATES = 6
-_ROUNDS = 7
-_OFFSETS = np.linspace(0.0, 1.0, 9)
+_CHUNK = 1024
 _STEP = 1e-3
 """By how much the fastest joint moves for a difference of the Jacobian, [rad or m]."""
+_PLACES = (-2.0, -1.0, 1.0, 2.0)
+_STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+"""Of the difference of fourth order."""
+
+_EXACT = 1e-12
+"""How closely a peak is found, as a share of it."""
+_ROUNDING = 1e-12
+"""Of deviations from a path, [m] and [rad], and of the tip's rates in fractions of those of the joints."""
+
+_ENDS = np.array([0.0, 0.5, 1.0])
 
 QUANTITIES = ("speed", "angular_speed", "acceleration", "angular_acceleration", "position", "orientation")
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Samples, each with the neighbours between which its peak lies.
+    """Samples of each piece, both ends among them.
 
     Attributes:
         piece: Shape (N,).
         tau: Within the piece; shape (N,).
-        low: τ of the sample before it in the piece; shape (N,).
-        high: τ of the one after it; shape (N,).
+        inner: Which samples have neighbours on both sides in their piece; shape (K,).
     """
 
     piece: Indices
     tau: Array
-    low: Array
-    high: Array
+    inner: Indices
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +71,7 @@ def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
     piece = np.repeat(np.arange(len(counts)), counts)
     within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
     last = (counts - 1)[piece]
-    return Grid(piece, within / last, np.maximum(within - 1, 0) / last, np.minimum(within + 1, last) / last)
+    return Grid(piece, within / last, np.flatnonzero((within > 0) & (within < last)))
 
 
 def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE) -> dict[str, Largest]:
@@ -76,7 +82,7 @@ def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task 
     names = QUANTITIES if path is not None else QUANTITIES[:4]
 
     def quantities(piece: Indices, tau: Array) -> Array:
-        qs, velocities, accelerations = (pieces.at(piece, tau, order) for order in range(3))
+        qs, velocities, accelerations = pieces.rates(piece, tau)
         positions, rotations, Js = chain_jacobians(chain.flat, qs)
         columns = _tip_motion(chain, qs, velocities, accelerations, Js)
         if path is not None:
@@ -86,7 +92,11 @@ def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task 
 
     samples = grid(pieces)
     values = np.concatenate([quantities(samples.piece[rows], samples.tau[rows]) for rows in _chunks(len(samples.tau))])
-    return dict(zip(names, _refined(pieces, samples, values, quantities), strict=True))
+    found = _between(samples.tau, values, samples.inner, samples.piece, quantities, _rounding(pieces)[: len(names)])
+    return {
+        name: Largest(value, float(pieces.times(samples.piece[[row]], np.array([tau]))[0]))
+        for name, (value, row, tau) in zip(names, found, strict=True)
+    }
 
 
 def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
@@ -96,26 +106,32 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
     """
     rows = np.flatnonzero(task.weights)
 
-    def jacobians(piece: Indices, tau: Array) -> Array:
-        _, rotations, Js = chain_jacobians(chain.flat, pieces.at(piece, tau, 0))
+    def jacobians(times: Array) -> Array:
+        _, rotations, Js = chain_jacobians(chain.flat, pieces.positions(times))
         if task == FULL_POSE:
             return Js
         # Directions of rotation are those of the tip's axes.
         turned = np.concatenate((Js[:, :3], rotations.transpose(0, 2, 1) @ Js[:, 3:]), axis=1)
         return turned[:, rows]
 
-    def exact(piece: Indices, tau: Array) -> Array:
-        return cast(Array, -np.linalg.svd(jacobians(piece, tau), compute_uv=False)[:, -1:])
+    def exact(_: Indices, times: Array) -> Array:
+        return cast(Array, -np.linalg.svd(jacobians(times), compute_uv=False)[:, -1:])
 
-    def estimate(piece: Indices, tau: Array) -> Array:
-        Js = jacobians(piece, tau)
+    def estimate(times: Array) -> Array:
+        Js = jacobians(times)
         squares = Js @ Js.transpose(0, 2, 1) if len(chain) >= len(rows) else Js.transpose(0, 2, 1) @ Js
         return cast(Array, -np.sqrt(np.maximum(np.linalg.eigvalsh(squares)[:, :1], 0.0)))
 
-    samples = _thinned(grid(pieces, _SIGMA_SAMPLES, 1))
-    values = np.concatenate([estimate(samples.piece[some], samples.tau[some]) for some in _chunks(len(samples.tau))])
-    found = _refined(pieces, samples, values, exact)[0]
-    return Largest(-found.value, found.time)
+    # The joints do not jump, and so neither does σ: it is one function from the start to the end.
+    samples = grid(pieces, _SIGMA_SAMPLES, 1)
+    times = np.unique(pieces.times(samples.piece, samples.tau))
+    values = np.concatenate([estimate(times[some]) for some in _chunks(len(times))])
+    nearest = int(values.argmax())
+    values[nearest] = exact(np.zeros(1, dtype=np.int64), times[[nearest]])
+    value, _, time = _between(
+        times, values, np.arange(1, len(times) - 1), np.zeros(len(times), dtype=np.int64), exact, np.zeros(1)
+    )[0]
+    return Largest(-value, time)
 
 
 def _chunks(count: int) -> list[slice]:
@@ -131,29 +147,30 @@ def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
     return qs, Poses(*chain_poses(chain.flat, qs))
 
 
-def _thinned(samples: Grid) -> Grid:
-    """Without the first sample of each piece but the first: its configuration is the last one of the piece before."""
-    keep = (samples.tau > 0.0) | (samples.piece == 0)
-    return Grid(samples.piece[keep], samples.tau[keep], samples.low[keep], samples.high[keep])
+def _rounding(pieces: Pieces) -> Array:
+    """Differences that are rounding of each of `QUANTITIES`: where the tip hardly moves while the joints do."""
+    velocity, acceleration = (float(np.abs(pieces.on(_ENDS, order)).max(initial=0.0)) for order in (1, 2))
+    rates = np.repeat([velocity, max(acceleration, velocity**2), 1.0], 2)
+    rounding: Array = _ROUNDING * rates
+    return rounding
 
 
 def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array, Js: Array) -> list[Array]:
     """‖ṗ‖, ‖ω‖, ‖p̈‖, ‖ω̇‖; shape (N,) each."""
-    twists = np.einsum("nij,nj->ni", Js, velocities)
+    twists = _times(Js, velocities)
     paces = np.maximum(np.abs(velocities).max(axis=1, initial=0.0), 1e-9)
     step = (_STEP / paces)[:, None]
-    near, far = (_difference(chain, qs, k * step * velocities) for k in (1, 2))
-    # Of the fourth order: (8 (J(h) - J(-h)) - (J(2h) - J(-2h))) / 12h.
-    rates = (8.0 * near - far) / (12.0 * step[:, :, None])
-    changes = np.einsum("nij,nj->ni", Js, accelerations) + np.einsum("nij,nj->ni", rates, velocities)
-    return [np.linalg.norm(rows[:, part], axis=1) for rows in (twists, changes) for part in (slice(3), slice(3, 6))]
+    # J̇ q̇ is how J q̇ changes along q̇ while q̇ stays.
+    moved = [_times(chain_jacobians(chain.flat, qs + place * step * velocities)[2], velocities) for place in _PLACES]
+    changes = _times(Js, accelerations) + np.tensordot(_STENCIL, moved, 1) / step
+    parts = [rows[:, part] for rows in (twists, changes) for part in (slice(3), slice(3, 6))]
+    return [np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]
 
 
-def _difference(chain: Chain, qs: Array, steps: Array) -> Array:
-    """J(q + Δq) - J(q - Δq); shape (N, 6, n)."""
-    after, before = (chain_jacobians(chain.flat, shifted)[2] for shifted in (qs + steps, qs - steps))
-    difference: Array = after - before
-    return difference
+def _times(Js: Array, rates: Array) -> Array:
+    """Matrices times vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
+    products: Array = np.einsum("nij,nj->ni", Js, rates)
+    return products
 
 
 def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
@@ -165,33 +182,41 @@ def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
     return [distances, 2.0 * np.arcsin(np.minimum(chords, 1.0))]
 
 
-def _refined(
-    pieces: Pieces, samples: Grid, values: Array, quantities: Callable[[Indices, Array], Array]
-) -> list[Largest]:
-    """The largest of each column, looked at ever more closely around its largest samples; shape (N, Q)."""
-    rows = _candidates(values)
-    column = np.repeat(np.arange(values.shape[1]), [len(some) for some in rows])
-    chosen = np.concatenate(rows)
-    piece, low, high = samples.piece[chosen], samples.low[chosen], samples.high[chosen]
-    each, points = np.arange(len(chosen)), len(_OFFSETS)
-    for _ in range(_ROUNDS):
-        tau = low[:, None] + (high - low)[:, None] * _OFFSETS
-        all_ = quantities(np.repeat(piece, points), tau.ravel()).reshape(len(chosen), points, -1)
-        closer = all_[each, :, column]
-        peak = closer.argmax(axis=1)
-        low, high = tau[each, np.maximum(peak - 1, 0)], tau[each, np.minimum(peak + 1, points - 1)]
-    best, times = closer[each, peak], pieces.times(piece, tau[each, peak])
-    firsts = [np.flatnonzero(column == q)[best[column == q].argmax()] for q in range(values.shape[1])]
-    return [Largest(float(best[i]), float(times[i])) for i in firsts]
+def _between(
+    places: Array,
+    values: Array,
+    inner: Indices,
+    piece: Indices,
+    quantities: Callable[[Indices, Array], Array],
+    least: Array,
+) -> list[tuple[float, int, float]]:
+    """The largest value of each column, between samples too.
 
+    Args:
+        places: Of the samples, increasing in each piece; shape (N,).
+        values: There; shape (N, Q).
+        inner: Samples with neighbours in their piece.
+        piece: Of each sample; shape (N,).
+        quantities: The values in a piece at a place; shape (M,) each → (M, Q).
+        least: Differences that do not matter; shape (Q,).
 
-def _candidates(values: Array) -> list[Indices]:
-    """For each column the rows of its largest local maxima; shape (N, Q)."""
-    padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-np.inf)
-    local = (values >= padded[:-2]) & (values >= padded[2:])
-    rows = []
-    for q in range(values.shape[1]):
-        candidates = np.flatnonzero(local[:, q])
-        order = np.argsort(values[candidates, q], kind="stable")[-_CANDIDATES:]
-        rows.append(candidates[order])
-    return rows
+    Returns:
+        Of each column the value, the sample it is next to, and its place.
+    """
+    exact = np.maximum(_EXACT * np.abs(values).max(axis=0), least)
+    rows, columns = promising(places, values, inner, exact)
+    each = np.arange(len(rows))
+
+    def values_at(tried: Array) -> Array:
+        found = quantities(np.repeat(piece[rows], tried.shape[1]), tried.ravel())
+        values_there: Array = found.reshape(*tried.shape, -1)[each, :, columns]
+        return values_there
+
+    near = rows[:, None] + np.arange(-1, 2)
+    peaks, where = highest(values_at, places[near], values[near, columns[:, None]], exact[columns])
+    largest = []
+    for column, row in enumerate(values.argmax(axis=0)):
+        best = float(values[row, column]), int(row), float(places[row])
+        refined = ((float(peaks[i]), int(rows[i]), float(where[i])) for i in np.flatnonzero(columns == column))
+        largest.append(max((best, *refined), key=lambda one: one[0]))
+    return largest

@@ -24,7 +24,7 @@ WITHOUT_PINOCCHIO = [
         for name in ("fly_over", "blended_motion", "fly_over_check", "fly_over_steps", "curves")
     ),
     *(f"app.trajectory.{name}" for name in ("paths", "spline_paths", "orientation_paths", "rotation_splines", "so3")),
-    *(f"app.trajectory.{name}" for name in ("audit_pieces", "audit_tip", "audit_demands")),
+    *(f"app.trajectory.{name}" for name in ("audit_pieces", "audit_peaks", "audit_tip", "audit_demands")),
     *(f"app.course.{path.stem}" for path in sorted((ROOT / "app" / "course").glob("[a-z]*.py"))),
 ]
 CORE = [

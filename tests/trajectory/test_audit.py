@@ -1,6 +1,7 @@
 """The audit: every planted defect is found with the right joint, time and ratio, and sound motions pass."""
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -304,6 +305,46 @@ def test_a_deviation_between_samples(quantity: str) -> None:
     assert peak.ratio == pytest.approx(3.0 if quantity == "position" else 2.0, rel=1e-6)
     loose = Demands(ends=ends_of(motion), path=path, path_tolerance=4e-4, orientation_tolerance=3e-3)
     assert judged(motion, loose).passed
+
+
+def beside(offset: Callable[[Array], Array]) -> Callable[[Array], Poses]:
+    """A path beside the tip at `MIDDLE` by some distance in time, on the side to which joint 1 moves it."""
+    positions, rotations, Js = chain_jacobians(ARM.flat, MIDDLE[None])
+    direction = Js[0, :3, 0] / np.linalg.norm(Js[0, :3, 0])
+
+    def path(times: Array) -> Poses:
+        return Poses(positions + offset(times)[:, None] * direction, np.repeat(rotations, len(times), axis=0))
+
+    return path
+
+
+def test_a_deviation_right_after_a_break() -> None:
+    """Its peak is between the break and the next sample, and the sample before the break is larger by rounding."""
+    coefficients = np.repeat(MIDDLE[None, None], 2, axis=0)
+    coefficients[1, 0, 0] += 1e-13
+    motion = PiecewisePolynomial(np.array([0.0, 1.0, 4.0]), coefficients)
+    peak = 1.0 + 0.3 * 4.0 / 1500.0
+    path = beside(lambda times: 3e-4 / (1.0 + np.square((times - peak) / 0.02)))
+    found = judged(motion, Demands(path=path, path_tolerance=1.0)).path_deviation
+    assert found is not None
+    assert found.value == pytest.approx(3e-4, rel=1e-8)
+    assert found.time == pytest.approx(peak, abs=1e-6)
+
+
+def test_a_deviation_that_hides_on_a_plateau() -> None:
+    """All samples around its peak are lower than hundreds of others."""
+    motion = PiecewisePolynomial(np.array([0.0, 4.0]), MIDDLE[None, None])
+    step = 4.0 / 1500.0
+    centre = 700.5 * step
+
+    def offset(times: Array) -> Array:
+        x = (times - centre) / step
+        return np.asarray(1e-4 * np.where(np.abs(x) < 3.0, 1.002 - 0.012 * x**2, 1.0))
+
+    found = judged(motion, Demands(path=beside(offset), path_tolerance=1.0)).path_deviation
+    assert found is not None
+    assert found.value == pytest.approx(1.002e-4, rel=1e-9)
+    assert found.time == pytest.approx(centre, abs=1e-6)
 
 
 def test_a_path_without_a_pose_fails() -> None:
