@@ -32,7 +32,7 @@ TIP_LIMITS = {
 
 def samples(motion: PiecewisePolynomial, times: Array) -> list[Array]:
     """Positions, velocities and accelerations at times of shape (N,); three of (N, n)."""
-    return [np.ascontiguousarray(motion.derivative(order).at(times)) for order in range(3)]
+    return [np.ascontiguousarray(values) for values in motion.rates_at(times)]
 
 
 def table(motion: PiecewisePolynomial, times: Array) -> Array:

@@ -12,6 +12,7 @@ orientation are planned apart and meet in s.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
@@ -183,7 +184,7 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
     return CurvePath(arc, way)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PathSequence:
     """Paths one after the other, each beginning where the one before ends.
 
@@ -201,7 +202,7 @@ class PathSequence:
     @property
     def extent(self) -> float:
         """See `Path`."""
-        return float(self._ends()[-1])
+        return float(self._ends[-1])
 
     @property
     def length(self) -> float:
@@ -216,14 +217,17 @@ class PathSequence:
     @property
     def breaks(self) -> tuple[float, ...]:
         """See `Path`: all joints, and those inside of the parts."""
-        ends = self._ends()
+        ends = self._ends
         inner = (ends[i] + one for i, part in enumerate(self.parts) for one in part.breaks)
         return tuple(sorted({float(s) for s in (*ends[1:-1], *inner)}))
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`; at a joint the later part counts."""
-        ends, count = self._ends(), len(s)
-        place = np.clip(np.searchsorted(ends, s, side="right") - 1, 0, len(self.parts) - 1)
+        ends, count = self._ends, len(s)
+        place = np.searchsorted(ends[1:-1], s, side="right")
+        if count > 0 and place.min() == place.max():
+            part: Path = self.parts[int(place[0])]
+            return part.at(s - ends[place[0]])
         poses = Poses(np.empty((count, 3)), np.empty((count, 3, 3)))
         first, second = np.empty((count, 6)), np.empty((count, 6))
         for i in np.unique(place):
@@ -233,6 +237,7 @@ class PathSequence:
             first[rows], second[rows] = samples.first, samples.second
         return PathSamples(poses, first, second)
 
+    @cached_property
     def _ends(self) -> Array:
         return np.concatenate(([0.0], np.cumsum([part.extent for part in self.parts])))
 

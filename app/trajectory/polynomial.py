@@ -39,14 +39,30 @@ class PiecewisePolynomial:
 
     def at(self, times: Array) -> Array:
         """Values at times of shape (N,), [s]; shape (N, n). At an inner break the later piece counts."""
-        i = np.clip(np.searchsorted(self.breaks, times, side="right") - 1, 0, len(self.breaks) - 2)
-        local = (times - self.breaks[i])[:, None]
-        c = self.coefficients[i]
-        values = c[:, -1]
+        local, c = self._pieces_at(times)
+        values = c[:, -1] + 0.0 * local
         for k in range(c.shape[1] - 2, -1, -1):
             values = values * local + c[:, k]
         result: Array = values
         return result
+
+    def rates_at(self, times: Array) -> tuple[Array, Array, Array]:
+        """Values and two derivatives at times of shape (N,), [s]; shape (N, n) each."""
+        local, c = self._pieces_at(times)
+        value = c[:, -1] + 0.0 * local
+        first = second = np.zeros_like(value)
+        for k in range(c.shape[1] - 2, -1, -1):
+            second = second * local + first
+            first = first * local + value
+            value = value * local + c[:, k]
+        return value, first, 2.0 * second
+
+    def _pieces_at(self, times: Array) -> tuple[Array, Array]:
+        """Times since the start of the piece that counts, shape (N, 1), and its coefficients; of one piece once."""
+        if len(self.coefficients) == 1:
+            return (times - self.breaks[0])[:, None], self.coefficients
+        i = np.searchsorted(self.breaks[1:-1], times, side="right")
+        return (times - self.breaks[i])[:, None], self.coefficients[i]
 
     def scaled(self, factor: float) -> "PiecewisePolynomial":
         """The same path in `factor` times the time: velocities become 1/factor, accelerations 1/factor²."""

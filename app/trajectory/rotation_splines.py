@@ -14,7 +14,7 @@ from app.model.arrays import Array
 from app.model.poses import rotations_from_vectors, vectors_from_rotations
 from app.trajectory.orientation_paths import travelled
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.so3 import angular_accelerations, angular_velocities, quadratic_part, rate_matrices
+from app.trajectory.so3 import angular_motion, quadratic_part, rate_matrices
 
 _ITERATIONS = 60
 _CONVERGED = 1e-13
@@ -44,13 +44,10 @@ class RotationVectorPath:
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """See `OrientationPath`."""
-        breaks = self.vectors.breaks
-        piece = np.clip(np.searchsorted(breaks, x, side="right") - 1, 0, len(self.starts) - 1)
-        first = self.vectors.derivative()
-        thetas, rates, second = self.vectors.at(x), first.at(x), first.derivative().at(x)
+        piece = np.searchsorted(self.vectors.breaks[1:-1], x, side="right")
+        thetas, rates, second = self.vectors.rates_at(x)
         rotations = self.starts[piece] @ rotations_from_vectors(thetas)
-        omegas = angular_velocities(thetas, rates)
-        alphas = angular_accelerations(thetas, rates, second)
+        omegas, alphas = angular_motion(thetas, rates, second)
         return rotations, _turned(rotations, omegas), _turned(rotations, alphas)
 
 

@@ -30,6 +30,7 @@ from app.trajectory.paths import (
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.rotation_splines import rotation_corner, rotation_spline
 from app.trajectory.splines import cubic_spline
+from app.trajectory.time_laws import hermite_pieces
 
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
@@ -38,6 +39,8 @@ _FINEST = 256
 """Panels into which a piece is cut at most."""
 _LENGTH_TOLERANCE = 1e-13
 _NEWTON_STEPS = 40
+_SQUARED = 1e-11
+"""Error of the arc length, in fractions of the whole, of which one more of Newton's steps leaves rounding alone."""
 _SLOWEST = 1e-12
 """Share of the mean speed below which dp/du vanishes: a cusp, where there is no tangent."""
 
@@ -89,16 +92,16 @@ class PolynomialPath:
         """See `Path`."""
         u = self._parameters(s)
         width = self.position.duration
-        x = np.clip((u - self.position.breaks[0]) / width, 0.0, 1.0)
-        first, second = self._velocity.at(u), self._velocity.derivative().at(u)
+        x = np.minimum(np.maximum((u - self.position.breaks[0]) / width, 0.0), 1.0)
+        positions, first, second = self.position.rates_at(u)
         rotations, rates, changes = self.orientation.at(x)
         rates, changes = rates / width, changes / width**2
-        speeds = np.linalg.norm(first, axis=1)[:, None]
+        speeds = _sizes(first)[:, None]
         tangents = first / np.maximum(speeds, np.finfo(float).tiny)
         growth = np.einsum("ij,ij->i", tangents, second)[:, None]
         by_s = np.hstack((tangents, rates / speeds))
         bends = np.hstack((second - growth * tangents, changes - growth * rates / speeds)) / speeds**2
-        return PathSamples(Poses(self.position.at(u), rotations), by_s, bends)
+        return PathSamples(Poses(positions, rotations), by_s, bends)
 
     @cached_property
     def _velocity(self) -> PiecewisePolynomial:
@@ -107,7 +110,7 @@ class PolynomialPath:
     @cached_property
     def _table(self) -> tuple[Array, Array]:
         """Edges of the panels in u, and the arc length up to each; shape (P + 1,) each."""
-        panels, before = 4, np.inf
+        panels, before = 8, np.inf
         while True:
             shares = np.linspace(0.0, 1.0, panels, endpoint=False)
             breaks = self.position.breaks
@@ -126,24 +129,36 @@ class PolynomialPath:
         return lengths
 
     def _speeds(self, u: Array) -> Array:
-        speeds: Array = np.linalg.norm(self._velocity.at(u), axis=1)
-        return speeds
+        return _sizes(self._velocity.at(u))
+
+    @cached_property
+    def _inverse(self) -> PiecewisePolynomial:
+        """About u(s): quintics with its value and two derivatives at the edges of the panels."""
+        edges, lengths = self._table
+        _, first, second = self.position.rates_at(edges)
+        slopes = 1.0 / np.maximum(_sizes(first), np.finfo(float).tiny)
+        bends = -np.einsum("ij,ij->i", first, second) * slopes**4
+        ends = np.stack((edges, slopes, bends))[:, :, None]
+        return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
 
     def _parameters(self, s: Array) -> Array:
         """Values of u at arc lengths; shape (N,)."""
         edges, lengths = self._table
         panel = np.clip(np.searchsorted(lengths, s, side="right") - 1, 0, len(edges) - 2)
-        begin, low, high = edges[panel], edges[panel].copy(), edges[panel + 1].copy()
+        begin, low, high = edges[panel], edges[panel], edges[panel + 1]
         wanted = s - lengths[panel]
-        share = wanted / np.maximum(lengths[panel + 1] - lengths[panel], np.finfo(float).tiny)
-        u = low + np.clip(share, 0.0, 1.0) * (high - low)
+        u = np.minimum(np.maximum(self._inverse.at(s)[:, 0], low), high)
         for _ in range(_NEWTON_STEPS):
             excess = self._lengths(begin, u) - wanted
-            if np.abs(excess).max(initial=0.0) <= 4e-16 * lengths[-1]:
+            error = float(np.abs(excess).max(initial=0.0))
+            if error <= 4e-16 * lengths[-1]:
                 break
             low, high = np.where(excess < 0.0, u, low), np.where(excess > 0.0, u, high)
             newton = u - excess / np.maximum(self._speeds(u), np.finfo(float).tiny)
-            u = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
+            within = (newton >= low) & (newton <= high)
+            u = np.where(within, newton, 0.5 * (low + high))
+            if error <= _SQUARED * lengths[-1] and within.all():
+                break
         return u
 
 
@@ -221,6 +236,11 @@ def _corner(before: CurvePath, after: CurvePath, radius: float, field: str) -> P
     coefficients = np.array([[corner[0] - a, 2.0 * a, b - a]])
     turn = rotation_corner(entry, at_corner, leaving)
     return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), coefficients), turn)
+
+
+def _sizes(vectors: Array) -> Array:
+    sizes: Array = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return sizes
 
 
 def _refuse_cusps(path: PolynomialPath) -> None:

@@ -25,6 +25,15 @@ def test_values_and_derivatives(pieces: int, degree: int, n: int, order: int) ->
     np.testing.assert_allclose(values, by_scipy(motion)(times, nu=order), rtol=1e-12, atol=1e-10)
 
 
+@pytest.mark.parametrize(("pieces", "degree", "n"), [(1, 0, 1), (1, 1, 2), (4, 2, 3), (5, 7, 6)])
+def test_values_with_two_derivatives_at_once(pieces: int, degree: int, n: int) -> None:
+    motion = some(pieces, degree, n, 4)
+    times = np.concatenate((motion.breaks, np.linspace(motion.breaks[0] - 0.1, motion.breaks[-1] + 0.1, 50)))
+    for order, values in enumerate(motion.rates_at(times)):
+        assert values.shape == (len(times), n)
+        np.testing.assert_allclose(values, by_scipy(motion)(times, nu=order), rtol=1e-12, atol=1e-10)
+
+
 def test_scaling_in_time_scales_the_derivatives() -> None:
     motion, factor = some(4, 5, 3, 1), 2.5
     slow, times = motion.scaled(factor), np.linspace(0.0, 1.0, 9)
