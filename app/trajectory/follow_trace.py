@@ -28,6 +28,10 @@ _CLEAR = 1e-2
 """σ above which a way that is lost is so because of rounding."""
 _FASTEST = 1e6
 """A joint's rate, in [rad or m] per length of the path, above which the way is given up."""
+_KNOTS_OF_END = 6
+_NEAR_END = 1e-3
+"""σ above which the end of a branch is too far away to be told."""
+_SAME_GROWTH = 0.1
 _GROWTH, _SHRINKAGE, _RESERVE = 3.0, 0.25, 0.85
 
 
@@ -69,7 +73,8 @@ def traced(
         start: Where it begins; shape (n,).
         threshold: σ at which it ends; 0 goes through singularities as long as there is an exact way.
         since: Where on the path it begins, [m or rad].
-        until_above: σ above which no more is wanted.
+        until_above: σ above which no more is wanted. Where it is given, a way that is about to be lost is given up as
+            soon as it is known where (`_end_of_branch`), instead of on the last nanometre.
 
     Raises:
         InvalidField: It takes too many knots.
@@ -89,10 +94,36 @@ def traced(
                 raise InvalidField("path_tolerance", reason)
             if piece.b.sigma >= until_above:
                 return trace
+            end = _end_of_branch(trace.pieces, course.path.extent) if until_above < np.inf else None
+            if end is not None:
+                trace.ending, trace.crossing = "lost", Crossing(piece.b.s, end, "lost")
+                return trace
         if trace.ending != "complete":
             return trace
         q = trace.pieces[-1].b.q
     return trace
+
+
+def _end_of_branch(pieces: list[Piece], extent: float) -> float | None:
+    """Where the branch ends, if its last knots tell that exactly.
+
+    There σ falls as the root of what is left of the way, and the rates grow as 1/σ. So s is a smooth function of σ²:
+    what cubics through four knots each say of it at zero is the same then to the length at which a way counts as lost.
+    """
+    if len(pieces) < _KNOTS_OF_END or pieces[-1].b.sigma > _NEAR_END:
+        return None
+    knots = [piece.b for piece in pieces[-_KNOTS_OF_END:]]
+    squares = np.array([knot.sigma for knot in knots]) ** 2
+    growths = np.array([float(np.abs(knot.dq).max()) for knot in knots]) * np.sqrt(squares)
+    if not (np.diff(squares) < 0.0).all() or np.ptp(growths) > _SAME_GROWTH * growths.max():
+        return None
+    ends = np.array([knot.s for knot in knots])
+    for k in range(1, 4):
+        # Neville's scheme at σ² = 0.
+        ends = (squares[:-k] * ends[1:] - squares[k:] * ends[:-1]) / (squares[:-k] - squares[k:])
+    scale = min(extent, 1.0)
+    is_ahead = knots[-1].s < ends[-1] <= extent
+    return float(ends[-1]) + _SHORTEST * scale if is_ahead and np.ptp(ends) <= _SHORTEST * scale else None
 
 
 def _pieces(

@@ -14,6 +14,8 @@ from app.model.chain import Chain
 from app.model.robot import Robot
 from app.trajectory import follow as follow_module
 from app.trajectory.follow import JointWay, follow
+from app.trajectory.follow_course import Course
+from app.trajectory.follow_trace import Trace, traced
 from app.trajectory.paths import Path, line
 from app.trajectory.problem import Following, NearSingularity
 from tests.robots import of_table, robot, rows
@@ -94,6 +96,40 @@ def test_two_links_end_where_the_line_leaves_their_ring(
     s = np.linspace(0.0, way.reached, 300)
     wanted = np.unwrap(np.array([elbow(position[:2]) for position in path.at(s).poses.positions]), axis=0)
     np.testing.assert_allclose(way.positions.at(s), wanted, atol=5e-3)
+
+
+def looked_ahead(path: Path, q: Array) -> tuple[Trace, Trace]:
+    """The way until it is lost, as soon as that is known and up to the last nanometre."""
+    _, chain = planar()
+    course, tolerances = Course(chain, path, XY, (1e-5, 1e-4)), (1e-4, 1e-3)
+    return (
+        traced(course, tolerances, q, 0.0, until_above=10.0),
+        traced(course, tolerances, q, 0.0),
+    )
+
+
+def test_the_end_of_a_branch_is_told_before_it_is_reached() -> None:
+    begin, end = (1.2, 0.3), (1.9, 0.9)
+    path, q = planar_line(begin, end)
+    p, u = np.array(begin), (np.array(end) - begin) / path.extent
+    exit_ = float(np.roots([1.0, 2.0 * float(p @ u), float(p @ p) - (L1 + L2) ** 2]).max())
+    soon, last = looked_ahead(path, q)
+    assert soon.ending == last.ending == "lost"
+    assert soon.crossing is not None
+    assert soon.crossing.bad == pytest.approx(exit_, abs=3e-9)
+    assert soon.crossing.bad > exit_ - 1e-10
+    assert len(soon.pieces) < 0.75 * len(last.pieces)
+
+
+@pytest.mark.parametrize("beside", [1e-4, 1e-6, 1e-8])
+def test_a_near_miss_of_the_boundary_is_no_end_of_the_branch(beside: float) -> None:
+    """The middle half of a chord of the outer circle, whose own middle is that far inside of it."""
+    height = L1 + L2 - beside
+    half = 0.5 * math.sqrt((L1 + L2) ** 2 - height**2)
+    path, q = planar_line((-half, height), (half, height))
+    soon, last = looked_ahead(path, q)
+    assert soon.ending == last.ending == "complete"
+    assert min(float(piece.sigmas.min()) for piece in soon.pieces) < 2.0 * math.sqrt(beside)
 
 
 def test_an_arm_with_too_few_joints_names_the_directions() -> None:
