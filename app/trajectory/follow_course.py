@@ -28,6 +28,7 @@ _EXACT = 1e-14
 """An error that no step makes less, in fractions of 1 and the distances at hand, [m and rad]."""
 _NEARLY = 1e-10
 _MOST_STEPS = 12
+_ELIMINATED = 1e-6
 _FARTHEST = 1.0
 """Of a step of Newton's method, [rad or m]."""
 _EDGE = 0.2
@@ -86,7 +87,7 @@ class Course:
 
     def samples(self, s: Array, begin: float, end: float) -> PathSamples:
         """The path within a stretch between two of its breaks, whose derivatives at its end are those before it."""
-        return self.path.at(np.clip(s, begin, end - 8.0 * np.spacing(end)))
+        return self.path.at(np.minimum(np.maximum(s, begin), end - 8.0 * np.spacing(end)))
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
         """Rates q' of the field, shape (N, n), and the smallest singular value, shape (N,)."""
@@ -97,9 +98,9 @@ class Course:
             dqs = dqs + self._pushed(right, rows.rates, qs)
         return dqs, sigmas[:, -1]
 
-    def knot(self, s: float, at: PathSamples, q: Array) -> Knot:
-        """The knot at a configuration on the way; `at` is one sample."""
-        rows = task_rows(self.chain, self.task, at, q[None])
+    def knot(self, s: float, at: PathSamples, q: Array, rows: Rows | None = None) -> Knot:
+        """The knot at a configuration on the way; `at` is one sample, and `rows` are those there, if known."""
+        rows = task_rows(self.chain, self.task, at, q[None]) if rows is None else rows
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
         dq = _applied(left, sigmas, right, rows.rates)
         if self.push > 0.0:
@@ -117,22 +118,22 @@ class Course:
         offset = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)
         return replace(self.knot(s, at, q), offset=float(np.abs(offset).max()))
 
-    def corrected(self, at: PathSamples, q: Array) -> Array | None:
-        """The configuration on the way next to q, by Newton's method; None where that does not converge."""
+    def next_to(self, s: float, at: PathSamples, q: Array) -> Knot | None:
+        """The knot next to a configuration, by Newton's method; None where that does not converge."""
         floor = _EXACT * (1.0 + float(np.abs(at.poses.positions).max()) + float(np.abs(q).max()))
         before = np.inf
         for _ in range(_MOST_STEPS):
             rows = task_rows(self.chain, self.task, at, q[None])
             error = float(np.abs(rows.errors).max())
             if error <= floor or (error <= _NEARLY and error > 0.5 * before):
-                return q
-            step = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)[0]
+                return self.knot(s, at, q, rows)
+            step = _step(rows)
             length = float(np.abs(step).max())
             if not length <= _FARTHEST:
                 return None
             q, before = q + step, error
             if len(self.chain) < len(self.task) and length <= _EXACT * (1.0 + float(np.abs(q).max())) * 10.0:
-                return q if self.within(at, q) else None
+                return self.knot(s, at, q) if self.within(at, q) else None
         return None
 
     def within(self, at: PathSamples, q: Array) -> bool:
@@ -153,6 +154,21 @@ class Course:
         away = self.push * np.linalg.norm(rates, axis=1)[:, None] * (low**3 - high**3)
         result: Array = away - np.einsum("bri,br->bi", right, np.einsum("bri,bi->br", right, away))
         return result
+
+
+def _step(rows: Rows) -> Array:
+    """J⁺e of the one configuration, by elimination where J is far from losing rank; shape (n,)."""
+    J, e = rows.jacobians[0], rows.errors[0]
+    if len(J) <= J.shape[1]:
+        try:
+            step: Array = J.T @ np.linalg.solve(J @ J.T, e)
+        except np.linalg.LinAlgError:
+            step = np.full(J.shape[1], np.nan)
+        # Elimination is as good as a decomposition where what it leaves is a small part of what there was.
+        if float(np.abs(J @ step - e).max()) <= _ELIMINATED * float(np.abs(e).max()):
+            return step
+    decomposed: Array = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)[0]
+    return decomposed
 
 
 def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:

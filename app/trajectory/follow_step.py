@@ -123,24 +123,19 @@ def next_knot(course: Course, a: Knot, s: float, at: PathSamples) -> Knot | None
     ends; the others have no choice.
     """
     h = s - a.s
-    q = course.corrected(at, a.q + h * (a.dq + 0.5 * h * a.ddq))
-    if q is None:
-        return None
-    b = course.knot(s, at, q)
+    b = course.next_to(s, at, a.q + h * (a.dq + 0.5 * h * a.ddq))
     for _ in range(2 if course.is_redundant else 0):
+        if b is None:
+            return None
         wanted = a.q + 0.5 * h * (a.dq + b.dq) + h * h / 12.0 * (a.ddq - b.ddq) - b.q
         along = wanted - b.span.T @ (b.span @ wanted)
         if float(np.abs(along).max()) <= _SETTLED:
             break
-        q = course.corrected(at, b.q + along)
-        if q is None:
-            return None
-        b = course.knot(s, at, q)
+        b = course.next_to(s, at, b.q + along)
     return b
 
 
 def knot_within(course: Course, piece: Piece, s: float, stretch: tuple[float, float]) -> Knot | None:
     """The exact knot at a place within a piece."""
     at = course.samples(np.array([s]), *stretch)
-    q = course.corrected(at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])
-    return None if q is None else course.knot(s, at, q)
+    return course.next_to(s, at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])

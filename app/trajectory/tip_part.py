@@ -12,6 +12,7 @@ from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.model.robot import Robot
 from app.trajectory.audit_demands import Demands, Ends, JointLimits, TipLimits
+from app.trajectory.composition import times_at
 from app.trajectory.follow import JointWay, follow
 from app.trajectory.parts import Halt, Part, standing
 from app.trajectory.passing_times import passing_at
@@ -144,13 +145,14 @@ def _reports(
         if begin >= joints.reached:
             break
         finish = min(end, joints.reached)
+        begun, done = _times_at(timing.law, begin, finish)
         length, angle = _travelled(way.path, begin, finish)
         report = SegmentReport(
             first + i,
             segment.type,
             segment.law,
-            time_at(timing.law, begin),
-            time_at(timing.law, finish),
+            begun,
+            done,
             length,
             angle,
             (joints.path_deviation, joints.orientation_deviation) if damped else None,
@@ -176,19 +178,15 @@ def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
     return length, float(np.trapezoid(np.linalg.norm(rates[:, 3:], axis=1), s))
 
 
-def time_at(law: PiecewisePolynomial, s: float) -> float:
-    """When a law that never goes back is at a place, [s]."""
-    values = law.at(law.breaks)[:, 0]
-    if s <= values[0]:
-        return float(law.breaks[0])
-    if s >= values[-1]:
-        return float(law.breaks[-1])
-    i = int(np.searchsorted(values, s, side="right")) - 1
-    low, high = float(law.breaks[i]), float(law.breaks[i + 1])
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if law.at(np.array([middle]))[0, 0] < s else (low, middle)
-    return 0.5 * (low + high)
+def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[float, float]:
+    """When a law that never goes back is at two places, at its ends to the last digit, [s]."""
+    places = np.array([begin, finish])
+    first, last = law.at(law.breaks[[0, -1]])[:, 0]
+    times = np.where(places <= first, law.breaks[0], law.breaks[-1])
+    inside = (places > first) & (places < last)
+    if inside.any():
+        times[inside] = times_at(law, places[inside])
+    return float(times[0]), float(times[1])
 
 
 def _comparison(
