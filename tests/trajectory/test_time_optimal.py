@@ -61,11 +61,25 @@ def assert_sound(found: TimeOptimal, path: PiecewisePolynomial, velocity: Array,
         assert found_ratios.max() <= 1.0
     for order, limit in ((1, velocity), (2, acceleration)):
         assert (np.abs(peaks(motion, order).values) <= limit).all()
-    joins = motion.breaks[1:-1]
-    before = PiecewisePolynomial(motion.breaks[:-1], motion.coefficients[:-1])
+    assert_joined(motion, 1e-9 * size)
+
+
+def assert_joined(motion: PiecewisePolynomial, tolerance: float) -> None:
+    """Where each piece ends, the next one goes on: in position and velocity."""
+    lengths = np.diff(motion.breaks)[:-1, None]
     for order in (0, 1):
-        left, right = (part.derivative(order) if order else part for part in (before, motion))
-        np.testing.assert_allclose(left.at(joins), right.at(joins), atol=1e-9 * size)
+        c = motion.derivative(order).coefficients
+        ends = sum(c[:-1, k] * lengths**k for k in range(c.shape[1]))
+        np.testing.assert_allclose(ends, c[1:, 0], rtol=0.0, atol=tolerance)
+
+
+def test_a_velocity_that_jumps_at_a_join_is_seen() -> None:
+    motion = time_optimal(spline(task(0)[0]), *task(0)[1:]).motion
+    assert_joined(motion, 1e-9)
+    shifted = motion.coefficients.copy()
+    shifted[7, 1] += 1e-6
+    with pytest.raises(AssertionError):
+        assert_joined(PiecewisePolynomial(motion.breaks, shifted), 1e-9)
 
 
 # Closed forms
