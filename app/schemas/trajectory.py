@@ -127,9 +127,16 @@ class LineSegment(SegmentOptions):
         "stop, [m]. The next segment must be a line.",
     )
     blend_acceleration: _Bound | None = Field(
-        None, description="In the place of `blend_radius`: of the tip within the blend, [m/s²]."
+        None,
+        description="In the place of `blend_radius`, a_max of the course's fly-over, [m/s²]: the radius is v ΔT/2, "
+        "ΔT = ‖v K_BC - v K_AB‖/a_max at the tip's greatest speed v, `tip_velocity`. How fast the corner then is run is "
+        "up to the law and the limits.",
     )
-    blend_time: Duration | None = Field(None, description="In the place of `blend_radius`: of the blend, [s].")
+    blend_time: Duration | None = Field(
+        None,
+        description="In the place of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2 at the "
+        "tip's greatest speed v, `tip_velocity`. How fast the corner then is run is up to the law and the limits.",
+    )
     orientation: OrientationLaw = Field(
         "axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "

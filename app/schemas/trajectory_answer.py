@@ -125,7 +125,7 @@ class SmallestInfo(Answer):
 
 
 class TipPeaksInfo(Answer):
-    """What the tip does at most."""
+    """What the tip does at most; each `ratio` is the largest to the limit that holds where it is."""
 
     speed: TrajectoryPeakInfo
     angular_speed: TrajectoryPeakInfo
@@ -152,7 +152,9 @@ class AuditInfo(Answer):
     velocity: TrajectoryPeakInfo | None = Field(description="Of the joint nearest to its limit; null without joints.")
     acceleration: TrajectoryPeakInfo | None
     jerk: TrajectoryPeakInfo | None = Field(
-        description="Of the pieces: where the acceleration jumps it is infinite, which `continuity` tells."
+        description="Of the pieces: where the acceleration jumps it is infinite, which `continuity` tells. Its "
+        "limits are kept by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and `notes` of its "
+        "segment say where it goes beyond."
     )
     path_deviation: TrajectoryPeakInfo | None = Field(description="Distance from the way of the tip; null without one.")
     orientation_deviation: TrajectoryPeakInfo | None = Field(description="Angle from it; null without one.")

@@ -29,6 +29,8 @@ _EXACT = 1e-14
 _NEARLY = 1e-10
 _MOST_STEPS = 12
 _ELIMINATED = 1e-6
+_FAR = 1e6
+"""Beyond which a predicted configuration is none, [rad or m]."""
 _FARTHEST = 1.0
 """Of a step of Newton's method, [rad or m]."""
 _EDGE = 0.2
@@ -123,6 +125,8 @@ class Course:
         floor = _EXACT * (1.0 + float(np.abs(at.poses.positions).max()) + float(np.abs(q).max()))
         before = np.inf
         for _ in range(_MOST_STEPS):
+            if not float(np.abs(q).max(initial=0.0)) <= _FAR:
+                return None
             rows = task_rows(self.chain, self.task, at, q[None])
             error = float(np.abs(rows.errors).max())
             if error <= floor or (error <= _NEARLY and error > 0.5 * before):

@@ -154,6 +154,8 @@ def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
     if near is None:
         detail = f"the joints cannot be followed through a singularity {where(inquiry, s)}"
         return _stop(inquiry, "singularity", s, detail)
+    # What goes on for a little only, does not go on.
+    near = next((i for i in range(near, len(found)) if found.statuses[i] != "solved"), near)
     if found.statuses[near] == "outside_limits":
         failure = found.failures[near]
         name = failure.blocking_joints[0].name if failure.blocking_joints else None

@@ -167,6 +167,8 @@ def _comparison(
         return None
     law, limits = segment.law, segment.limits
     if target is not None:
+        # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
+        law = "cubic" if law == "time_optimal" else law
         numbers = compared_point_to_point(start, target, law, limits)
         return TimingComparison((index,), law, *numbers) if numbers.uniform_duration > 0.0 else None
     return TimingComparison((index,), law, *compared_spline(start, segment, chain))

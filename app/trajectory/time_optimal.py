@@ -26,7 +26,7 @@ Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """α and β of rows αu + βx ≤ 1 on the intervals between nodes from 0 to 1; shape (N + 1,) → (N, m) each."""
 
 INTERVALS = 200
-LARGEST_PATH = 35_000
+LARGEST_PATH = 100_000
 """Intervals times joints of a path at first; twice as many in the end."""
 SMALLEST, LARGEST = 1e-9, 1e9
 """What a limit can be."""

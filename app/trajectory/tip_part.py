@@ -18,7 +18,7 @@ from app.trajectory.parts import Halt, Part, standing
 from app.trajectory.passing_times import passing_at
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Following, MotionLimits, Problem, Segment, SegmentReport, TimingComparison
+from app.trajectory.problem import Following, Law, MotionLimits, Problem, Segment, SegmentReport, TimingComparison
 from app.trajectory.spline_paths import PolynomialPath
 from app.trajectory.timing import Timed, compared, timed
 from app.trajectory.way_geometry import tip_through
@@ -26,6 +26,8 @@ from app.trajectory.ways import Way, way_of
 
 _DONE = 1e-9
 """Share of a segment that may be missing from one that counts as done."""
+_EARLY = 1e-6
+"""Share of a way by which a motion can end before what ends it, without a word."""
 _ANGLE_SAMPLES = 65
 _SLACK = 1.05
 """The audit looks more closely than what measured the deviation that damping costs."""
@@ -51,7 +53,7 @@ def tip_part(
     positions, rotations = chain_poses(chain.flat, start[None])
     way = way_of(Poses(positions, rotations).matrices()[0], segments, first)
     joints = follow(robot, chain, way.path, start, following)
-    halt = _halt(joints, way, first)
+    halt = _halt(joints, way, first, following)
     limits = tightest([segment.limits for segment in segments])
     if joints.reached <= 0.0:
         return Part(standing(start), (), Demands(), halt)
@@ -94,7 +96,7 @@ def _timed(
             segment.law,
             limits,
             duration=segment.duration if is_whole else None,
-            slow_down=following.near_singularity == "slow_down",
+            slow_down=following.near_singularity == "slow_down" or _slows_at_corners(segments),
             tip_motion=tip_through(chain),
         )
     except InvalidField as error:
@@ -122,7 +124,7 @@ def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, 
     )
 
 
-def _halt(joints: JointWay, way: Way, first: int) -> Halt | None:
+def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt | None:
     """Where the way could not go on, as a share of the segment there."""
     stop = joints.stop
     if stop is None:
@@ -131,7 +133,13 @@ def _halt(joints: JointWay, way: Way, first: int) -> Halt | None:
     i = int(np.clip(np.searchsorted(ends, joints.reached, side="right") - 1, 0, len(ends) - 2))
     width = ends[i + 1] - ends[i]
     share = float((joints.reached - ends[i]) / width) if width > 0.0 else 0.0
-    return Halt(stop.reason, first + i, share, stop.position, stop.joint, stop.detail)
+    detail = stop.detail
+    if stop.s > joints.reached + _EARLY * way.path.extent:
+        detail += (
+            f"; the motion ends before, at {100.0 * joints.reached / way.path.extent:.4f}% of the way, where the "
+            f"smallest singular value falls to {following.min_singular_value:g}"
+        )
+    return Halt(stop.reason, first + i, share, stop.position, stop.joint, detail)
 
 
 def _reports(
@@ -163,9 +171,14 @@ def _reports(
     return tuple(reports)
 
 
+def _slows_at_corners(segments: Sequence[Segment]) -> bool:
+    """Whether a corner is to slow down the tip there alone: bang-coast-bang on each line, and through each corner."""
+    return len(segments) > 1 and segments[0].law == "trapezoidal"
+
+
 def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
     """That lines with stops can take less time than blended ones."""
-    if len(segments) == 1 or segments[0].law == "time_optimal":
+    if len(segments) == 1 or segments[0].law == "time_optimal" or _slows_at_corners(segments):
         return ()
     return ("one law runs through all blended lines: a corner makes it slow everywhere, `time_optimal` only there",)
 
@@ -192,7 +205,8 @@ def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[fl
 def _comparison(
     chain: Chain, path: Path, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
 ) -> TimingComparison:
-    law = segments[0].law
+    # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
+    law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law
     uniform, by_velocity, by_acceleration, optimal = compared(
         path, joints.positions, law, limits, tip_motion=tip_through(chain)
     )
