@@ -128,9 +128,9 @@ class LineSegment(SegmentOptions):
     )
     blend_acceleration: _Bound | None = Field(
         None,
-        description="In the place of `blend_radius`, a_max of the course's fly-over, [m/s²]: the radius is v ΔT/2, "
-        "ΔT = ‖v K_BC - v K_AB‖/a_max at the tip's greatest speed v, `tip_velocity`. How fast the corner then is run is "
-        "up to the law and the limits.",
+        description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the radius is v ΔT/2 "
+        "with ΔT = ‖v K_BC - v K_AB‖/a_max at the tip's greatest speed v, `tip_velocity`. How fast the corner then is "
+        "run is up to the law and the limits.",
     )
     blend_time: Duration | None = Field(
         None,

@@ -153,8 +153,8 @@ class AuditInfo(Answer):
     acceleration: TrajectoryPeakInfo | None
     jerk: TrajectoryPeakInfo | None = Field(
         description="Of the pieces: where the acceleration jumps it is infinite, which `continuity` tells. Its "
-        "limits are kept by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and `notes` of its "
-        "segment say where it goes beyond."
+        "limits are kept by `quintic`, `septic` and `jerk_limited`; another law is only compared with them, and "
+        "`notes` of its segment say where it goes beyond."
     )
     path_deviation: TrajectoryPeakInfo | None = Field(description="Distance from the way of the tip; null without one.")
     orientation_deviation: TrajectoryPeakInfo | None = Field(description="Angle from it; null without one.")

@@ -1,6 +1,5 @@
 """The audit: every planted defect is found with the right joint, time and ratio, and sound motions pass."""
 
-import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -484,16 +483,9 @@ def test_what_is_no_motion_is_not_judged() -> None:
             judged(none)
 
 
-def test_a_thousand_pieces_of_seven_joints_are_judged_at_once() -> None:
-    """In about 20 ms on the machine where it was measured; the bound here leaves room for a busy one."""
+def test_a_thousand_pieces_of_seven_joints_pass() -> None:
     motion = some_motion(ARM, 1000)
     demands = Demands(
         JointLimits(np.full(7, 1e3), np.full(7, 1e6), np.full(7, 1e9)), ends=ends_of(motion), continuous=2
     )
-    judged(motion, demands)
-    times = []
-    for _ in range(5):
-        started = time.perf_counter()
-        assert judged(motion, demands).passed
-        times.append(time.perf_counter() - started)
-    assert min(times) < 0.1
+    assert judged(motion, demands).passed

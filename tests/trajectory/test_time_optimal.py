@@ -315,7 +315,7 @@ def test_the_largest_velocity_that_is_named_is_taken() -> None:
 
 
 def test_paths_of_too_many_pieces_are_refused() -> None:
-    count = 6000
+    count = 17_000
     coefficients = np.stack((np.arange(float(count)), np.ones(count)), axis=1)[:, :, None].repeat(2, axis=2)
     with pytest.raises(TooLarge):
         time_optimal(PiecewisePolynomial(np.arange(count + 1.0), coefficients), ONE, ONE)
