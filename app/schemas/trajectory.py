@@ -128,14 +128,17 @@ class LineSegment(SegmentOptions):
     )
     blend_acceleration: _Bound | None = Field(
         None,
-        description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the radius is v ΔT/2 "
-        "with ΔT = ‖v K_BC - v K_AB‖/a_max at the tip's greatest speed v, `tip_velocity`. How fast the corner then is "
-        "run is up to the law and the limits.",
+        description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the "
+        "blend is no more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of "
+        "the lines that are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer where "
+        "joints ask for it.",
     )
     blend_time: Duration | None = Field(
         None,
-        description="In the place of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2 at the "
-        "tip's greatest speed v, `tip_velocity`. How fast the corner then is run is up to the law and the limits.",
+        description="In the place of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the "
+        "smallest `tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most "
+        "‖v K_BC - v K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer where joints "
+        "ask for it.",
     )
     orientation: OrientationLaw = Field(
         "axis_angle",

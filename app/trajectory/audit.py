@@ -7,7 +7,7 @@ through Pinocchio. It passes or says why not.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -28,6 +28,8 @@ DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """By how much more than the one before a derivative may jump: coefficients have fewer digits for it."""
+_STRETCH = 200
+"""Samples of a stretch that has limits of its own."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
@@ -276,7 +278,19 @@ def _tip(
         (tip if of_tip else deviations)[quantity] = Peak(ratio, found.value, None, found.time)
         if ratio is not None and not ratio <= 1.0 + demands.tolerance:
             reasons.append(_tip_reason(quantity, found.value, limit, found.time))
+    tip["acceleration"] = _in_stretches(tip["acceleration"], pieces, chain, demands, reasons)
     return tip, deviations
+
+
+def _in_stretches(peak: Peak, pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> Peak:
+    """The largest acceleration of the tip, and the largest ratio to a limit, those of stretches among them."""
+    for stretch in demands.stretches:
+        found = tip_peaks(pieces.between(stretch.begin, stretch.end), chain, None, least=_STRETCH)["acceleration"]
+        ratio = found.value / stretch.acceleration
+        peak = replace(peak, ratio=max(peak.ratio or 0.0, ratio))
+        if not ratio <= 1.0 + demands.tolerance:
+            reasons.append(_tip_reason("acceleration", found.value, stretch.acceleration, found.time))
+    return peak
 
 
 def _tip_reason(quantity: str, value: float, limit: float, time: float) -> Reason:

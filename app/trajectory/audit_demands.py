@@ -59,6 +59,21 @@ class Ends:
 
 
 @dataclass(frozen=True, slots=True)
+class Stretch:
+    """Some time of a motion in which the tip's acceleration has a limit of its own.
+
+    Attributes:
+        begin: [s].
+        end: [s].
+        acceleration: Of the tip at most, [m/s²].
+    """
+
+    begin: float
+    end: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
 class Demands:
     """What a motion has to keep to.
 
@@ -71,6 +86,8 @@ class Demands:
         path_tolerance: Allowed distance from it, [m].
         orientation_tolerance: Allowed angle from it, [rad].
         continuous: Derivatives up to this order do not jump; 1 is C¹.
+        stretches: Of time in which the tip's acceleration has a limit of its own; pieces of the motion begin and end
+            there.
         keeps_jerk: Whether limits of jerk are kept, or only compared with.
         tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
             derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
@@ -84,5 +101,6 @@ class Demands:
     path_tolerance: float = 1e-4
     orientation_tolerance: float = 1e-3
     continuous: int = 1
+    stretches: tuple[Stretch, ...] = ()
     keeps_jerk: bool = True
     tolerance: float = 1e-9

@@ -57,6 +57,11 @@ class Pieces:
         """Those from one number to another."""
         return Pieces(self.starts[first:last], self.widths[first:last], self.scaled[:, first:last])
 
+    def between(self, begin: float, end: float) -> "Pieces":
+        """Those whose middle lies between two times, [s]."""
+        middles = self.starts + 0.5 * self.widths
+        return self.part(int(np.searchsorted(middles, begin)), int(np.searchsorted(middles, end)))
+
     @property
     def degree(self) -> int:
         """Of the positions."""

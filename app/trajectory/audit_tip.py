@@ -74,10 +74,12 @@ def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
     return Grid(piece, within / last, np.flatnonzero((within > 0) & (within < last)))
 
 
-def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE) -> dict[str, Largest]:
+def tip_peaks(
+    pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE, least: int = MIN_SAMPLES
+) -> dict[str, Largest]:
     """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad].
 
-    Of the path only the directions of the task count.
+    Of the path only the directions of the task count; `least` samples are looked at.
     """
     names = QUANTITIES if path is not None else QUANTITIES[:4]
 
@@ -90,7 +92,7 @@ def tip_peaks(pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task 
         # A path that has no pose somewhere is as far away as can be.
         return np.nan_to_num(np.column_stack(columns), nan=np.inf)
 
-    samples = grid(pieces)
+    samples = grid(pieces, least)
     values = np.concatenate([quantities(samples.piece[rows], samples.tau[rows]) for rows in _chunks(len(samples.tau))])
     found = _between(samples.tau, values, samples.inner, samples.piece, quantities, _rounding(pieces)[: len(names)])
     return {

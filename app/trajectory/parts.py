@@ -55,12 +55,12 @@ class Part:
         """The same in `factor` times the time."""
         if factor == 1.0:
             return self
-        reports = tuple(
-            replace(one, start_time=factor * one.start_time, end_time=factor * one.end_time) for one in self.reports
+        return replace(
+            self,
+            motion=self.motion.scaled(factor),
+            reports=tuple(report.slowed(factor) for report in self.reports),
+            demands=_slowed_demands(self.demands, factor),
         )
-        path = self.demands.path
-        demands = self.demands if path is None else replace(self.demands, path=_slowed(path, factor))
-        return replace(self, motion=self.motion.scaled(factor), reports=reports, demands=demands)
 
     def noted(self, notes: tuple[str, ...]) -> "Part":
         """The same with something more to be known of its segments."""
@@ -70,14 +70,18 @@ class Part:
 
     def moved(self, start: float) -> tuple[SegmentReport, ...]:
         """Its segments, the part beginning at a time, [s]."""
-        return tuple(
-            replace(one, start_time=start + one.start_time, end_time=start + one.end_time) for one in self.reports
-        )
+        return tuple(report.moved(start) for report in self.reports)
 
 
 def standing(configuration: Array) -> PiecewisePolynomial:
     """Joints that stand still, for no time."""
     return PiecewisePolynomial(np.zeros(2), configuration[None, None, :].copy())
+
+
+def _slowed_demands(demands: Demands, factor: float) -> Demands:
+    stretches = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.stretches)
+    path = None if demands.path is None else _slowed(demands.path, factor)
+    return replace(demands, path=path, stretches=stretches)
 
 
 def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:

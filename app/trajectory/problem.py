@@ -5,7 +5,8 @@ along a line, a circle or a spline. Each segment has a law of time and limits of
 segments but where lines are blended.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
 from app.kinematics.ik.task import FULL_POSE, Task
@@ -121,6 +122,23 @@ class Problem:
 
 
 @dataclass(frozen=True, slots=True)
+class BlendReport:
+    """How a line went over into the next.
+
+    Attributes:
+        radius: Distance from the corner at which the line is left, [m].
+        start_time: [s].
+        end_time: [s].
+        acceleration: What the tip's may be in it at most, [m/s²]; None where only the radius was given.
+    """
+
+    radius: float
+    start_time: float
+    end_time: float
+    acceleration: float | None
+
+
+@dataclass(frozen=True, slots=True)
 class SegmentReport:
     """What came of a segment, as far as it was done.
 
@@ -134,6 +152,7 @@ class SegmentReport:
         angle: By which the tip turns on it, [rad]; of a joint segment None.
         joint_deviation: From the way at most that damping cost: distance [m] and angle [rad]; None if not damped.
         blended: Whether it is left for the next without a stop.
+        blend: How, if the motion gets that far.
         notes: What else is to be known.
     """
 
@@ -146,7 +165,22 @@ class SegmentReport:
     angle: float | None = None
     joint_deviation: tuple[float, float] | None = None
     blended: bool = False
+    blend: BlendReport | None = None
     notes: tuple[str, ...] = ()
+
+    def slowed(self, factor: float) -> "SegmentReport":
+        """The same in `factor` times the time."""
+        return self._timed(lambda time: factor * time)
+
+    def moved(self, start: float) -> "SegmentReport":
+        """The same, all of it beginning at a time, [s]."""
+        return self._timed(lambda time: start + time)
+
+    def _timed(self, change: Callable[[float], float]) -> "SegmentReport":
+        blend = self.blend
+        if blend is not None:
+            blend = replace(blend, start_time=change(blend.start_time), end_time=change(blend.end_time))
+        return replace(self, start_time=change(self.start_time), end_time=change(self.end_time), blend=blend)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """Segments along which the tip follows a way: the way, the joints that follow it, and the time they take."""
 
+import math
 from collections.abc import Sequence
 from typing import cast
 
@@ -11,14 +12,23 @@ from app.model.chain import Chain
 from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.model.robot import Robot
-from app.trajectory.audit_demands import Demands, Ends, JointLimits, TipLimits
+from app.trajectory.audit_demands import Demands, Ends, JointLimits, Stretch, TipLimits
 from app.trajectory.composition import times_at
 from app.trajectory.follow import JointWay, follow
 from app.trajectory.parts import Halt, Part, standing
 from app.trajectory.passing_times import passing_at
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Following, Law, MotionLimits, Problem, Segment, SegmentReport, TimingComparison
+from app.trajectory.problem import (
+    BlendReport,
+    Following,
+    Law,
+    MotionLimits,
+    Problem,
+    Segment,
+    SegmentReport,
+    TimingComparison,
+)
 from app.trajectory.spline_paths import PolynomialPath
 from app.trajectory.timing import Timed, compared, timed
 from app.trajectory.way_geometry import tip_through
@@ -58,9 +68,11 @@ def tip_part(
     if joints.reached <= 0.0:
         return Part(standing(start), (), Demands(), halt)
     timing = _timed(chain, way, joints, segments, limits, following, first)
-    demands = _demands(way.path, joints, timing, limits, following)
-    comparison = _comparison(chain, way.path, joints, segments, limits, first) if problem.compares_timing else None
-    return Part(timing.motion, _reports(way, joints, timing, segments, first, following), demands, halt, comparison)
+    blends = _blends(way, joints, timing.law)
+    demands = _demands(way.path, joints, timing, limits, following, blends)
+    comparison = _comparison(chain, way, joints, segments, limits, first) if problem.compares_timing else None
+    reports = _reports(way, joints, timing, segments, first, following, blends)
+    return Part(timing.motion, reports, demands, halt, comparison)
 
 
 def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
@@ -98,12 +110,32 @@ def _timed(
             duration=segment.duration if is_whole else None,
             slow_down=following.near_singularity == "slow_down" or _slows_at_corners(segments),
             tip_motion=tip_through(chain),
+            corners=way.limited_corners,
         )
     except InvalidField as error:
         raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
 
 
-def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, following: Following) -> Demands:
+def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendReport]:
+    """Those that the motion gets into."""
+    blends = []
+    for corner in way.corners:
+        if corner.begin >= joints.reached:
+            break
+        times = _times_at(law, corner.begin, min(corner.end, joints.reached))
+        limit = corner.acceleration if math.isfinite(corner.acceleration) else None
+        blends.append(BlendReport(corner.radius, *times, limit))
+    return blends
+
+
+def _demands(
+    path: Path,
+    joints: JointWay,
+    timing: Timed,
+    limits: MotionLimits,
+    following: Following,
+    blends: Sequence[BlendReport],
+) -> Demands:
     """What the motion has to keep to; the way at equal times is the way that is wanted."""
     law = timing.law
     position, orientation = following.position_tolerance, following.orientation_tolerance
@@ -120,6 +152,7 @@ def _demands(path: Path, joints: JointWay, timing: Timed, limits: MotionLimits, 
         position,
         orientation,
         timing.continuous,
+        tuple(Stretch(one.start_time, one.end_time, one.acceleration) for one in blends if one.acceleration),
         timing.has_bounded_jerk,
     )
 
@@ -143,7 +176,13 @@ def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt 
 
 
 def _reports(
-    way: Way, joints: JointWay, timing: Timed, segments: Sequence[Segment], first: int, following: Following
+    way: Way,
+    joints: JointWay,
+    timing: Timed,
+    segments: Sequence[Segment],
+    first: int,
+    following: Following,
+    blends: Sequence[BlendReport],
 ) -> tuple[SegmentReport, ...]:
     """Of the segments that were begun."""
     begins = (0.0, *way.ends[:-1])
@@ -165,6 +204,7 @@ def _reports(
             angle,
             (joints.path_deviation, joints.orientation_deviation) if damped else None,
             i + 1 < len(segments),
+            blends[i] if i < len(blends) else None,
             (*way.notes, *_of_corners(segments), *timing.notes),
         )
         reports.append(report)
@@ -203,12 +243,12 @@ def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[fl
 
 
 def _comparison(
-    chain: Chain, path: Path, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
+    chain: Chain, way: Way, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
 ) -> TimingComparison:
     # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
     law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law
     uniform, by_velocity, by_acceleration, optimal = compared(
-        path, joints.positions, law, limits, tip_motion=tip_through(chain)
+        way.path, joints.positions, law, limits, tip_motion=tip_through(chain), corners=way.limited_corners
     )
     numbers = tuple(range(first, first + len(segments)))
     return TimingComparison(numbers, law, uniform, by_velocity, by_acceleration, optimal)

@@ -13,7 +13,6 @@ from collections.abc import Callable
 import numpy as np
 
 from app.model.arrays import Array
-from app.trajectory.audit_demands import TipLimits
 from app.trajectory.way_geometry import Geometry
 
 _PLACES = np.array([0.0, 0.5, 1.0])
@@ -37,12 +36,12 @@ def tip_rows(geometry: Geometry) -> Callable[[Array], tuple[Array, Array]] | Non
         places[:, -1] = s[1:]
         tip = geometry.tip_at(np.repeat(piece, len(_PLACES)), places.ravel()).reshape(2, *places.shape, 6)
         first, second = tip[0] * length, tip[1] * length**2
-        return _rows(first + gains[:, :, None] * second, second, first, gains, geometry.limits.tip)
+        return _rows(first + gains[:, :, None] * second, second, first, gains, geometry.tip_bounds(piece))
 
     return rows
 
 
-def _rows(along: Array, bend: Array, slope: Array, gains: Array, limits: TipLimits) -> tuple[Array, Array]:
+def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) -> tuple[Array, Array]:
     """The rows at all places of each interval.
 
     Args:
@@ -50,19 +49,21 @@ def _rows(along: Array, bend: Array, slope: Array, gains: Array, limits: TipLimi
         bend: What it is per x.
         slope: ξ_s.
         gains: ṡ² there is x + gain u; shape (N, 3).
-        limits: Of the tip.
+        bounds: The tip's limits, infinite where there is none; shape (N, 4).
     """
     alphas, betas = [], []
+    speeds, angular_speeds, accelerations, angular_accelerations = bounds.T[:, :, None]
     for part, speed, acceleration in (
-        (slice(3), limits.speed, limits.acceleration),
-        (slice(3, 6), limits.angular_speed, limits.angular_acceleration),
+        (slice(3), speeds, accelerations),
+        (slice(3, 6), angular_speeds, angular_accelerations),
     ):
-        if np.isfinite(speed):
+        if np.isfinite(speed).any():
             squares = np.einsum("nki,nki->nk", slope[:, :, part], slope[:, :, part]) / speed**2
             alphas.append(_control(gains * squares))
             betas.append(_control(squares))
-        if np.isfinite(acceleration):
-            points = (_control(values[:, :, part]).reshape(-1, 3) / acceleration for values in (along, bend))
+        if np.isfinite(acceleration).any():
+            limit = acceleration[:, :, None]
+            points = ((_control(values[:, :, part]) / limit).reshape(-1, 3) for values in (along, bend))
             alpha, beta = _polygon(*points)
             alphas.append(alpha.reshape(len(along), -1))
             betas.append(beta.reshape(len(along), -1))

@@ -38,6 +38,8 @@ ORDERS: Final = np.array([1, 2, 3, 1, 1, 2, 2])
 """By which power of k each is divided."""
 JOINTS: Final = 3
 """How many of them are the joints'."""
+ACCELERATION: Final = 2
+"""Which of the tip's is its linear acceleration."""
 
 _INSIDE = 1e-9
 """How far inside of a piece its ends are looked at where the path may jump, in fractions of the piece."""
@@ -62,6 +64,23 @@ def tip_through(chain: Chain) -> TipMotion:
 
 
 @dataclass(frozen=True, slots=True)
+class Corner:
+    """A blend of two lines whose acceleration has a limit of its own.
+
+    Attributes:
+        begin: s at which it begins.
+        end: s at which it ends.
+        radius: Distance from the corner at which the first line is left, [m].
+        acceleration: Of the tip between the two at most, beside its limit everywhere, [m/s²].
+    """
+
+    begin: float
+    end: float
+    radius: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
 class Slopes:
     """Derivatives by s at N places of a way.
 
@@ -70,17 +89,19 @@ class Slopes:
         second: q''.
         third: q'''.
         tip: ξ_s and ξ_s', None where the tip has no limits; shape (2, N, 6).
+        bounds: The tip's limits there, in the order of `QUANTITIES`; shape (N, 4).
     """
 
     first: Array
     second: Array
     third: Array
     tip: Array | None
+    bounds: Array
 
     def take(self, rows: Indices) -> "Slopes":
         """Some of the places."""
         tip = None if self.tip is None else self.tip[:, rows]
-        return Slopes(self.first[rows], self.second[rows], self.third[rows], tip)
+        return Slopes(self.first[rows], self.second[rows], self.third[rows], tip, self.bounds[rows])
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,12 +113,14 @@ class Geometry:
         limits: That hold on it.
         path: Of the tip; None where there is none.
         tip_motion: Of the tip through the joints, instead of that along the path; None for the path's.
+        corners: Blends of the path whose acceleration has a limit of its own; each begins and ends at a break.
     """
 
     joints: PiecewisePolynomial
     limits: MotionLimits
     path: Path | None
     tip_motion: TipMotion | None
+    corners: tuple[Corner, ...] = ()
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -116,7 +139,16 @@ class Geometry:
     def limits_tip(self) -> bool:
         """Whether the tip has a limit that can be told."""
         known = self.path is not None or self.tip_motion is not None
-        return known and bool(np.isfinite(_of_tip(self.limits.tip)).any())
+        return known and (bool(self.corners) or bool(np.isfinite(_of_tip(self.limits.tip)).any()))
+
+    def tip_bounds(self, piece: Indices) -> Array:
+        """The tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
+        bounds = np.tile(_of_tip(self.limits.tip), (len(piece), 1))
+        middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
+        for corner in self.corners:
+            rows = (middles > corner.begin) & (middles < corner.end)
+            bounds[rows, ACCELERATION] = np.minimum(bounds[rows, ACCELERATION], corner.acceleration)
+        return bounds
 
     def piece_of(self, s: Array) -> Indices:
         """In which piece of q(s) each place is, the later one at a break; shape (N,)."""
@@ -128,7 +160,8 @@ class Geometry:
         """The derivatives at places within given pieces, which tell the two sides of a break apart; shape (N,) each."""
         local = (s - self.joints.breaks[piece])[:, None]
         _, first, second, third = derivatives(self.joints.coefficients[piece], local)
-        return Slopes(first, second, third, self.tip_at(piece, s) if self.limits_tip else None)
+        tip = self.tip_at(piece, s) if self.limits_tip else None
+        return Slopes(first, second, third, tip, self.tip_bounds(piece))
 
     def tip_at(self, piece: Indices, s: Array) -> Array:
         """ξ_s and ξ_s', zero where nothing is known of the tip; shape (2, N, 6)."""
@@ -175,11 +208,15 @@ class Geometry:
 
     def _part(self, begin: int, end: int) -> "Geometry":
         joints = PiecewisePolynomial(self.joints.breaks[begin : end + 1], self.joints.coefficients[begin:end])
-        return Geometry(joints, self.limits, self.path, self.tip_motion)
+        return Geometry(joints, self.limits, self.path, self.tip_motion, self.corners)
 
 
 def geometry_of(
-    path: Path | None, joints: PiecewisePolynomial, limits: MotionLimits, tip_motion: TipMotion | None
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    limits: MotionLimits,
+    tip_motion: TipMotion | None,
+    corners: tuple[Corner, ...] = (),
 ) -> Geometry:
     """A way whose joints' breaks are also those of the path."""
     breaks = joints.breaks
@@ -189,7 +226,7 @@ def geometry_of(
     if len(extra):
         nodes = np.union1d(breaks, extra)
         joints = PiecewisePolynomial(nodes, cut(joints, nodes))
-    return Geometry(joints, limits, path, tip_motion)
+    return Geometry(joints, limits, path, tip_motion, corners)
 
 
 def ratios(slopes: Slopes, limits: MotionLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:
@@ -204,14 +241,14 @@ def ratios(slopes: Slopes, limits: MotionLimits, speeds: Array, accelerations: A
         found[:, column] = np.abs(values / limit).max(axis=1, initial=0.0)
     if slopes.tip is not None:
         first, second = slopes.tip
-        found[:, JOINTS:] = tip_ratios(first * v, first * a + second * v**2, limits.tip)
+        found[:, JOINTS:] = tip_ratios(first * v, first * a + second * v**2, slopes.bounds)
     return found
 
 
-def tip_ratios(twists: Array, changes: Array, limits: TipLimits) -> Array:
-    """How near to its limit each of the tip's quantities comes; shape (N, 6) each → (N, 4)."""
+def tip_ratios(twists: Array, changes: Array, bounds: Array) -> Array:
+    """How near to its limit each of the tip's quantities comes; shapes (N, 6), (N, 6) and (N, 4) → (N, 4)."""
     parts = (twists[:, :3], twists[:, 3:], changes[:, :3], changes[:, 3:])
-    return np.column_stack([np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]) / _of_tip(limits)
+    return np.column_stack([np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]) / bounds
 
 
 def of_order(order: int) -> Flags:

@@ -11,14 +11,22 @@ from typing import TypeAlias
 import numpy as np
 
 from app.model.arrays import Array, Indices
-from app.trajectory.audit_demands import TipLimits
 from app.trajectory.composition import derivatives
 from app.trajectory.extremes import candidates
 from app.trajectory.intervals import bernstein, cut
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.problem import MotionLimits
-from app.trajectory.way_geometry import JOINTS, ORDERS, QUANTITIES, Geometry, TipMotion, of_order, tip_ratios
+from app.trajectory.way_geometry import (
+    ACCELERATION,
+    JOINTS,
+    ORDERS,
+    QUANTITIES,
+    Geometry,
+    TipMotion,
+    of_order,
+    tip_ratios,
+)
 
 Ratios: TypeAlias = Callable[[Indices, Array], Array]
 """The tip's ratios at times since the start of pieces; shape (N,) each → (N, 4)."""
@@ -55,13 +63,15 @@ class Peaks:
         """The largest ratio of a velocity (1), an acceleration (2) or a jerk (3), of joints and tip."""
         return float(self.ratios[of_order(order)].max())
 
-    def binding(self, limits: MotionLimits) -> str:
-        """What reaches its limit first, in words."""
+    def binding(self, limits: MotionLimits, *, in_blends: bool = False) -> str:
+        """What reaches its limit first, in words; blends may have limits of their own."""
         i = int(self._factors().argmax())
         if i < JOINTS:
             joint = int(self.joints[i])
             values = (limits.velocity, limits.acceleration, limits.jerk)[i]
             return f"joint {joint + 1} reaches its limit of {QUANTITIES[i]}, {values[joint]:g}"
+        if in_blends and i == JOINTS + ACCELERATION:
+            return "the tip reaches its limit of acceleration, its own or that of a blend"
         tip = limits.tip
         value = (tip.speed, tip.angular_speed, tip.acceleration, tip.angular_acceleration)[i - JOINTS]
         return f"the tip reaches its limit of {QUANTITIES[i]}, {value:g}"
@@ -120,10 +130,12 @@ def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
 def _of_tip(geometry: Geometry, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
     """The tip's largest ratios; shape (4,)."""
     widths = np.diff(motion.breaks)
+    along = cut(law, motion.breaks)
+    places = geometry.piece_of(derivatives(along, 0.5 * widths[:, None])[0][:, 0])
     if geometry.tip_motion is not None:
-        ratios = _through_joints(geometry.tip_motion, motion, geometry.limits.tip)
+        ratios = _through_joints(geometry.tip_motion, motion, geometry.tip_bounds(places))
     elif geometry.path is not None:
-        ratios = _along_path(geometry, geometry.path, cut(law, motion.breaks), widths)
+        ratios = _along_path(geometry, geometry.path, along, places)
     else:
         return np.zeros(len(QUANTITIES) - JOINTS)
     counts = np.maximum(np.ceil(widths / widths.sum() * _SAMPLES).astype(np.int64), _LEAST_SAMPLES) + 1
@@ -154,22 +166,24 @@ def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high:
     return result
 
 
-def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, limits: TipLimits) -> Ratios:
+def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: Array) -> Ratios:
+    """Of limits in each piece; shape (M, 4)."""
+
     def ratios(piece: Indices, local: Array) -> Array:
         rates = derivatives(motion.coefficients[piece], local[:, None])
-        return tip_ratios(*tip_motion(*rates[:3]), limits)
+        return tip_ratios(*tip_motion(*rates[:3]), bounds[piece])
 
     return ratios
 
 
-def _along_path(geometry: Geometry, path: Path, law: Array, widths: Array) -> Ratios:
-    """Of a law that is expanded about the start of each piece; shape (M, d + 1, 1)."""
-    places = geometry.piece_of(derivatives(law, 0.5 * widths[:, None])[0][:, 0])
+def _along_path(geometry: Geometry, path: Path, law: Array, places: Indices) -> Ratios:
+    """Of a law that is expanded about the start of each piece, and the way's pieces; shapes (M, d + 1, 1) and (M,)."""
+    bounds = geometry.tip_bounds(places)
 
     def ratios(piece: Indices, local: Array) -> Array:
         s, v, a, _ = derivatives(law[piece], local[:, None])
         first, second = geometry.along(path, places[piece], s[:, 0])
-        return tip_ratios(first * v, first * a + second * v**2, geometry.limits.tip)
+        return tip_ratios(first * v, first * a + second * v**2, bounds[piece])
 
     return ratios
 

@@ -14,6 +14,7 @@ from app.trajectory.orientation_paths import OrientationPath, zyz_paths
 from app.trajectory.paths import POINT, Path, PathSequence, circle, line, refuse_reversal
 from app.trajectory.problem import Segment
 from app.trajectory.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
+from app.trajectory.way_geometry import Corner
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,12 +25,19 @@ class Way:
         path: The way.
         ends: s at which each of its segments ends, in the middle of the blend where there is one; the last is
             `path.extent`.
+        corners: Its blends, of each what the acceleration may be in it.
         notes: What else is to be known.
     """
 
     path: Path
     ends: tuple[float, ...]
+    corners: tuple[Corner, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def limited_corners(self) -> tuple[Corner, ...]:
+        """Those whose acceleration has a limit of its own."""
+        return tuple(corner for corner in self.corners if math.isfinite(corner.acceleration))
 
 
 def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
@@ -49,7 +57,7 @@ def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
         path, notes = _single(start, segments[0])
     except InvalidField as error:
         raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
-    return Way(path, (path.extent,), notes)
+    return Way(path, (path.extent,), notes=notes)
 
 
 def is_blended(segment: Segment) -> bool:
@@ -97,65 +105,85 @@ def _blended(start: Array, segments: Sequence[Segment], first: int) -> Way:
         np.array([start[:3, :3], *(_pose(segment)[:3, :3] for segment in segments)]),
     )
     legs = np.diff(poses.positions, axis=0)
-    radii = _radii(legs, segments, first)
-    path = blended_lines(poses, radii)
-    return Way(path, _middles(path))
+    blends = _blends(legs, segments, first)
+    path = blended_lines(poses, [blend.radius for blend in blends])
+    ends = _corner_ends(path)
+    corners = tuple(Corner(*pair, blend.radius, blend.acceleration) for pair, blend in zip(ends, blends, strict=True))
+    return Way(path, (*(0.5 * (begin + end) for begin, end in ends), path.extent), corners)
 
 
-def _middles(path: PathSequence) -> tuple[float, ...]:
-    """Where one leg becomes the next: the middle of each blend, and the end of the way."""
+def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
+    """Where each blend begins and ends."""
     ends, s = [], 0.0
     for part in path.parts:
         if isinstance(part, PolynomialPath):
-            ends.append(s + 0.5 * part.extent)
+            ends.append((s, s + part.extent))
         s += part.extent
-    return (*ends, path.extent)
+    return ends
 
 
-def _radii(legs: Array, segments: Sequence[Segment], first: int) -> list[float]:
-    """How far from its end each line but the last is left, [m]."""
+@dataclass(frozen=True, slots=True)
+class _Blend:
+    """How a corner is cut.
+
+    Attributes:
+        field: Which field of the segment tells.
+        radius: Distance from the corner at which the line is left, [m].
+        acceleration: Of the tip in it at most, infinite where the field does not say, [m/s²].
+    """
+
+    field: str
+    radius: float
+    acceleration: float = math.inf
+
+
+def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend]:
+    """How each corner is cut."""
     lengths = np.linalg.norm(legs, axis=1)
     for i, length in enumerate(lengths):
         if length <= POINT:
             reason = "a line that is blended with another has to lead somewhere: its two ends share one position"
             raise InvalidField(f"segments.{first + i}.target", reason)
-    radii: list[float] = []
+    speed = min(segment.limits.tip.speed for segment in segments)
+    blends: list[_Blend] = []
     for i, segment in enumerate(segments[:-1]):
-        name, radius = _radius(segment, legs[i], legs[i + 1], f"segments.{first + i}")
-        refuse_reversal(legs[i], legs[i + 1], name)
+        blend = _blend(segment, speed, legs[i], legs[i + 1], f"segments.{first + i}")
+        refuse_reversal(legs[i], legs[i + 1], blend.field)
         for which, length in ((i, lengths[i]), (i + 1, lengths[i + 1])):
-            taken = radius + (radii[-1] if radii and which == i else 0.0)
+            taken = blend.radius + (blends[-1].radius if blends and which == i else 0.0)
             if taken > length * (1.0 + 1e-12):
-                both = " with the blend before" if taken > radius else ""
+                both = " with the blend before" if taken > blend.radius else ""
                 reason = (
                     f"segment {first + which} is {length:g} m long, and the blend{both} would take {taken:g} m of it"
                 )
-                raise InvalidField(name, reason)
-        radii.append(radius)
-    return radii
+                raise InvalidField(blend.field, reason)
+        blends.append(blend)
+    return blends
 
 
-def _radius(segment: Segment, leg: Array, following: Array, field: str) -> tuple[str, float]:
-    """The field that tells of a blend, and its radius: that of the course's fly-over at the tip's greatest speed.
+def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> _Blend:
+    """How a line is left for the next: the course's fly-over, both lines at the tip's greatest speed v.
 
-    d = v ΔT / 2, with ΔT = ‖v K_BC - v K_AB‖ / a where the acceleration is given.
+    d = v ΔT / 2, and the acceleration is a = ‖v K_BC - v K_AB‖ / ΔT: one of ΔT and a is given. Under this limit the
+    fastest motion through the parabola is the course's own, of constant acceleration, and takes ΔT.
     """
     if segment.blend_radius > 0.0:
-        return f"{field}.blend_radius", segment.blend_radius
+        return _Blend(f"{field}.blend_radius", segment.blend_radius)
     name = "blend_time" if segment.blend_time is not None else "blend_acceleration"
-    speed = segment.limits.tip.speed
     if not math.isfinite(speed):
         reason = "the blend depends on the speed that the lines are run at: `limits.tip_velocity` is missing"
         raise InvalidField(f"{field}.{name}", reason)
-    turn = following / math.hypot(*following) - leg / math.hypot(*leg)
+    change = speed * math.hypot(*(following / math.hypot(*following) - leg / math.hypot(*leg)))
     if segment.blend_acceleration is not None:
-        time = speed * math.hypot(*turn) / segment.blend_acceleration
+        acceleration = segment.blend_acceleration
+        time = change / acceleration
     else:
         time = cast(float, segment.blend_time)
+        acceleration = change / time
     radius = 0.5 * speed * time
-    if radius <= POINT:
+    if min(radius, acceleration) <= POINT:
         raise InvalidField(f"{field}.{name}", f"the blend would be {radius:g} m long: the lines go straight on")
-    return f"{field}.{name}", radius
+    return _Blend(f"{field}.{name}", radius, acceleration)
 
 
 def _pose(segment: Segment) -> Array:

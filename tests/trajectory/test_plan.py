@@ -13,7 +13,7 @@ from app.model.errors import AuditFailed, InvalidField, OutsideLimits
 from app.model.poses import Poses
 from app.trajectory import plan as planning
 from app.trajectory.audit import audit
-from app.trajectory.audit_demands import TipLimits
+from app.trajectory.audit_demands import Demands, Stretch, TipLimits
 from app.trajectory.plan import plan
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.problem import Following, Law, MotionLimits, OrientationLaw, Problem, Segment, Trajectory
@@ -118,14 +118,60 @@ def test_a_line_is_left_at_its_radius_and_no_further() -> None:
     assert np.linalg.norm(found.motion.derivative().at(np.array([found.segments[0].end_time]))) > 0.05
 
 
-def test_a_blend_by_time_or_acceleration_has_the_course_s_radius() -> None:
-    by_time = planned(line(SIDE, limits=TIP, blend_time=0.4), line(ABOVE, limits=TIP))
-    by_radius = planned(line(SIDE, limits=TIP, blend_radius=0.5 * 0.25 * 0.4), line(ABOVE, limits=TIP))
-    assert by_time.motion.duration == pytest.approx(by_radius.motion.duration, rel=1e-12)
-    # ΔT = v √2 / a at a right angle.
-    acceleration = 0.25 * np.sqrt(2.0) / 0.4
-    by_acceleration = planned(line(SIDE, limits=TIP, blend_acceleration=acceleration), line(ABOVE, limits=TIP))
-    assert by_acceleration.motion.duration == pytest.approx(by_radius.motion.duration, rel=1e-9)
+@pytest.mark.parametrize("law", ["trapezoidal", "time_optimal"])
+def test_a_blend_of_a_given_time_is_the_course_s_fly_over(law: Law) -> None:
+    speed, time = TIP.tip.speed, 0.4
+    found = planned(line(SIDE, law, limits=TIP, blend_time=time), line(ABOVE, law, limits=TIP))
+    blend = found.segments[0].blend
+    assert blend is not None
+    assert blend.radius == pytest.approx(0.5 * speed * time, rel=1e-12)
+    assert blend.acceleration == pytest.approx(speed * np.sqrt(2.0) / time, rel=1e-12), "‖v K_BC - v K_AB‖ / ΔT"
+    assert blend.end_time - blend.start_time == pytest.approx(time, rel=5e-3)
+    # The way of constant acceleration, by the course's formula: p = A' + v K_AB t + (v K_BC - v K_AB) t² / 2ΔT.
+    t = np.linspace(0.0, time, 50)[:, None]
+    along, across = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+    wanted = SIDE[:3, 3] + along * (speed * t - blend.radius) + speed * (across - along) * t**2 / (2.0 * time)
+    times = np.linspace(blend.start_time, blend.end_time, 50)
+    assert np.linalg.norm(tip_at(found, times).positions - wanted, axis=1).max() < 3e-4
+
+
+@pytest.mark.parametrize("law", ["cubic", "trapezoidal", "jerk_limited", "time_optimal"])
+@pytest.mark.parametrize("limits", [TIP, replace(LIMITS, tip=TipLimits(speed=0.25))], ids=["limits", "speed alone"])
+def test_a_blend_keeps_to_its_acceleration(law: Law, limits: MotionLimits) -> None:
+    found = planned(line(SIDE, law, limits=limits, blend_acceleration=0.4), line(ABOVE, law, limits=limits))
+    blend = found.segments[0].blend
+    assert blend is not None
+    assert blend.radius == pytest.approx(0.25**2 * np.sqrt(2.0) / 0.4 / 2.0, rel=1e-12)
+    step = 1e-3
+    times = np.linspace(blend.start_time + step, blend.end_time - step, 400)
+    before, at, after = (tip_at(found, times + offset).positions for offset in (-step, 0.0, step))
+    accelerations = np.linalg.norm(before - 2.0 * at + after, axis=1) / step**2
+    assert accelerations.max() <= 0.4 * (1.0 + 1e-3)
+    if law in {"trapezoidal", "time_optimal"}:
+        assert accelerations.max() >= 0.4 * (1.0 - 1e-2), "and makes use of it"
+    slowed = found.motion.duration * 1.5
+    lasting = planned(
+        *(line(SIDE, law, limits=limits, blend_acceleration=0.4), line(ABOVE, law, limits=limits)), duration=slowed
+    )
+    later = lasting.segments[0].blend
+    assert later is not None
+    assert later.start_time == pytest.approx(1.5 * blend.start_time, rel=1e-9)
+
+
+def test_a_blend_beyond_its_acceleration_fails_the_audit() -> None:
+    found = planned(line(SIDE, limits=TIP, blend_radius=0.08), line(ABOVE, limits=TIP))
+    blend = found.segments[0].blend
+    assert blend is not None
+    assert blend.acceleration is None
+    demands = Demands(tip=TIP.tip, stretches=(Stretch(blend.start_time, blend.end_time, 0.3),))
+    judged = audit(PANDA, ARM, found.motion, demands)
+    assert [reason.check for reason in judged.reasons] == ["tip"]
+    assert "allowed is 0.3 m/s²" in judged.reasons[0].detail
+    ratio = judged.tip["acceleration"].ratio
+    assert ratio is not None
+    assert ratio > 1.0
+    stretch = Demands(tip=TIP.tip, stretches=(Stretch(blend.start_time, blend.end_time, 1.5),))
+    assert audit(PANDA, ARM, found.motion, stretch).passed
 
 
 def test_blended_lines_keep_to_the_tightest_of_their_limits() -> None:
