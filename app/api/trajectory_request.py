@@ -111,7 +111,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) 
             )
         case CircleSegment():
             via, end = _matrix(segment.via, f"{place}.via"), _matrix(segment.target, f"{place}.target")
-            return replace(part, via=via, pose=end)
+            return replace(part, via=via, pose=end, orientation=segment.orientation)
         case SplineSegment():
             _check_blends(segment, part, place)
             return _spline(chain, segment, replace(part, boundary=segment.boundary, blends=segment.blends), place)
@@ -134,6 +134,8 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Par
     times = None if segment.times is None else _times(segment, place)
     poses = [one for one in waypoints if isinstance(one, Pose)]
     if not poses:
+        if "orientation" in segment.model_fields_set:
+            raise InvalidField(f"{place}.orientation", "is of poses, and these waypoints are configurations")
         rows = configurations(chain, [one for one in waypoints if not isinstance(one, Pose)], field)
         try:
             check_limits(chain, rows)
@@ -147,7 +149,7 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Par
             f"entry {is_pose.index(True)} is a pose and entry {is_pose.index(False)} a configuration: all are of one "
             "kind, so divide them among two segments",
         )
-    return replace(part, poses=poses_from(poses, field), times=times)
+    return replace(part, poses=poses_from(poses, field), times=times, orientation=segment.orientation)
 
 
 def _times(segment: SplineSegment, place: str) -> Array:

@@ -41,6 +41,11 @@ Target = Annotated[
 ]
 """A configuration, or a pose of the tip."""
 
+_ORIENTATION_THROUGH = (
+    "How the orientation changes: `axis_angle`, a rotation spline of continuous angular acceleration; `zyz`, a natural "
+    "cubic spline of the Euler angles ZYZ; `zyz_other`, the same with the other triple of each pose after the start."
+)
+
 _Bound = Annotated[float, Field(ge=1e-6, le=1e6)]
 _Scale = Annotated[float, Field(ge=1e-6, le=1.0)]
 JointValues = Annotated[
@@ -143,7 +148,8 @@ class LineSegment(SegmentOptions):
     orientation: OrientationLaw = Field(
         "axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
-        "angles `zyz` each on its straight way, with `zyz_other` to the other triple of the same target.",
+        "angles `zyz` each on its straight way, with `zyz_other` to the other triple of the same target. Of lines that "
+        "are blended all turn about axes, or all by angles.",
     )
 
 
@@ -153,6 +159,7 @@ class CircleSegment(SegmentOptions):
     type: Literal["circle"]
     via: Pose = Field(description="Pose of `tip_frame` in `base_frame` on the way, its orientation too.")
     target: Pose = Field(description="Pose at its end.")
+    orientation: OrientationLaw = Field("axis_angle", description=_ORIENTATION_THROUGH)
 
 
 class SplineSegment(SegmentOptions):
@@ -182,6 +189,7 @@ class SplineSegment(SegmentOptions):
         "with parabolic blends that pass beside the inner ones (Craig's linear segments with parabolic blends); "
         "`notes` say how far. No spline then, and no boundary.",
     )
+    orientation: OrientationLaw = Field("axis_angle", description=f"Of poses. {_ORIENTATION_THROUGH}")
 
 
 Segment = Annotated[

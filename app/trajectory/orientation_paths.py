@@ -2,8 +2,7 @@
 
 - Axis and angle, the default: R(x) = R_i Rot(r, x θ) with R_iᵀ R_f = Rot(r, θ), one axis throughout and the shortest
   way. At θ = 0 there is no axis; at θ = π there are two, and both ways are equally short.
-- ZYZ angles, the course's alternative: each angle goes straight to its end, the axis is another at each moment. R_f has
-  two triples, (φ, θ, ψ) and (φ + π, -θ, ψ + π), and so two ways lead there.
+- ZYZ angles, the course's alternative: `zyz_paths`.
 - Through several orientations: by axis and angle from each to the next, or as a smooth spline (`rotation_splines`).
 
 Angular rates are those of ω along the base's axes for dx/dt = 1; with a time law x(t), ω = ω_x ẋ.
@@ -17,18 +16,15 @@ from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 
-from app.model.arrays import Array, Flags
-from app.model.poses import rotations_from_vectors, rotations_from_zyz, vectors_from_rotations, zyz_from_rotations
+from app.model.arrays import Array
+from app.model.poses import rotations_from_vectors, vectors_from_rotations
 
 Turning: TypeAlias = Literal["none", "regular", "half_turn"]
-ZyzBranch: TypeAlias = Literal["regular", "flipped"]
 
 NO_TURN = 1e-14
 """Angle below which two orientations are the same: it has no axis, and rounding leaves as much, [rad]."""
 HALF_TURN = 1e-9
 """How close to π an angle has two axes, [rad]."""
-_DEGENERATE = 1e-14
-"""Sine of ZYZ's θ below which only φ + ψ or φ - ψ is determined."""
 _INTERVALS = 64
 """Of the integral of the angle travelled."""
 
@@ -46,6 +42,13 @@ class OrientationPath(Protocol):
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
         """R, ω_x and dω_x/dx, [rad]; shape (N,) → (N, 3, 3), (N, 3), (N, 3)."""
+
+
+class Turn(OrientationPath, Protocol):
+    """A way from one orientation to another at a constant rate."""
+
+    def part(self, begin: float, finish: float) -> "Turn":
+        """What is between two values of x."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +84,11 @@ class AxisAngle:
         still = np.zeros((len(x), 3))
         return rotations, still + self.angle * self.base_axis, still
 
+    def part(self, begin: float, finish: float) -> "AxisAngle":
+        """See `Turn`."""
+        rotation = self.at(np.array([begin]))[0][0]
+        return AxisAngle(rotation, self.axis, (finish - begin) * self.angle, self.turning)
+
 
 def axis_angle(start: Array, end: Array) -> AxisAngle:
     """The shortest way about one axis; of two that are equally short, the one of `both_ways` that comes first."""
@@ -107,88 +115,6 @@ def both_ways(start: Array, end: Array) -> tuple[AxisAngle, ...]:
     ways = AxisAngle(start, axis, angle, turning), AxisAngle(start, -axis, 2.0 * math.pi - angle, turning)
     first = next(component for component in axis if abs(component) > 1e-6)
     return ways[::-1] if half and first < 0.0 else ways
-
-
-@dataclass(frozen=True, slots=True)
-class ZyzPath:
-    """φ, θ and ψ each at a rate of their own, constant in x.
-
-    Attributes:
-        start: (φ, θ, ψ) of R_i; shape (3,), [rad].
-        change: To those of R_f; shape (3,), [rad].
-        branch: Which of R_f's triples it leads to: `regular` where the sign of θ stays, `flipped` where it changes.
-        degenerate: Of the two ends those at which only φ + ψ or φ - ψ is determined; there φ is that of the other end.
-    """
-
-    start: Array
-    change: Array
-    branch: ZyzBranch
-    degenerate: tuple[Literal["start", "end"], ...]
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """None."""
-        return ()
-
-    @property
-    def angle(self) -> float:
-        """See `OrientationPath`; by Gauss's formula."""
-        return travelled(self)
-
-    def at(self, x: Array) -> tuple[Array, Array, Array]:
-        """See `OrientationPath`: ω = φ̇ z + θ̇ y' + ψ̇ z'', y' = (-sin φ, cos φ, 0), z'' the tip's z."""
-        triples = self.start + x[:, None] * self.change
-        rotations = rotations_from_zyz(triples)
-        phi, theta, psi = self.change
-        c1, s1, zero = np.cos(triples[:, 0]), np.sin(triples[:, 0]), np.zeros(len(x))
-        c2, s2 = np.cos(triples[:, 1]), np.sin(triples[:, 1])
-        y, tip_z = np.column_stack((-s1, c1, zero)), np.column_stack((c1 * s2, s1 * s2, c2))
-        y_rate = -phi * np.column_stack((c1, s1, zero))
-        tip_z_rate = np.column_stack((theta * c1 * c2 - phi * s1 * s2, theta * s1 * c2 + phi * c1 * s2, -theta * s2))
-        rates = np.array([0.0, 0.0, phi]) + theta * y + psi * tip_z
-        return rotations, rates, theta * y_rate + psi * tip_z_rate
-
-
-def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
-    """The two ways by ZYZ angles, to either triple of R_f; φ and ψ go the short way round.
-
-    The start is taken with θ ≥ 0: from its other triple the same two ways lead through the same orientations.
-
-    Args:
-        start: R_i; shape (3, 3).
-        end: R_f; shape (3, 3).
-    """
-    both = np.array([start, end])
-    triples = zyz_from_rotations(both)
-    flat = np.hypot(both[:, 0, 2], both[:, 1, 2]) <= _DEGENERATE
-    names: tuple[Literal["start", "end"], ...] = ("start", "end")
-    degenerate = tuple(name for name, is_flat in zip(names, flat, strict=True) if is_flat)
-    flipped = triples[1] + [math.pi, -2.0 * triples[1, 1], math.pi]
-    return (
-        _zyz_path(triples[0], triples[1], "regular", flat, degenerate),
-        _zyz_path(triples[0], flipped, "flipped", flat, degenerate),
-    )
-
-
-def _zyz_path(
-    start: Array, end: Array, branch: ZyzBranch, flat: Flags, degenerate: tuple[Literal["start", "end"], ...]
-) -> ZyzPath:
-    start, end = start.copy(), end.copy()
-    if flat[0]:
-        _move_phi(start, end[0])
-    elif flat[1]:
-        _move_phi(end, start[0])
-    change = end - start
-    for i in (0, 2):
-        change[i] = math.remainder(change[i], 2.0 * math.pi)
-    return ZyzPath(start, change, branch, degenerate)
-
-
-def _move_phi(triple: Array, phi: float) -> None:
-    """Another φ of a degenerate triple: φ + ψ stays where θ = 0, φ - ψ where θ = π."""
-    sign = 1.0 if math.cos(triple[1]) > 0.0 else -1.0
-    triple[2] += sign * (triple[0] - phi)
-    triple[0] = phi
 
 
 @dataclass(frozen=True, slots=True)

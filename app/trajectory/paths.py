@@ -21,11 +21,12 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.trajectory.curves import Curve, Line, arc_through
-from app.trajectory.orientation_paths import AxisAngle, OrientationPath, axis_angle, through
+from app.trajectory.orientation_paths import OrientationPath, axis_angle, through
 from app.trajectory.rotation_splines import rotation_spline
+from app.trajectory.zyz_paths import zyz_spline
 
 Unit: TypeAlias = Literal["m", "rad"]
-ViaOrientation: TypeAlias = Literal["smooth", "slerp"]
+ViaOrientation: TypeAlias = Literal["smooth", "slerp", "zyz", "zyz_other"]
 
 POINT = 1e-9
 """Length below which a line is a turn on the spot, [m]."""
@@ -171,8 +172,7 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
         start: T_base_tip; shape (4, 4).
         via: Likewise; its orientation is passed where its position is.
         end: Likewise.
-        orientation: `smooth`: a spline with continuous angular acceleration. `slerp`: about one axis to the via pose
-            and about another from there on; the angular rate jumps at the via pose, which `breaks` then names.
+        orientation: See `through_orientations`.
 
     Raises:
         InvalidField: Two of the positions are the same, or all three lie on a line.
@@ -180,8 +180,24 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
     arc = arc_through(*(T[:3, 3] for T in (start, via, end)))
     rotations = np.ascontiguousarray(np.array([start, via, end])[:, :3, :3])
     knots = np.array([0.0, arc.via_angle / arc.angle, 1.0])
-    way: OrientationPath = rotation_spline(rotations, knots) if orientation == "smooth" else through(rotations, knots)
-    return CurvePath(arc, way)
+    return CurvePath(arc, through_orientations(rotations, knots, orientation))
+
+
+def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) -> OrientationPath:
+    """A way through several orientations.
+
+    Args:
+        rotations: At least two; shape (M + 1, 3, 3).
+        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
+        law: `smooth`: a spline with continuous angular acceleration. `slerp`: about one axis from each to the next; the
+            angular rate jumps at those between, which `breaks` then names. `zyz`: a spline of the Euler angles, with
+            `zyz_other` to the other triple of each that follows the start.
+    """
+    if law == "smooth":
+        return rotation_spline(rotations, knots)
+    if law == "slerp":
+        return through(rotations, knots)
+    return zyz_spline(rotations, knots, [law == "zyz_other", *[False] * (len(rotations) - 2)])
 
 
 @dataclass(frozen=True)
@@ -251,12 +267,6 @@ def sequence(parts: Sequence[Path]) -> PathSequence:
     if len({part.unit for part in parts}) != 1:
         raise ValueError("paths in a sequence have one unit of s, and there is at least one")
     return PathSequence(tuple(parts))
-
-
-def part_of_turn(way: AxisAngle, begin: float, finish: float) -> AxisAngle:
-    """The part of a turn between two values of x."""
-    rotation = way.at(np.array([begin]))[0][0]
-    return AxisAngle(rotation, way.axis, (finish - begin) * way.angle, way.turning)
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:

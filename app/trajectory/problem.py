@@ -56,7 +56,8 @@ class Segment:
         blend_radius: Distance from the end of a line at which it is left for the next, [m]; 0 stops there.
         blend_acceleration: Of the tip in the blend instead of a radius, [m/s²].
         blend_time: Of the blend instead of a radius, [s].
-        orientation: How a line turns: about one axis, or the Euler angles ZYZ each on their way, on either branch.
+        orientation: How a way of the tip turns: about an axis, of which one that passes orientations has a smooth
+            spline, or the Euler angles ZYZ each on their way, on either branch.
         configurations: A joint spline's waypoints after the start; shape (m, n), [rad or m].
         poses: A Cartesian spline's.
         times: When each is to be reached, after the segment's start; shape (m,), [s].

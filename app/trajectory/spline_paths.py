@@ -7,6 +7,7 @@ inverse is Newton's method inside of a panel. The derivatives by s follow from t
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -15,7 +16,7 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.trajectory.curves import Line
-from app.trajectory.orientation_paths import OrientationPath, axis_angle
+from app.trajectory.orientation_paths import OrientationPath, Turn, axis_angle
 from app.trajectory.paths import (
     POINT,
     CurvePath,
@@ -23,14 +24,16 @@ from app.trajectory.paths import (
     PathSamples,
     PathSequence,
     Unit,
+    ViaOrientation,
     line,
-    part_of_turn,
     refuse_reversal,
+    through_orientations,
 )
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.rotation_splines import rotation_corner, rotation_spline
+from app.trajectory.rotation_splines import rotation_corner
 from app.trajectory.splines import cubic_spline
 from app.trajectory.time_laws import hermite_pieces
+from app.trajectory.zyz_paths import ZyzPath, zyz_corner
 
 SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
@@ -162,13 +165,16 @@ class PolynomialPath:
         return u
 
 
-def spline(waypoints: Poses, boundary: SplineBoundary = "natural") -> PolynomialPath:
-    """A smooth way through poses: C² in position and in orientation (`rotation_spline`), over the length of the chords.
+def spline(
+    waypoints: Poses, boundary: SplineBoundary = "natural", orientation: ViaOrientation = "smooth"
+) -> PolynomialPath:
+    """A smooth way through poses: C² in position and in orientation, over the length of the chords.
 
     Args:
         waypoints: At least two.
         boundary: Of the cubic spline of positions; a clamped one would have no tangent at its ends. With `periodic` the
             positions close smoothly, the orientations do not.
+        orientation: See `through_orientations`; `slerp` jumps, and is not for this.
 
     Raises:
         InvalidField: There are fewer than two, two in succession share a position, or the ends of a periodic one are
@@ -183,12 +189,14 @@ def spline(waypoints: Poses, boundary: SplineBoundary = "natural") -> Polynomial
         raise InvalidField("waypoints", reason)
     knots = np.concatenate(([0.0], np.cumsum(chords)))
     curve = cubic_spline(knots, waypoints.positions, boundary).motion
-    path = PolynomialPath(curve, rotation_spline(waypoints.rotations, knots / knots[-1]))
+    path = PolynomialPath(curve, through_orientations(waypoints.rotations, knots / knots[-1], orientation))
     _refuse_cusps(path)
     return path
 
 
-def blended_lines(poses: Poses, radii: Sequence[float], field: str = "blend_radius") -> PathSequence:
+def blended_lines(
+    poses: Poses, radii: Sequence[float], field: str = "blend_radius", turns: Sequence[Turn] | None = None
+) -> PathSequence:
     """A polyline through poses whose corners are cut: a parabola begins and ends at a distance from each.
 
     At constant speed of its parameter that parabola is the fly-over with equal speeds. Position and orientation have
@@ -198,12 +206,16 @@ def blended_lines(poses: Poses, radii: Sequence[float], field: str = "blend_radi
         poses: At least two, no two in succession at one position.
         radii: One for each inner pose, more than 0, [m].
         field: Which field of a request the radii are, for refusals.
+        turns: From each pose to the next, each beginning where the one before ends, all about axes or all by ZYZ
+            angles; about one axis each if left out.
 
     Raises:
         InvalidField: A leg is shorter than the radii at its ends together, or leads back along the one before.
     """
-    Ts, count = poses.matrices(), len(poses)
-    legs = [line(Ts[i], Ts[i + 1], axis_angle(Ts[i, :3, :3], Ts[i + 1, :3, :3])) for i in range(count - 1)]
+    Ts = poses.matrices()
+    if turns is None:
+        turns = [axis_angle(*pair) for pair in pairwise(poses.rotations)]
+    legs = [line(Ts[i], Ts[i + 1], turn) for i, turn in enumerate(turns)]
     cuts = [0.0, *radii, 0.0]
     parts: list[Path] = []
     for i, leg in enumerate(legs):
@@ -211,31 +223,34 @@ def blended_lines(poses: Poses, radii: Sequence[float], field: str = "blend_radi
         if taken > leg.length * (1.0 + 1e-12) or leg.length <= POINT:
             raise InvalidField(field, f"leg {i} is {leg.length:g} m long, and its blends take {taken:g} m of it")
         if i > 0:
-            parts.append(_corner(legs[i - 1], leg, cuts[i], field))
+            a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
+            refuse_reversal(a, b, field)
+            parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i]))
         begin, finish = cuts[i] / leg.length, 1.0 - cuts[i + 1] / leg.length
         if finish - begin > 1e-12:
-            parts.append(_leg_part(leg, begin, finish))
+            ends = leg.curve.at(np.array([begin, finish]) * leg.length)[0]
+            parts.append(CurvePath(Line(ends[0], ends[1]), turns[i].part(begin, finish)))
     return PathSequence(tuple(parts))
 
 
-def _leg_part(leg: CurvePath, begin: float, finish: float) -> CurvePath:
-    """What is left of a leg between its blends."""
-    ends = leg.curve.at(np.array([begin, finish]) * leg.length)[0]
-    turn = axis_angle(*leg.orientation.at(np.array([0.0, 1.0]))[0])
-    return CurvePath(Line(ends[0], ends[1]), part_of_turn(turn, begin, finish))
-
-
-def _corner(before: CurvePath, after: CurvePath, radius: float, field: str) -> PolynomialPath:
+def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float) -> PolynomialPath:
     """The parabola between two legs: p(u) = p_B - (1 - u)² a + u² b, and the orientation likewise."""
+    before, after = legs
     a = radius * before.curve.at(np.array([before.length]))[1][0]
     corner, directions, _ = after.curve.at(np.array([0.0]))
     b = radius * directions[0]
-    refuse_reversal(a, b, field)
-    entry = before.orientation.at(np.array([1.0 - radius / before.length]))[0][0]
-    at_corner, leaving = after.orientation.at(np.array([0.0, radius / after.length]))[0]
     coefficients = np.array([[corner[0] - a, 2.0 * a, b - a]])
-    turn = rotation_corner(entry, at_corner, leaving)
+    turn = _turn_over(turns, 1.0 - radius / before.length, radius / after.length)
     return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), coefficients), turn)
+
+
+def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> OrientationPath:
+    """Over the corner between two turns, from x = `entry` on the first to x = `leaving` on the second."""
+    before, after = turns
+    if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
+        return zyz_corner(before.triple_at(entry), after.start, after.triple_at(leaving))
+    at_entry = before.at(np.array([entry]))[0][0]
+    return rotation_corner(at_entry, *after.at(np.array([0.0, leaving]))[0])
 
 
 def _sizes(vectors: Array) -> Array:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import cast
 
 import numpy as np
@@ -10,11 +11,12 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses
-from app.trajectory.orientation_paths import OrientationPath, zyz_paths
-from app.trajectory.paths import POINT, Path, PathSequence, circle, line, refuse_reversal
+from app.trajectory.orientation_paths import OrientationPath, Turn, axis_angle
+from app.trajectory.paths import POINT, Path, PathSequence, ViaOrientation, circle, line, refuse_reversal
 from app.trajectory.problem import Segment
 from app.trajectory.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
 from app.trajectory.way_geometry import Corner
+from app.trajectory.zyz_paths import zyz_paths, zyz_turns
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,10 +73,10 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
         end = _pose(segment)
         return line(start, end, _orientation(start, end, segment)), ()
     if segment.type == "circle":
-        return circle(start, cast(Array, segment.via), _pose(segment)), ()
+        return circle(start, cast(Array, segment.via), _pose(segment), _via(segment)), ()
     boundary, notes = _tangent_boundary(segment)
     poses = _with_start(start, cast(Poses, segment.poses))
-    return spline(poses, boundary), notes
+    return spline(poses, boundary, _via(segment)), notes
 
 
 def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
@@ -88,6 +90,11 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
     return cast(SplineBoundary, segment.boundary), ()
 
 
+def _via(segment: Segment) -> ViaOrientation:
+    """How a way through several orientations turns."""
+    return "smooth" if segment.orientation == "axis_angle" else segment.orientation
+
+
 def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath | None:
     if segment.orientation == "axis_angle":
         return None
@@ -96,20 +103,31 @@ def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath 
 
 
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> Way:
-    for i, segment in enumerate(segments):
-        if segment.orientation != "axis_angle":
-            reason = "lines that are blended turn about one axis each: `axis_angle`"
-            raise InvalidField(f"segments.{first + i}.orientation", reason)
     poses = Poses(
         np.array([start[:3, 3], *(_pose(segment)[:3, 3] for segment in segments)]),
         np.array([start[:3, :3], *(_pose(segment)[:3, :3] for segment in segments)]),
     )
     legs = np.diff(poses.positions, axis=0)
     blends = _blends(legs, segments, first)
-    path = blended_lines(poses, [blend.radius for blend in blends])
+    path = blended_lines(poses, [blend.radius for blend in blends], turns=_turns(poses.rotations, segments, first))
     ends = _corner_ends(path)
     corners = tuple(Corner(*pair, blend.radius, blend.acceleration) for pair, blend in zip(ends, blends, strict=True))
     return Way(path, (*(0.5 * (begin + end) for begin, end in ends), path.extent), corners)
+
+
+def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
+    """From each orientation to the next; θ of ZYZ changes its sign where a line leads to the other triple.
+
+    Raises:
+        InvalidField: Some turn about an axis and others by ZYZ angles: there would be no turn over the corner.
+    """
+    by_axis = [segment.orientation == "axis_angle" for segment in segments]
+    if all(by_axis):
+        return [axis_angle(*pair) for pair in pairwise(rotations)]
+    if any(by_axis):
+        reason = "lines that are blended turn all of them by `axis_angle`, or all by ZYZ angles"
+        raise InvalidField(f"segments.{first + by_axis.index(not by_axis[0])}.orientation", reason)
+    return zyz_turns(rotations, [segment.orientation == "zyz_other" for segment in segments])
 
 
 def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:

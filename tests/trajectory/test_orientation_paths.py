@@ -10,15 +10,14 @@ from app.model.arrays import Array
 from app.trajectory.orientation_paths import (
     AxisAngle,
     OrientationPath,
-    ZyzPath,
     axis_angle,
     both_ways,
     through,
     travelled,
-    zyz_paths,
 )
 from app.trajectory.rotation_splines import rotation_corner, rotation_spline
 from app.trajectory.so3 import angular_accelerations, angular_velocities, rate_matrices
+from app.trajectory.zyz_paths import zyz_paths
 
 HALF = np.array([0.5])
 ENDS = np.array([0.0, 1.0])
@@ -118,47 +117,6 @@ def test_the_long_way_round_also_arrives() -> None:
     short, long = both_ways(R_I, R_F)
     assert short.angle + long.angle == pytest.approx(2.0 * pi)
     np.testing.assert_allclose(long.at(ENDS)[0], [R_I, R_F], atol=5e-15)
-
-
-# ZYZ
-
-
-def turns_by(path: ZyzPath) -> None:
-    x = np.linspace(0.01, 0.99, 40)
-    _, rates, changes = path.at(x)
-    by_steps = differs_by_steps(path, x)
-    np.testing.assert_allclose(rates, by_steps[0], atol=1e-8)
-    np.testing.assert_allclose(changes, by_steps[1], atol=2e-4)
-
-
-def test_both_branches_of_zyz_arrive() -> None:
-    for seed in range(20):
-        start, end = Rotation.random(2, rng=seed).as_matrix()
-        regular, flipped = zyz_paths(start, end)
-        assert (regular.branch, flipped.branch) == ("regular", "flipped")
-        assert np.sign(flipped.start[1] + flipped.change[1]) == -1.0
-        for path in (regular, flipped):
-            np.testing.assert_allclose(path.at(ENDS)[0], [start, end], atol=1e-14)
-            assert np.abs(path.change[[0, 2]]).max() <= pi
-            assert path.angle >= angle_between(start, end) - 1e-9, "one axis is the shortest way"
-            turns_by(path)
-
-
-def test_zyz_goes_the_short_way_round() -> None:
-    path = zyz_paths(zyz(3.0, 0.5, -3.0), zyz(-3.0, 0.5, 3.0))[0]
-    np.testing.assert_allclose(path.change, [2.0 * pi - 6.0, 0.0, 6.0 - 2.0 * pi], atol=1e-13)
-
-
-@pytest.mark.parametrize("theta", [0.0, pi])
-def test_zyz_where_it_degenerates(theta: float) -> None:
-    """The angle that is not determined is that of the other end, so that φ does not move for nothing."""
-    flat, regular = zyz(0.4, theta, 0.5), zyz(1.0, 0.9, 0.5)
-    for start, end, names in ((flat, regular, ("start",)), (regular, flat, ("end",)), (flat, flat, ("start", "end"))):
-        for path in zyz_paths(start, end):
-            assert path.degenerate == names
-            np.testing.assert_allclose(path.at(ENDS)[0], [start, end], atol=1e-14)
-        assert zyz_paths(start, end)[0].change[0] == pytest.approx(0.0, abs=1e-15)
-    assert not zyz_paths(flat, flat)[0].change.any()
 
 
 # Through several

@@ -13,9 +13,9 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses, transform
 from app.trajectory.fly_over import blended, corner_of
-from app.trajectory.orientation_paths import zyz_paths
 from app.trajectory.paths import Path, PathSequence, circle, line, sequence
 from app.trajectory.spline_paths import blended_lines, spline
+from app.trajectory.zyz_paths import zyz_paths, zyz_turns
 
 
 def poses(count: int, seed: int, step: float = 0.7) -> Poses:
@@ -37,13 +37,21 @@ def example(kind: str, seed: int = 1) -> Path:
         "turn": lambda: line(Ts[0], transform(Ts[0, :3, 3], Ts[1, :3, :3])),
         "circle": lambda: circle(Ts[0], Ts[1], Ts[2]),
         "circle by slerp": lambda: circle(Ts[0], Ts[1], Ts[2], "slerp"),
+        "circle by zyz": lambda: circle(Ts[0], Ts[1], Ts[2], "zyz_other"),
         "spline": lambda: spline(poses(6, seed)),
+        "spline by zyz": lambda: spline(poses(6, seed), "natural", "zyz"),
         "blended lines": lambda: blended_lines(poses(5, seed), [0.2, 0.1, 0.3]),
+        "blended lines by zyz": lambda: blended_lines(
+            poses(5, seed), [0.2, 0.1, 0.3], turns=zyz_turns(poses(5, seed).rotations, [False, True, False, False])
+        ),
     }
     return made[kind]()
 
 
-KINDS = ("line", "line by zyz", "turn", "circle", "circle by slerp", "spline", "blended lines")
+KINDS = (
+    *("line", "line by zyz", "turn", "circle", "circle by slerp", "circle by zyz"),
+    *("spline", "spline by zyz", "blended lines", "blended lines by zyz"),
+)
 
 
 def away_from_breaks(path: Path, count: int, gap: float) -> Array:

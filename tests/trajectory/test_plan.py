@@ -247,6 +247,42 @@ def test_a_line_turns_about_one_axis_or_by_euler_angles() -> None:
     assert Rotation.from_matrix(by_angles.T @ wanted).magnitude() > 1e-3
 
 
+@pytest.mark.parametrize("kind", ["circle", "spline", "lines"])
+def test_every_way_of_the_tip_turns_by_euler_angles(kind: str) -> None:
+    begin = pose(READY + 0.3)
+    turns = Rotation.from_euler("xyz", [[0.2, -0.1, 0.2], [0.3, -0.3, 0.4]]).as_matrix()
+    via, end = moved(begin, 0.08, 0.05, 0.03), moved(begin, 0.1, 0.15, 0.0)
+    via[:3, :3], end[:3, :3] = begin[:3, :3] @ turns
+
+    def segments(orientation: OrientationLaw) -> tuple[Segment, ...]:
+        if kind == "circle":
+            return (Segment("circle", "cubic", LIMITS, via=via, pose=end, orientation=orientation),)
+        if kind == "spline":
+            both = np.array([via, end])
+            poses = Poses(both[:, :3, 3].copy(), both[:, :3, :3].copy())
+            return (Segment("spline", "cubic", LIMITS, poses=poses, orientation=orientation),)
+        return (
+            line(via, "cubic", blend_radius=0.02, orientation=orientation),
+            line(end, "cubic", orientation=orientation),
+        )
+
+    found = {law: plan(PANDA, ARM, Problem(READY + 0.3, segments(law))) for law in ("axis_angle", "zyz", "zyz_other")}
+    assert found["axis_angle"].failure is found["zyz"].failure is None
+    assert found["zyz_other"].completed_fraction < 1.0, "the other triple is a turn of nearly π further"
+    poses = {law: tip_at(one, np.linspace(0.0, one.motion.duration, 400)) for law, one in found.items()}
+    for law in ("axis_angle", "zyz"):
+        np.testing.assert_allclose(poses[law].matrices()[-1], end, atol=1e-6)
+    triples = Rotation.from_matrix(poses["zyz"].rotations).as_euler("ZYZ")
+    if kind != "lines":
+        nearest = np.linalg.norm(poses["zyz"].positions - via[:3, 3], axis=1).argmin()
+        at_via = Rotation.from_matrix(via[:3, :3]).as_euler("ZYZ")
+        assert np.abs(triples[nearest] - at_via).max() < 0.01
+    # Each angle is a function of the place alone, and it does not go back but over a corner or a bend of the spline.
+    assert np.abs(np.diff(triples, axis=0)).max() < 0.02
+    axis_angle = Rotation.from_matrix(poses["axis_angle"].rotations).as_euler("ZYZ")
+    assert np.abs(axis_angle - triples).max() > 1e-3, "another way"
+
+
 def test_two_timings_are_compared_on_request() -> None:
     blended = (line(SIDE, "cubic", blend_radius=0.05), line(ABOVE, "cubic"))
     found = planned(joint(READY + 0.1, "cubic"), line(HERE, "cubic"), *blended, compares_timing=True)
@@ -310,7 +346,7 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
         ((line(SIDE, blend_radius=0.1), line(ABOVE, "cubic")), "segments.0.law", "share one law"),
         ((line(SIDE, blend_radius=0.1, duration=2.0), line(ABOVE)), "segments.0.duration", "timed together"),
         ((line(SIDE, blend_time=0.1), line(ABOVE)), "segments.0.blend_time", "tip_velocity"),
-        ((line(SIDE, blend_radius=0.1, orientation="zyz"), line(ABOVE)), "segments.0.orientation", "axis_angle"),
+        ((line(SIDE, blend_radius=0.1, orientation="zyz"), line(ABOVE)), "segments.1.orientation", "axis_angle"),
         ((line(SIDE, blend_radius=0.1), line(SIDE)), "segments.1.target", "share one position"),
         ((joint(READY + 9.0),), "segments.0.target", "panda_joint1 at 9 is outside its limits"),
         (
