@@ -2,11 +2,11 @@
 
 from concurrent.futures import Executor
 from dataclasses import asdict
-from typing import Any, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
-from app.api.course import course_route
+from app.api.course import Picture, course_route
 from app.api.routes import DocumentedRoute
 from app.model.arrays import Array
 from app.model.errors import InvalidField
@@ -33,7 +33,8 @@ def fly_over_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         the largest that fits.
 
         With `rest_acceleration` the whole motion: from rest in A, a trapezoid of speed whose middle is the blend, to
-        rest in C. It is refused where the blend and the ramps overlap.
+        rest in C. It is refused where the blend and the ramps overlap. As a picture with `Accept: image/svg+xml` or
+        `image/png`.
         """
         raise NotImplementedError
 
@@ -45,17 +46,32 @@ def fly_over_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         executor,
         max_body_bytes,
         example=EXAMPLE_FLY_OVER,
+        picture=Picture("The corner in its plane, and the speed and the acceleration over time.", _picture),
         is_heavy=lambda call: (call.samples or 0) > _QUICK_SAMPLES,
         operation_id="fly_over",
         summary="Fly-over: a corner without a stop",
     )
 
 
-def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
-    given, value = _given(call)
+def _planned(call: FlyOverRequest, given: Given, value: float) -> tuple[Blend, BlendedMotion | None]:
+    """The blend, and the whole motion where it is asked for."""
     A, B, C = _points(call)
     blend = blended(corner_of(A, B, C, call.speed_before, call.speed_after), given, value)
-    whole = None if call.rest_acceleration is None else rest_to_rest(blend, call.rest_acceleration)
+    return blend, None if call.rest_acceleration is None else rest_to_rest(blend, call.rest_acceleration)
+
+
+def _picture(call: FlyOverRequest, kind: Literal["svg", "png"]) -> bytes:
+    # Matplotlib takes a third of a second to load.
+    from app.plots.fly_over import fly_over_picture  # noqa: PLC0415
+
+    blend, whole = _planned(call, *_given(call))
+    checked(blend, None if whole is None else whole.motion)
+    return fly_over_picture(blend, _motion(blend, whole), kind)
+
+
+def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
+    given, value = _given(call)
+    blend, whole = _planned(call, given, value)
     motion = _motion(blend, whole)
     return {
         "given": given,

@@ -4,17 +4,11 @@ import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import asdict
-from typing import Any
+from typing import Any, Literal
 
-from starlette.responses import Response
-
-from app.api.course import TAG
-from app.api.openapi import json_example, picture_content, problem_responses
-from app.api.payloads import JSON, PNG, SVG, BoundedRequest, json_response, read_json
-from app.api.problems import UnsupportedMediaType
-from app.api.routes import INLINE_BYTES, DocumentedRoute, Handler, in_thread
+from app.api.course import Picture, course_route
+from app.api.routes import DocumentedRoute
 from app.course import planar
-from app.model.errors import InvalidField
 from app.schemas.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer, PlanarWorkspaceRequest
 
 
@@ -37,49 +31,27 @@ def workspace_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         """
         raise NotImplementedError
 
-    return DocumentedRoute(
-        "/v1/course/workspace",
+    return course_route(
+        "workspace",
         planar_workspace,
-        _handler(executor),
+        PlanarWorkspaceRequest,
+        _workspace,
+        executor,
         max_body_bytes,
-        methods=["POST"],
+        example=EXAMPLE_WORKSPACE,
+        picture=Picture("Both workspaces, and the arm with its tip at `point`.", _picture),
         operation_id="planar_workspace",
         summary="Workspaces of a planar arm",
-        tags=[TAG],
-        responses={
-            200: {"content": picture_content("Both workspaces, and the arm with its tip at `point`.")},
-            **problem_responses(400, 413, 415, 422),
-        },
-        openapi_extra={"requestBody": {"content": json_example(EXAMPLE_WORKSPACE)}},
     )
 
 
-def _handler(executor: Executor) -> Handler:
-    """What answers a request: with JSON at once, with a picture in a thread."""
-
-    async def handle(request: BoundedRequest) -> Response:
-        if request.media_type != JSON:
-            raise UnsupportedMediaType(request.media_type, (JSON,))
-        if request.scope["query_string"]:
-            raise InvalidField("query", "this call has its parameters as fields of the body")
-        wanted, body = request.preferred((JSON, SVG, PNG)), await request.body()
-        if wanted != JSON or len(body) > INLINE_BYTES:
-            return await in_thread(executor, lambda: _answer(read_json(PlanarWorkspaceRequest, body), wanted))
-        return _answer(read_json(PlanarWorkspaceRequest, body), wanted)
-
-    return handle
-
-
-def _answer(call: PlanarWorkspaceRequest, wanted: str) -> Response:
-    if wanted == JSON:
-        return json_response(_workspace(call))
+def _picture(call: PlanarWorkspaceRequest, kind: Literal["svg", "png"]) -> bytes:
     # Matplotlib takes a third of a second to load.
     from app.plots.planar_workspace import planar_workspace_picture  # noqa: PLC0415
 
     arm = planar.planar_workspace(call.links)
     planar.tried(arm)
-    picture = planar_workspace_picture(arm, call.point, "svg" if wanted == SVG else "png")
-    return Response(picture, media_type=wanted)
+    return planar_workspace_picture(arm, call.point, kind)
 
 
 def _workspace(call: PlanarWorkspaceRequest) -> dict[str, Any]:

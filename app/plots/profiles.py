@@ -92,7 +92,7 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind
     step = (top - bottom) / 4.0
     for order, name in enumerate(("position", "velocity", "acceleration", "jerk")):
         axes = figure.add_axes((0.14, top - (order + 1) * step + 0.012, 0.825, step - 0.024))
-        _style(axes, f"{name}\n{lines.units[order]}", is_last=order == 3)
+        time_axes(axes, f"{name}\n{lines.units[order]}", is_last=order == 3)
         _draw(axes, motion.derivative(order))
         if order > 0:
             _limit(axes, lines, order - 1)
@@ -110,7 +110,8 @@ def _look(joint: int) -> tuple[str, tuple[float, ...]]:
     return _COLORS[joint % len(_COLORS)], _DASHES[joint // len(_COLORS) % len(_DASHES)]
 
 
-def _style(axes: Axes, label: str, *, is_last: bool) -> None:
+def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
+    """Axes of a quantity over time; the last of several below each other says what time is."""
     axes.set_axisbelow(True)
     axes.grid(color=RULE, linewidth=0.6)
     for side, spine in axes.spines.items():

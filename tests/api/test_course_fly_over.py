@@ -236,3 +236,13 @@ def test_ten_thousand_samples(client: TestClient) -> None:
     content = good(client, {**IN_SPACE, "samples": 10_000})
     assert time.perf_counter() - started < 2.0
     assert len(content["samples"]["positions"]) == 10_000
+
+
+@pytest.mark.parametrize(("media_type", "begins"), [("image/svg+xml", b"<?xml"), ("image/png", b"\x89PNG")])
+def test_as_a_picture(client: TestClient, media_type: str, begins: bytes) -> None:
+    answer = client.post(PATH, json=EXAMPLE_FLY_OVER, headers={"accept": media_type})
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == media_type
+    assert answer.content.startswith(begins)
+    refused = client.post(PATH, json={**EXAMPLE_FLY_OVER, "blend_time": -1.0}, headers={"accept": media_type})
+    assert refused.status_code == 422
