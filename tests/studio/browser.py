@@ -57,7 +57,7 @@ class Studio:
         complaints = [*self.complaints, *self.run("globalThis.violations ?? []")]
         self.page.context.close()
         assert complaints == []
-        assert set(self.refused) == expected
+        assert set(self.refused) == expected, self.refused
 
     def open(self, panel: str = "pose", **address: str) -> None:
         """Open the page at a state, and wait for its robot."""

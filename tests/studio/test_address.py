@@ -7,7 +7,8 @@ import pytest
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, type_table
 
-KEPT = ("panel", "robot", "draft", "base", "tip", "target", "positions", "degrees", "frames", "axes", "names", "dh")
+LINKED = ("panel", "robot", "draft", "base", "tip", "target", "inverse", "degrees", "frames", "axes", "names", "dh")
+KEPT = (*LINKED, "positions")
 
 
 def states(studio: Studio) -> dict[str, object]:
@@ -28,7 +29,7 @@ def test_a_reload_restores_everything(studio: Studio) -> None:
         studio.button(mark).click()
     studio.field("Tip frame").select_option("wrist_2_link")
     target = {"position": [0.3, 0.1, 0.4], "rpy": [0.1, 0.2, 0.3]}
-    studio.run("(target) => studio.store.set({target})", target)
+    studio.run("(target) => studio.store.set({target, inverse: {task: ['x', 'y', 'z']}})", target)
     settled(studio)
     before, tip = states(studio), studio.tip()
     studio.page.reload()
@@ -67,6 +68,8 @@ def test_back_returns_to_the_robot_before(studio: Studio) -> None:
         "#panel=nothing",
         "#robot=panda&base=nowhere&tip=nowhere",
         "#target={",
+        "#panel=ik&target=[1]&ik=3",
+        '#panel=ik&target={"position":[0,0],"rpy":5}&ik={"task":5}',
         "#%%%",
     ],
 )

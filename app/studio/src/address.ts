@@ -2,7 +2,8 @@
 
 import { FIRST, type Linked, type State } from "./state.ts";
 import type { Store } from "./store.ts";
-import type { DhTable, Pose } from "./types.ts";
+import { isPose } from "./robot/pose.ts";
+import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
 const FLAGS = ["degrees", "frames", "axes", "names", "dh"] as const;
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
@@ -21,7 +22,9 @@ export function read(hash: string): Address {
   linked.robot = linked.draft ? "" : (given.get("robot") ?? FIRST.robot);
   linked.base = given.get("base");
   linked.tip = given.get("tip");
-  linked.target = json<Pose>(given.get("target"));
+  const target = json<unknown>(given.get("target"));
+  linked.target = isPose(target) ? target : null;
+  linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
   const numbers = given.get("q")?.split(",").map(Number) ?? null;
@@ -37,6 +40,7 @@ export function write(state: Readonly<State>): string {
   if (state.tip) parts.push(["tip", state.tip]);
   if (state.model) parts.push(["q", state.model.joints.map((joint) => state.positions[joint.name] ?? 0).join(",")]);
   if (state.target) parts.push(["target", JSON.stringify(state.target)]);
+  if (state.inverse) parts.push(["ik", JSON.stringify(state.inverse)]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
   return "#" + parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
@@ -58,10 +62,13 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
     if (step) history.pushState(null, "", hash);
     else history.replaceState(null, "", hash);
   };
-  store.watch(["panel", "robot", "draft", "base", "tip", "target", "positions", "model", "loading", ...FLAGS], () => {
-    clearTimeout(timer);
-    timer = window.setTimeout(update, WRITE_AFTER);
-  });
+  store.watch(
+    ["panel", "robot", "draft", "base", "tip", "target", "inverse", "positions", "model", "loading", ...FLAGS],
+    () => {
+      clearTimeout(timer);
+      timer = window.setTimeout(update, WRITE_AFTER);
+    },
+  );
   const follow = () => {
     if (location.hash === written) return;
     clearTimeout(timer);
@@ -75,6 +82,14 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
 
 function placeOf(state: Readonly<State>): string {
   return `${state.panel} ${state.robot}`;
+}
+
+/** Options as far as the panel can show them; whether their values go together is for the service to say. */
+function inverseOptions(given: unknown): InverseOptions | null {
+  if (typeof given !== "object" || given === null) return null;
+  const { task, ...rest } = given as InverseOptions;
+  const wanted = Array.isArray(task) ? DIRECTIONS.filter((direction) => task.includes(direction)) : [];
+  return wanted.length ? { ...rest, task: wanted } : rest;
 }
 
 function json<T>(text: string | null): T | null {

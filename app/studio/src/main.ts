@@ -28,6 +28,7 @@ function start(): void {
   const loader = new Loader(api, store, () => {
     view?.settle();
     measure();
+    store.set({ meshes: store.value.meshes + 1 });
   });
   store.watch(["positions"], ({ model, positions: wanted }) => model?.place(wanted));
   store.watch(["model"], ({ model }) => {

@@ -2,7 +2,7 @@
 
 import type { Problem } from "./api.ts";
 import type { RobotModel } from "./robot/model.ts";
-import type { DhTable, Pose } from "./types.ts";
+import type { DhTable, InverseOptions, Pose } from "./types.ts";
 
 export type Positions = Readonly<Record<string, number>>;
 
@@ -17,6 +17,8 @@ export interface Linked {
   tip: string | null;
   /** Where the inverse is to bring the tip. */
   target: Pose | null;
+  /** How the inverse is asked for, where it is not as usual. */
+  inverse: InverseOptions | null;
   /** Whether angles are shown and typed in degrees; calls are always in radians. */
   degrees: boolean;
   frames: boolean;
@@ -30,6 +32,8 @@ export interface State extends Linked {
   positions: Positions;
   /** The robot on the screen; the one before while another is on its way. */
   model: RobotModel | null;
+  /** Grows with each mesh file that arrives: what is drawn of the model has changed. */
+  meshes: number;
   loading: boolean;
   /** Why the robot or draft asked for is not on the screen. */
   failure: Problem | null;
@@ -51,6 +55,7 @@ export const FIRST: Linked = {
   base: null,
   tip: null,
   target: null,
+  inverse: null,
   degrees: false,
   frames: false,
   axes: false,
@@ -63,6 +68,7 @@ export function initial(linked: Linked): State {
     ...linked,
     positions: {},
     model: null,
+    meshes: 0,
     loading: false,
     failure: null,
     table: null,

@@ -103,3 +103,60 @@ export interface TableAnswer {
   notes: string[];
   warnings: string[];
 }
+
+export const DIRECTIONS = ["x", "y", "z", "rx", "ry", "rz"] as const;
+export type Direction = (typeof DIRECTIONS)[number];
+
+export type InverseMethod =
+  "auto" | "analytic" | "newton" | "gradient" | "gradient_then_newton" | "damped_least_squares";
+
+/** Fields of a call of `ik`, beside the targets, the seeds and the chain. */
+export interface InverseOptions {
+  method?: InverseMethod;
+  solutions?: "one" | "all";
+  task?: Direction[];
+  respect_limits?: boolean;
+  position_tolerance?: number;
+  orientation_tolerance?: number;
+}
+
+export interface Errors {
+  position_error: number;
+  orientation_error: number;
+}
+
+export interface InverseSolution extends Errors {
+  joint_positions: number[];
+  method: string;
+  iterations: number;
+  restarts: number;
+  branch: Record<string, string | number> | null;
+  free_joints?: string[] | null;
+}
+
+export interface Iteration {
+  error: number;
+  min_singular_value: number;
+  step_length: number | null;
+  method: string | null;
+  joint_positions: number[];
+}
+
+export interface InverseResult {
+  status: "solved" | "unreachable" | "outside_limits" | "singular" | "not_converged";
+  solutions: InverseSolution[];
+  reason: string | null;
+  nearest?: (Errors & { joint_positions: number[]; pose: Pose }) | null;
+  complete?: boolean | null;
+  stop_reason?: string | null;
+  trace?: Iteration[] | null;
+}
+
+export interface InverseAnswer {
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  task: Direction[];
+  closed_form: string | null;
+  results: InverseResult[];
+}

@@ -1,7 +1,8 @@
 /** The panels, in the order of their tabs. */
 
 import type { Panel } from "./panel.ts";
+import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
 
-export const PANELS: readonly Panel[] = [robotPanel, posePanel];
+export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel];

@@ -1,6 +1,6 @@
 /** A robot on the screen: the scene that urdf-loader makes of its URDF, its joints, and its own forward kinematics. */
 
-import { Matrix4, type Object3D } from "three";
+import { type Matrix4, Mesh, type Object3D } from "three";
 import { URDFJoint, type URDFRobot } from "urdf-loader/src/URDFClasses.js";
 
 import type { Positions } from "../state.ts";
@@ -77,6 +77,16 @@ export class RobotModel {
   /** T_base_tip at the configuration that the scene is in. */
   pose(base: string, tip: string): Matrix4 {
     return this.link(base).matrixWorld.clone().invert().multiply(this.link(tip).matrixWorld);
+  }
+
+  /** What is drawn of the links that move with these joints. */
+  moving(joints: readonly Joint[]): Mesh[] {
+    const names = new Set(joints.map((joint) => joint.name));
+    const found = new Set<Mesh>();
+    for (const { joint, leader } of this.#drives) {
+      if (names.has(leader)) joint.traverse((node) => node instanceof Mesh && found.add(node));
+    }
+    return [...found];
   }
 
   /** The joints that a configuration of a chain lists, base to tip: those that move, a leader for what mimics it. */

@@ -1,6 +1,6 @@
 /** Poses in the notations of the API, from and to the matrices of three.js. */
 
-import { Matrix4, Quaternion } from "three";
+import { Matrix4, Quaternion, Vector3 } from "three";
 
 import type { Pose, PoseFormat } from "../types.ts";
 
@@ -121,4 +121,44 @@ export function difference(A: Matrix4, B: Matrix4): { position: number; angle: n
     position: Math.hypot(at(12), at(13), at(14)),
     angle: 2 * Math.asin(Math.min(1, chord / Math.SQRT2 / 2)),
   };
+}
+
+/** Whether a value, of an address for instance, has the form of a pose; whether it is a rotation is another matter. */
+export function isPose(value: unknown): value is Pose {
+  if (typeof value !== "object" || value === null) return false;
+  const { position: place, ...rest } = value as Pose;
+  const format = formatOf(rest);
+  if (Object.keys(rest).length !== 1 || !format || (format === "matrix") !== (place === undefined)) return false;
+  return (place === undefined || hasShape(place, [3])) && hasShape(rest[format], SHAPES[format]);
+}
+
+export function formatOf(pose: Pose): PoseFormat | null {
+  return FORMATS.find(({ format }) => pose[format] !== undefined)?.format ?? null;
+}
+
+const SHAPES: Record<PoseFormat, readonly number[]> = {
+  quaternion_xyzw: [4],
+  quaternion_wxyz: [4],
+  rpy: [3],
+  zyz: [3],
+  rotation_vector: [3],
+  rotation: [3, 3],
+  matrix: [4, 4],
+};
+
+function hasShape(value: unknown, [length, ...rest]: readonly number[]): boolean {
+  if (length === undefined) return Number.isFinite(value);
+  return Array.isArray(value) && value.length === length && value.every((item) => hasShape(item, rest));
+}
+
+/** The pose with a rotation in the place of what is nearly one: x keeps its direction, y its plane with x. */
+export function straightened(pose: Pose): Matrix4 {
+  const T = asMatrix(pose);
+  const [x, y, z, p] = [new Vector3(), new Vector3(), new Vector3(), new Vector3().setFromMatrixPosition(T)];
+  T.extractBasis(x, y, z);
+  z.crossVectors(x, y).normalize();
+  x.normalize();
+  y.crossVectors(z, x);
+  const isFlat = z.length() < 0.5;
+  return (isFlat ? new Matrix4() : new Matrix4().makeBasis(x, y, z)).setPosition(p);
 }

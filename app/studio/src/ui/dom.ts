@@ -43,6 +43,13 @@ export class Choice<T extends string> {
     this.host = element("div", { class: "choice", role: "group", "aria-label": title }, ...this.#buttons.values());
   }
 
+  /** Take an option away, with the reason, or give it back. */
+  allow(value: T, reason: string | null): void {
+    const made = this.#buttons.get(value)!;
+    made.disabled = reason !== null;
+    made.title = reason ?? "";
+  }
+
   show(chosen: T): void {
     for (const [value, made] of this.#buttons) made.setAttribute("aria-pressed", String(value === chosen));
   }

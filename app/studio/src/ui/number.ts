@@ -16,6 +16,8 @@ export interface NumberOptions {
   /** What was typed, as soon as it is a number; with `live` at every key, else when the field is left. */
   change: (value: number | null) => void;
   live?: boolean;
+  /** What the arrow keys up and down do: add so much or take it away, ten times as much with Shift. */
+  step?: { by: number; take: (value: number) => void };
   /** The field holds no number, or again one. */
   invalid?: (reason: string | null) => void;
 }
@@ -39,6 +41,7 @@ export class NumberField {
       onkeydown: (event: KeyboardEvent) => {
         if (event.key === "Enter") this.#commit();
         if (event.key === "Escape") this.#forget();
+        if (event.key === "ArrowUp" || event.key === "ArrowDown") this.#step(event);
       },
     });
   }
@@ -87,6 +90,20 @@ export class NumberField {
     this.#isEdited = false;
     this.#take(value);
     if (document.activeElement === this.input) this.#write(exact);
+  }
+
+  #step(event: KeyboardEvent): void {
+    const { step } = this.options;
+    const value = this.#isEdited ? this.#read() : this.#value;
+    if (!step || value === null || value === undefined) return;
+    event.preventDefault();
+    this.#isEdited = false;
+    const sign = (event.key === "ArrowUp" ? 1 : -1) * (event.shiftKey ? 10 : 1);
+    const scale = this.options.kind === "angle" && this.options.degrees() ? 180 / Math.PI : 1;
+    // Rounded as it is shown: without the dust of adding 0.1 and 0.2.
+    this.#value = Number(((value + sign * step.by) * scale).toPrecision(15)) / scale;
+    this.#write(exact);
+    step.take(this.#value);
   }
 
   #forget(): void {

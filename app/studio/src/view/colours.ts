@@ -3,7 +3,7 @@
 import { Color } from "three";
 
 export type Hue =
-  "view" | "grid" | "grid-strong" | "x" | "y" | "z" | "axis" | "accent" | "ink" | "dimension-a" | "dimension-d";
+  "view" | "grid" | "grid-strong" | "x" | "y" | "z" | "axis" | "accent" | "ink" | "bad" | "dimension-a" | "dimension-d";
 
 const probe = document.createElement("span");
 probe.hidden = true;

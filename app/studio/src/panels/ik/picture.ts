@@ -1,0 +1,124 @@
+/** The target and the answers in the picture: solutions as ghosts, what comes nearest as one of another colour. */
+
+import { Group } from "three";
+
+import { type ShownChain, shownChain } from "../../robot/chain.ts";
+import { asMatrix } from "../../robot/pose.ts";
+import type { State } from "../../state.ts";
+import type { Store } from "../../store.ts";
+import { Ghost } from "../../view/ghosts.ts";
+import { clear, put, triad } from "../../view/shapes.ts";
+import type { View } from "../../view/view.ts";
+import { distance } from "./distance.ts";
+import { moved, type Outcome } from "./solver.ts";
+
+/** Ghosts at a time: more of them hide one another, and the picture slows down. */
+export const MOST_GHOSTS = 8;
+
+const USUAL = 0.24;
+const POINTED = 0.7;
+const FAINT = 0.1;
+const NEAREST = 0.5;
+/** From here on a ghost would flicker inside of the robot. */
+const SAME = 1e-3;
+
+export class Picture {
+  #group = new Group();
+  #target = new Group();
+  #ghosts = new Map<number, Ghost>();
+  #nearest: Ghost | null = null;
+  #stops: (() => void)[];
+
+  constructor(
+    private readonly view: View,
+    private readonly store: Store<State>,
+    private readonly outcome: Store<Outcome>,
+  ) {
+    view.scene.add(this.#group, this.#target);
+    this.#stops = [
+      store.watch(["model", "base", "target", "unit", "dark"], (state) => this.#drawTarget(state)),
+      store.watch(["model", "meshes", "dark"], () => this.#draw()),
+      outcome.watch(["result", "isFollowing"], () => this.#draw()),
+      outcome.watch(["pointed"], () => this.#paint()),
+      store.watch(["positions"], () => this.#paint()),
+    ];
+  }
+
+  close(): void {
+    for (const stop of this.#stops) stop();
+    this.#clear();
+    clear(this.#target);
+    this.view.scene.remove(this.#group, this.#target);
+    this.view.draw();
+  }
+
+  #drawTarget(state: Readonly<State>): void {
+    clear(this.#target);
+    const chain = shownChain(state);
+    if (chain && state.target) {
+      this.#target.add(triad(state.unit * 1.4));
+      put(this.#target, chain.model.link(chain.base).matrixWorld.clone().multiply(asMatrix(state.target)));
+    }
+    this.view.draw();
+  }
+
+  #draw(): void {
+    this.#clear();
+    const { result, isFollowing } = this.outcome.value;
+    const chain = this.#chain();
+    if (chain && result) {
+      if (!isFollowing) for (const i of result.solutions.slice(0, MOST_GHOSTS).keys()) this.#add(chain, i);
+      if (result.nearest) {
+        this.#nearest = new Ghost(chain.model, chain.joints, "bad", NEAREST);
+        this.#nearest.group.name = "nearest";
+        this.#place(this.#nearest, result.nearest.joint_positions);
+      }
+    }
+    this.#paint();
+  }
+
+  /** The chain that the answer is of; null where another robot is on the screen by now. */
+  #chain(): ShownChain | null {
+    const chain = shownChain(this.store.value);
+    const names = this.outcome.value.answer?.joint_names.join();
+    return chain && chain.joints.map((joint) => joint.name).join() === names ? chain : null;
+  }
+
+  #add(chain: ShownChain, index: number): void {
+    const ghost = new Ghost(chain.model, chain.joints, "accent", USUAL);
+    ghost.group.name = `ghost ${index}`;
+    this.#ghosts.set(index, ghost);
+    this.#place(ghost, this.outcome.value.result!.solutions[index]!.joint_positions);
+  }
+
+  #place(ghost: Ghost, values: readonly number[]): void {
+    const { positions } = this.store.value;
+    ghost.place(moved(this.store.value, this.outcome.value.answer!.joint_names, values), positions);
+    this.#group.add(ghost.group);
+  }
+
+  /** Bring out the one that is pointed at; hide those that are where the robot is. */
+  #paint(): void {
+    const { pointed, result } = this.outcome.value;
+    const chain = this.#chain();
+    if (chain && result) {
+      if (pointed !== null && result.solutions[pointed] && !this.#ghosts.has(pointed)) this.#add(chain, pointed);
+      for (const [index, ghost] of this.#ghosts) {
+        const isPointed = index === pointed;
+        ghost.paint("accent", isPointed ? POINTED : pointed === null ? USUAL : FAINT);
+        const isHere = distance(chain, result.solutions[index]!.joint_positions) < SAME;
+        ghost.group.visible = !isHere && (isPointed || index < MOST_GHOSTS);
+      }
+      if (this.#nearest && result.nearest)
+        this.#nearest.group.visible = distance(chain, result.nearest.joint_positions) > SAME;
+    }
+    this.view.draw();
+  }
+
+  #clear(): void {
+    for (const ghost of this.#ghosts.values()) ghost.remove();
+    this.#ghosts.clear();
+    this.#nearest?.remove();
+    this.#nearest = null;
+  }
+}

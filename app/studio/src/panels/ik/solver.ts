@@ -1,0 +1,122 @@
+/** Asks for the solutions of the target: all that were wanted, or the next one while the target is being moved. */
+
+import { type Api, Latest, type Problem } from "../../api.ts";
+import { type ShownChain, shownChain } from "../../robot/chain.ts";
+import { asProblem } from "../../robot/load.ts";
+import type { State } from "../../state.ts";
+import { Store } from "../../store.ts";
+import type { InverseAnswer, InverseResult, Pose } from "../../types.ts";
+import { type FullOptions, fullOptions, inverseCall } from "./call.ts";
+
+const SETTLE_AFTER = 350; // ms of rest after which a target that was moved is solved as wanted
+
+/** What the service has said, and how it stands with the next answer. */
+export interface Outcome {
+  /** Of the target and chain on the screen; null before the first answer, and where there is none. */
+  answer: InverseAnswer | null;
+  result: InverseResult | null;
+  problem: Problem | null;
+  isBusy: boolean;
+  isCancelled: boolean;
+  /** Whether the target is being moved, and the robot with it. */
+  isFollowing: boolean;
+  /** The solution that the pointer or the focus is on. */
+  pointed: number | null;
+}
+
+const NOTHING: Outcome = {
+  answer: null,
+  result: null,
+  problem: null,
+  isBusy: false,
+  isCancelled: false,
+  isFollowing: false,
+  pointed: null,
+};
+
+export class Solver {
+  readonly outcome = new Store<Outcome>(NOTHING);
+  #latest = new Latest();
+  #isChasing = false;
+  #hasMoved = false;
+  #timer = 0;
+
+  constructor(
+    private readonly api: Api,
+    private readonly store: Store<State>,
+  ) {}
+
+  /** Solve the target as wanted, from the posture on the screen. */
+  async solve(): Promise<void> {
+    clearTimeout(this.#timer);
+    this.#hasMoved = false;
+    this.outcome.set({ isFollowing: false });
+    await this.#ask((options) => options);
+  }
+
+  /** Bring the robot after a target that is being moved; solved as wanted when it rests, or with `settle`. */
+  follow(target: Pose, rests = true): void {
+    this.outcome.set({ isFollowing: true });
+    this.#hasMoved = true;
+    this.store.set({ target });
+    clearTimeout(this.#timer);
+    if (rests) this.#timer = window.setTimeout(() => void this.solve(), SETTLE_AFTER);
+    void this.#chase();
+  }
+
+  cancel(): void {
+    clearTimeout(this.#timer);
+    this.#hasMoved = false;
+    this.#latest.cancel();
+    this.outcome.set({ isBusy: false, isCancelled: true, isFollowing: false });
+  }
+
+  /** What was said was of another robot or chain. */
+  forget(): void {
+    this.cancel();
+    this.outcome.set(NOTHING);
+  }
+
+  /** Call after call while the target moves: the next one begins when there is an answer, or none would ever arrive. */
+  async #chase(): Promise<void> {
+    if (this.#isChasing) return;
+    this.#isChasing = true;
+    while (this.#hasMoved) {
+      this.#hasMoved = false;
+      await this.#ask((options) => ({ ...options, solutions: "one" }));
+      if (this.outcome.value.isFollowing) this.#take();
+    }
+    this.#isChasing = false;
+  }
+
+  #take(): void {
+    const { answer, result } = this.outcome.value;
+    const found = result?.solutions[0];
+    if (answer && found)
+      this.store.set({ positions: moved(this.store.value, answer.joint_names, found.joint_positions) });
+  }
+
+  async #ask(change: (options: FullOptions) => FullOptions): Promise<void> {
+    const state = this.store.value;
+    const chain = shownChain(state);
+    if (!chain?.path || !state.target) return;
+    const call = inverseCall(chain, state.target, change(fullOptions(state.inverse, chain.joints.length)));
+    this.outcome.set({ isBusy: true, isCancelled: false });
+    try {
+      const answer = await this.#latest.run((signal) => this.#post(chain, call, signal));
+      if (answer) this.outcome.set({ answer, result: answer.results[0]!, problem: null, isBusy: false, pointed: null });
+    } catch (error) {
+      this.#hasMoved = false;
+      this.outcome.set({ ...NOTHING, problem: asProblem(error) });
+    }
+  }
+
+  #post(chain: ShownChain, call: Record<string, unknown>, signal: AbortSignal): Promise<InverseAnswer> {
+    return this.api.post<InverseAnswer>(`${chain.path}/ik`, call, signal);
+  }
+}
+
+/** The positions with some joints at others. */
+export function moved(state: Readonly<State>, names: readonly string[], values: readonly number[]): State["positions"] {
+  return { ...state.positions, ...Object.fromEntries(names.map((name, i) => [name, values[i]!])) };
+}

@@ -1,0 +1,98 @@
+/** What became of the target: how many solutions there are, or why there is none and what comes nearest. */
+
+import type { State } from "../../state.ts";
+import type { Store } from "../../store.ts";
+import type { InverseResult } from "../../types.ts";
+import { button, element } from "../../ui/dom.ts";
+import { errors } from "./errors.ts";
+import { MOST_GHOSTS } from "./picture.ts";
+import { moved, type Outcome, type Solver } from "./solver.ts";
+
+const TITLES: Record<Exclude<InverseResult["status"], "solved">, string> = {
+  unreachable: "Out of reach",
+  outside_limits: "Only outside the limits of the joints",
+  singular: "Stuck at a singularity",
+  not_converged: "Not converged",
+};
+const BUSY_AFTER = 200; // ms; what is quicker needs no word
+
+export class Verdict {
+  readonly host: HTMLElement;
+  #summary = element("p", { class: "verdict-summary", role: "status" });
+  #failure = element("div", { class: "verdict-failure", hidden: true });
+  #cancel: HTMLButtonElement;
+  #timer = 0;
+
+  constructor(
+    private readonly store: Store<State>,
+    private readonly solver: Solver,
+  ) {
+    this.#cancel = button("Cancel", () => solver.cancel(), { class: "button small", hidden: true });
+    this.host = element(
+      "div",
+      { class: "verdict" },
+      element("div", { class: "bar" }, this.#summary, this.#cancel),
+      this.#failure,
+    );
+  }
+
+  show(): void {
+    const outcome = this.solver.outcome.value;
+    clearTimeout(this.#timer);
+    if (outcome.isBusy && !outcome.isFollowing) {
+      this.#timer = window.setTimeout(() => this.#wait(), BUSY_AFTER);
+      return;
+    }
+    this.#cancel.hidden = true;
+    this.#summary.textContent = summary(outcome);
+    const { result } = outcome;
+    const hasFailed = result !== null && result.status !== "solved";
+    this.#failure.hidden = !hasFailed;
+    this.#failure.replaceChildren(...(hasFailed ? this.#explain(result) : []));
+  }
+
+  close(): void {
+    clearTimeout(this.#timer);
+  }
+
+  #wait(): void {
+    this.#summary.textContent = "Solving …";
+    this.#cancel.hidden = false;
+  }
+
+  #explain(result: InverseResult): HTMLElement[] {
+    const { nearest, reason } = result;
+    const parts = [element("strong", {}, TITLES[result.status as keyof typeof TITLES])];
+    if (reason) parts.push(element("p", {}, `${reason[0]!.toUpperCase()}${reason.slice(1)}.`));
+    if (nearest) {
+      const off = `${errors(nearest, this.solver.outcome.value.answer!.task)} off`;
+      const go = () => {
+        const names = this.solver.outcome.value.answer!.joint_names;
+        this.store.set({ positions: moved(this.store.value, names, nearest.joint_positions) });
+      };
+      parts.push(
+        element(
+          "div",
+          { class: "bar" },
+          button("Move to nearest", go, { class: "button" }),
+          element("span", { class: "small" }, off),
+        ),
+      );
+    }
+    return parts;
+  }
+}
+
+function summary({ result, answer, isCancelled, isFollowing }: Outcome): string {
+  if (isCancelled) return "Cancelled.";
+  if (!result || result.status !== "solved") return "";
+  const count = result.solutions.length;
+  const parts: string[] = [];
+  if (result.complete === true)
+    parts.push(count === 1 ? "1 solution, the only one." : `${count} solutions: these are all.`);
+  else if (result.complete === false) parts.push(`${count} solutions; there may be more.`);
+  else parts.push("Solved.");
+  if (count > MOST_GHOSTS) parts.push(`The first ${MOST_GHOSTS} are in the picture, and any that you point at.`);
+  if (answer?.closed_form && !isFollowing) parts.push(`Closed form: ${answer.closed_form}.`);
+  return parts.join(" ");
+}
