@@ -7,8 +7,10 @@ import pytest
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, type_table
 
-LINKED = ("panel", "robot", "draft", "base", "tip", "target", "inverse", "degrees", "frames", "axes", "names", "dh")
-KEPT = (*LINKED, "positions")
+KEPT = (
+    *("panel", "robot", "draft", "base", "tip", "target", "inverse", "positions"),
+    *("degrees", "frames", "axes", "names", "dh", "options"),
+)
 
 
 def states(studio: Studio) -> dict[str, object]:
@@ -29,7 +31,11 @@ def test_a_reload_restores_everything(studio: Studio) -> None:
         studio.button(mark).click()
     studio.field("Tip frame").select_option("wrist_2_link")
     target = {"position": [0.3, 0.1, 0.4], "rpy": [0.1, 0.2, 0.3]}
-    studio.run("(target) => studio.store.set({target, inverse: {task: ['x', 'y', 'z']}})", target)
+    studio.run(
+        "(target) => studio.store.set("
+        "{target, inverse: {task: ['x', 'y', 'z']}, options: {'panel.option': 'a value'}})",
+        target,
+    )
     settled(studio)
     before, tip = states(studio), studio.tip()
     studio.page.reload()

@@ -6,6 +6,7 @@ import { isPose } from "./robot/pose.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
 const FLAGS = ["degrees", "frames", "axes", "names", "dh"] as const;
+const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
 
 export interface Address {
@@ -27,6 +28,7 @@ export function read(hash: string): Address {
   linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
+  linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
   const numbers = given.get("q")?.split(",").map(Number) ?? null;
   return { linked, positions: numbers?.every(Number.isFinite) ? numbers : null };
 }
@@ -43,6 +45,7 @@ export function write(state: Readonly<State>): string {
   if (state.inverse) parts.push(["ik", JSON.stringify(state.inverse)]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
+  parts.push(...Object.entries(state.options).sort());
   return "#" + parts.map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
 }
 
@@ -63,7 +66,20 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
     else history.replaceState(null, "", hash);
   };
   store.watch(
-    ["panel", "robot", "draft", "base", "tip", "target", "inverse", "positions", "model", "loading", ...FLAGS],
+    [
+      "panel",
+      "robot",
+      "draft",
+      "base",
+      "tip",
+      "target",
+      "inverse",
+      "positions",
+      "model",
+      "loading",
+      "options",
+      ...FLAGS,
+    ],
     () => {
       clearTimeout(timer);
       timer = window.setTimeout(update, WRITE_AFTER);

@@ -25,6 +25,8 @@ export interface Linked {
   axes: boolean;
   names: boolean;
   dh: boolean;
+  /** What is chosen in panels, by `panel.option`; see `chosen`. */
+  options: Readonly<Record<string, string>>;
 }
 
 export interface State extends Linked {
@@ -61,6 +63,7 @@ export const FIRST: Linked = {
   axes: false,
   names: false,
   dh: false,
+  options: {},
 };
 
 export function initial(linked: Linked): State {
@@ -77,4 +80,15 @@ export function initial(linked: Linked): State {
     theme: "auto",
     dark: false,
   };
+}
+
+/** What is chosen of an option's values: the first of them where a link names none. */
+export function chosen<T extends string>(state: Readonly<State>, option: string, values: readonly T[]): T {
+  return values.find((value) => value === state.options[option]) ?? values[0]!;
+}
+
+/** The options with another value for one of them; null for the one that it has by itself. */
+export function choosing(state: Readonly<State>, option: string, value: string | null): Pick<State, "options"> {
+  const { [option]: _, ...others } = state.options;
+  return { options: value === null ? others : { ...others, [option]: value } };
 }

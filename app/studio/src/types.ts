@@ -160,3 +160,66 @@ export interface InverseAnswer {
   closed_form: string | null;
   results: InverseResult[];
 }
+
+export type Reference = "local_world_aligned" | "local" | "world";
+export type Representation = "geometric" | "zyz" | "rpy";
+
+export interface JacobianAnswer {
+  joint_names: string[];
+  /** 6 rows, n columns: [m or rad] per [rad or m]. */
+  jacobians: number[][][];
+  ranks: number[];
+  singular_values: number[][];
+  condition_numbers: (number | null)[];
+  certificate: { max_error: number };
+}
+
+export interface Ellipsoid {
+  /** Unit vectors; of the combined part six numbers each. */
+  axes: number[][];
+  /** Null where there is no end. */
+  semi_axes: (number | null)[];
+}
+
+export interface PartAnswer {
+  rank: number;
+  singular: boolean;
+  velocity_ellipsoid: Ellipsoid;
+  force_ellipsoid: Ellipsoid;
+  measure: number | null;
+  condition_number: number | null;
+  isotropy: number | null;
+}
+
+export type Part = "translation" | "rotation" | "combined";
+
+export interface ManipulabilityAnswer {
+  spaces: { part: Part; dimension: number; velocity_unit: string; force_unit: string; measure_unit: string }[];
+  results: Record<Part, PartAnswer | null>[];
+}
+
+export interface SingularityReport {
+  singular: boolean;
+  rank: number;
+  structural_rank: number;
+  lost_directions: { twist: number[]; wrench: number[]; lost_here: boolean }[];
+  internal_motions: { joint_velocities: number[]; only_here: boolean }[];
+  dependent_joints: string[];
+  kinds: string[];
+  exit: { joint: string; direction: number[]; rate: number } | null;
+  nearest?: NearestSingularity | null;
+  nearest_reason?: string | null;
+}
+
+export interface NearestSingularity {
+  distance: number;
+  joint_positions: number[];
+  joints: string[];
+  within_limits: boolean;
+  kinds: string[];
+}
+
+export interface SingularityAnswer {
+  joint_names: string[];
+  singularities: SingularityReport[];
+}

@@ -1,8 +1,9 @@
 /** The panels, in the order of their tabs. */
 
+import { jacobianPanel } from "./jacobian/index.ts";
 import type { Panel } from "./panel.ts";
 import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
 
-export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel];
+export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel, jacobianPanel];

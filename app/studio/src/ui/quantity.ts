@@ -93,3 +93,16 @@ export function fixed(value: number, decimals: number): string {
   const text = value.toFixed(decimals);
   return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
 }
+
+/** A measured number to read: three digits, with a power of ten where it is very small or large. */
+export function rounded(value: number): string {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const sign = value < 0 ? "−" : "";
+  if (size < 1e-3 || size >= 1e5) return sign + scientific(size);
+  return sign + (size >= 100 ? size.toFixed(0) : size.toPrecision(3));
+}
+
+export function subscript(i: number): string {
+  return [...String(i)].map((digit) => "₀₁₂₃₄₅₆₇₈₉"[Number(digit)]).join("");
+}

@@ -21,7 +21,11 @@ export class RequestView {
   #code = element("code");
   #choice: Choice<Language>;
 
-  constructor(private readonly service: Api) {
+  /** @param what which of a panel's calls it shows, where there are several. */
+  constructor(
+    private readonly service: Api,
+    what = "",
+  ) {
     this.api = service.recorded((call) => this.show(call));
     this.#choice = new Choice("Language", LANGUAGES, (language) => {
       this.#language = language;
@@ -33,11 +37,15 @@ export class RequestView {
       this.#choice.host,
       copyButton(() => this.#code.textContent ?? "", "the request"),
     );
-    const code = element("pre", { tabindex: "0", role: "region", "aria-label": "The request" }, this.#code);
+    const code = element(
+      "pre",
+      { tabindex: "0", role: "region", "aria-label": what ? `The request: ${what}` : "The request" },
+      this.#code,
+    );
     this.host = element(
       "details",
       { class: "request", hidden: true },
-      element("summary", {}, "As request"),
+      element("summary", {}, what ? `As request: ${what}` : "As request"),
       element("div", { class: "request-body" }, bar, code),
     );
   }

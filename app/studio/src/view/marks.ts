@@ -7,6 +7,7 @@ import { shownChain } from "../robot/chain.ts";
 import { frames } from "../robot/dh.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
+import { subscript } from "../ui/quantity.ts";
 import { colour } from "./colours.ts";
 import { arrow, clear, label, put, rod, stretch, triad } from "./shapes.ts";
 import type { View } from "./view.ts";
@@ -140,8 +141,4 @@ function join(tips: readonly AxisName[], near: number): void {
       heads.push(tip);
     }
   }
-}
-
-function subscript(i: number): string {
-  return [...String(i)].map((digit) => "₀₁₂₃₄₅₆₇₈₉"[Number(digit)]).join("");
 }

@@ -5,6 +5,8 @@ import {
   ConeGeometry,
   CylinderGeometry,
   Group,
+  Line,
+  type Material,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
@@ -79,6 +81,7 @@ export function clear(group: Object3D): void {
   group.traverse((node) => {
     if (node instanceof CSS2DObject) node.element.remove();
     if (node instanceof Mesh && node.material instanceof MeshBasicMaterial) node.material.dispose();
+    if (node instanceof Line) (node.material as Material).dispose();
   });
   group.clear();
 }

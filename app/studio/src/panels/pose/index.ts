@@ -57,7 +57,8 @@ function open(host: HTMLElement, studio: Studio): () => void {
   };
 }
 
-function presets({ store }: Studio): HTMLElement[] {
+/** Buttons that put the chain somewhere. */
+export function presets({ store }: Studio): HTMLElement[] {
   const go = (positions: (chain: ShownChain) => Positions) => () => {
     const chain = shownChain(store.value);
     if (chain) store.set({ positions: positions(chain) });
