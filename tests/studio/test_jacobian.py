@@ -51,7 +51,7 @@ def test_matrix_measures_and_picture_are_the_services(studio: Studio) -> None:
     studio.open("jacobian", robot="panda", q=PANDA)
     J = np.array(answer(studio, "jacobian", "panda", joint_positions=[SOMEWHERE])["jacobians"][0])
     wait_for_matrix(studio, J)
-    cells = studio.page.locator(".matrix tbody td").all_text_contents()
+    cells = studio.page.locator(".jacobian tbody td").all_text_contents()
     assert np.abs(np.array([float(cell.replace("−", "-")) for cell in cells]).reshape(6, 7) - J).max() < 6e-4
     sigmas = np.linalg.svd(J[:3], compute_uv=False)
     assert told(studio, "semi-axes") == pytest.approx(sigmas, abs=1e-12)
@@ -78,7 +78,7 @@ def test_a_column_belongs_to_its_joint(studio: Studio) -> None:
     studio.open("jacobian", robot="panda", q=PANDA)
     J = np.array(answer(studio, "jacobian", "panda", joint_positions=[SOMEWHERE])["jacobians"][0])
     wait_for_matrix(studio, J)
-    marked = studio.page.locator(".matrix .marked")
+    marked = studio.page.locator(".jacobian .marked")
     for by in ("focus", "hover"):
         getattr(studio.page.get_by_role("button", name="q₃, panda_joint3"), by)()
         assert studio.state("joint") == "panda_joint3"

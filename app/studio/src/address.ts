@@ -1,12 +1,13 @@
 /** The state in the address bar, behind `#`: readable, exact to the last digit, and never sent to a server. */
 
-import { FIRST, type Linked, type State } from "./state.ts";
+import { FIRST, type Linked, type State, type Writing } from "./state.ts";
 import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
 import { type DhTable, DIRECTIONS, type InverseOptions } from "./types.ts";
 
 const FLAGS = ["degrees", "frames", "axes", "names", "dh"] as const;
 const OPTION = /^[a-z]+\.[a-z]+$/; // `panel.option`
+const PARTS: readonly string[] = ["transforms", "pose", "jacobian", "singular", "motion"];
 const WRITE_AFTER = 250; // browsers refuse more than some hundred changes of the address in half a minute
 
 export interface Address {
@@ -26,6 +27,7 @@ export function read(hash: string): Address {
   const target = json<unknown>(given.get("target"));
   linked.target = isPose(target) ? target : null;
   linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
+  linked.writing = writing(given.get("worked")?.split(",") ?? []);
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
@@ -43,6 +45,8 @@ export function write(state: Readonly<State>): string {
   if (state.model) parts.push(["q", state.model.joints.map((joint) => state.positions[joint.name] ?? 0).join(",")]);
   if (state.target) parts.push(["target", JSON.stringify(state.target)]);
   if (state.inverse) parts.push(["ik", JSON.stringify(state.inverse)]);
+  const worked = writtenAs(state.writing);
+  if (worked !== writtenAs(FIRST.writing)) parts.push(["worked", worked]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
   parts.push(...Object.entries(state.options).sort());
@@ -74,6 +78,7 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
       "tip",
       "target",
       "inverse",
+      "writing",
       "positions",
       "model",
       "loading",
@@ -106,6 +111,20 @@ function inverseOptions(given: unknown): InverseOptions | null {
   const { task, ...rest } = given as InverseOptions;
   const wanted = Array.isArray(task) ? DIRECTIONS.filter((direction) => task.includes(direction)) : [];
   return wanted.length ? { ...rest, task: wanted } : rest;
+}
+
+/** `jacobian,full,values`: the part of the worked solution, and what is written otherwise than usual. */
+function writtenAs({ part, notation, symbolic }: Writing): string {
+  return [part, notation === "full" && "full", !symbolic && "values"].filter(Boolean).join(",");
+}
+
+function writing(words: readonly string[]): Writing {
+  const part = words.find((word) => PARTS.includes(word)) as Writing["part"] | undefined;
+  return {
+    part: part ?? FIRST.writing.part,
+    notation: words.includes("full") ? "full" : "short",
+    symbolic: !words.includes("values"),
+  };
 }
 
 function json<T>(text: string | null): T | null {

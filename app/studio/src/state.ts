@@ -2,9 +2,19 @@
 
 import type { Problem } from "./api.ts";
 import type { RobotModel } from "./robot/model.ts";
+import type { ChainTable } from "./robot/table.ts";
 import type { DhTable, InverseOptions, Pose } from "./types.ts";
 
 export type Positions = Readonly<Record<string, number>>;
+
+/** How the worked solution is written, and which part of it is open. */
+export interface Writing {
+  part: "transforms" | "pose" | "jacobian" | "singular" | "motion";
+  /** `c_{12}`, or `cos(q_1 + q_2)`. */
+  notation: "short" | "full";
+  /** Whether lengths stay symbols; else their values stand in the formulas. */
+  symbolic: boolean;
+}
 
 export interface Linked {
   panel: string;
@@ -19,6 +29,7 @@ export interface Linked {
   target: Pose | null;
   /** How the inverse is asked for, where it is not as usual. */
   inverse: InverseOptions | null;
+  writing: Writing;
   /** Whether angles are shown and typed in degrees; calls are always in radians. */
   degrees: boolean;
   frames: boolean;
@@ -39,8 +50,8 @@ export interface State extends Linked {
   loading: boolean;
   /** Why the robot or draft asked for is not on the screen. */
   failure: Problem | null;
-  /** The table of the chain, where it has been asked for, and the frame that it starts from. */
-  table: { dh: DhTable; base: string } | null;
+  /** The table of the chain, where it has been asked for. */
+  table: ChainTable | null;
   /** The joint that the pointer or the focus is on, in whatever list of joints. */
   joint: string | null;
   /** Length that suits marks on the robot on the screen, [m]. */
@@ -58,6 +69,7 @@ export const FIRST: Linked = {
   tip: null,
   target: null,
   inverse: null,
+  writing: { part: "transforms", notation: "short", symbolic: true },
   degrees: false,
   frames: false,
   axes: false,

@@ -223,3 +223,46 @@ export interface SingularityAnswer {
   joint_names: string[];
   singularities: SingularityReport[];
 }
+
+/** A formula of a worked solution; null where it has too many terms to be written out. */
+export interface MatrixFormula {
+  name: string;
+  latex: string | null;
+}
+
+export interface ColumnFormulas {
+  joint: string;
+  axis: MatrixFormula;
+  /** Null for a prismatic joint. */
+  arm: MatrixFormula | null;
+  linear: MatrixFormula;
+  angular: MatrixFormula;
+}
+
+/** The numbers of a worked solution at a configuration; transforms and the Jacobian row by row. */
+export interface SolutionNumbers {
+  A: number[][][];
+  T_0: number[][][];
+  T_base_tool: number[][];
+  columns: { axis: number[]; arm: number[]; linear: number[]; angular: number[] }[];
+  jacobian: number[][];
+  /** Of the block that `determinant` of the answer names; null where none is square. */
+  determinant: number | null;
+}
+
+export interface DeriveAnswer {
+  convention: Convention;
+  joint_names: string[];
+  legend: { latex: string; plain: string; meaning_latex: string; meaning: string; value: number | null }[];
+  A: MatrixFormula[];
+  T_0: MatrixFormula[];
+  T_base_tool: MatrixFormula | null;
+  jacobian: { matrix: MatrixFormula; columns: ColumnFormulas[] } | null;
+  determinant: { rows: string[]; frame: number; latex: string | null } | null;
+  singularities: { condition: { latex: string }; example: number[] | null; example_singular_value: number | null }[];
+  numeric: SolutionNumbers[];
+  steps: { title: string; text: string; latex: string[] }[];
+  notes: string[];
+  certificate: { samples: number; max_error: number } | null;
+  numeric_certificate: { max_position_error: number; max_jacobian_error: number } | null;
+}

@@ -5,5 +5,6 @@ import type { Panel } from "./panel.ts";
 import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
+import { workedPanel } from "./worked/index.ts";
 
-export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel, jacobianPanel];
+export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel, jacobianPanel, workedPanel];

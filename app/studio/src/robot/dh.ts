@@ -1,4 +1,4 @@
-/** A Denavit-Hartenberg table in the browser: its frames at a configuration, for drawing. */
+/** A Denavit-Hartenberg table in the browser: its transforms and frames at a configuration. */
 
 import { Matrix4, Vector3 } from "three";
 
@@ -22,15 +22,10 @@ export function frames(table: DhTable, positions: Positions): { first: Matrix4; 
   const found: DhFrame[] = [];
   let T = first.clone();
   for (const [index, row] of table.joints.entries()) {
-    const q = variable(row, index, positions);
-    const theta = row.theta + (row.type === "revolute" ? q : 0);
-    const d = row.d + (row.type === "prismatic" ? q : 0);
     const start = T.clone();
-    const screwX = new Matrix4().makeRotationX(row.alpha).setPosition(row.a, 0, 0);
-    const screwZ = new Matrix4().makeRotationZ(theta).setPosition(0, 0, d);
-    const steps = table.convention === "standard" ? [screwZ, screwX] : [screwX, screwZ];
-    const middle = start.clone().multiply(steps[0]!);
-    T = middle.clone().multiply(steps[1]!);
+    const [first, second] = screws(table, row, variable(row, index, positions));
+    const middle = start.clone().multiply(first);
+    T = middle.clone().multiply(second);
     const [from, foot, to] = [start, middle, T].map((M) => new Vector3().setFromMatrixPosition(M)) as Three;
     const ends: { a: [Vector3, Vector3]; d: [Vector3, Vector3] } =
       table.convention === "standard" ? { d: [from, foot], a: [foot, to] } : { a: [from, foot], d: [foot, to] };
@@ -39,9 +34,31 @@ export function frames(table: DhTable, positions: Positions): { first: Matrix4; 
   return { first, rows: found, tool: T.clone().multiply(asMatrix(table.tool)) };
 }
 
+/** A_i of every row. */
+export function transforms(table: DhTable, positions: Positions): Matrix4[] {
+  return table.joints.map((row, index) => {
+    const [first, second] = screws(table, row, variable(row, index, positions));
+    return first.multiply(second);
+  });
+}
+
+/** The two screws of a row, in the order of its convention: A_i is their product. */
+function screws(table: DhTable, row: DhRow, q: number): [Matrix4, Matrix4] {
+  const theta = row.theta + (row.type === "revolute" ? q : 0);
+  const d = row.d + (row.type === "prismatic" ? q : 0);
+  const alongX = new Matrix4().makeRotationX(row.alpha).setPosition(row.a, 0, 0);
+  const alongZ = new Matrix4().makeRotationZ(theta).setPosition(0, 0, d);
+  return table.convention === "standard" ? [alongZ, alongX] : [alongX, alongZ];
+}
+
 type Three = [Vector3, Vector3, Vector3];
 
 function variable(row: DhRow, index: number, positions: Positions): number {
   if (row.mimic) return row.mimic.multiplier * (positions[row.mimic.joint] ?? 0) + row.mimic.offset;
-  return positions[row.name ?? `joint_${index + 1}`] ?? 0;
+  return positions[jointName(row, index)] ?? 0;
+}
+
+/** The name of a row's joint: the service gives one to a row that has none. */
+export function jointName(row: DhRow, index: number): string {
+  return row.name ?? `joint_${index + 1}`;
 }

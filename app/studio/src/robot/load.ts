@@ -6,12 +6,11 @@ import URDFLoader, { type URDFRobot } from "urdf-loader";
 import { type Api, Latest, NOT_OF_THE_SERVICE, Problem } from "../api.ts";
 import type { State } from "../state.ts";
 import type { Store } from "../store.ts";
-import type { ChainEnds, DhTable, RobotInfo, TableAnswer, ToUrdfAnswer } from "../types.ts";
+import type { ChainEnds, DhTable, RobotInfo, ToUrdfAnswer } from "../types.ts";
 import { type MeshSource, meshSource, quiet } from "./meshes.ts";
 import { RobotModel } from "./model.ts";
+import { chainTable, draftTable, TABLE_CHAIN } from "./table.ts";
 
-/** The links that the service writes a table between. */
-const TABLE_CHAIN: ChainEnds = { base_frame: "base", tip_frame: "tool" };
 const DRAFT_NAME = "draft";
 
 export class Loader {
@@ -132,50 +131,30 @@ export class Loader {
     const positions = model.complete(this.#restored ?? (isSame ? state.positions : null), from, to);
     this.#restored = null;
     model.place(positions);
-    const table = state.draft ? { dh: state.draft, base: TABLE_CHAIN.base_frame } : null;
+    const table = state.draft && draftTable(state.draft);
     this.store.set({ model, positions, base, tip, table, loading: false, failure: null });
   }
 
   /** The table of the chain, where its frames are wanted. A draft is its own. */
   async #fetchTable(): Promise<void> {
-    const { dh, model, base, tip } = this.store.value;
-    if (!model || model.name === null) return;
-    const { name } = model;
+    const { dh, draft, model } = this.store.value;
+    if (draft || !model || model.name === null) return;
     if (!dh) {
       this.#tables.cancel();
       this.store.set({ table: null });
       return;
     }
     try {
-      if (model.info?.dh && isWhole(this.store.value)) {
-        this.#tables.cancel();
-        this.store.set({ table: { dh: model.info.dh, base: TABLE_CHAIN.base_frame } });
-        return;
-      }
-      const path = tablePath(name, "standard", base, tip);
-      const answer = await this.#tables.run((signal) => this.api.get<TableAnswer>(path, signal));
-      if (answer) this.store.set({ table: { dh: answer.dh, base: answer.base_frame } });
+      const table = await this.#tables.run((signal) => chainTable(this.api, this.store.value, signal));
+      if (table) this.store.set({ table });
     } catch {
       this.store.set({ table: null });
     }
   }
 }
 
-/** Whether the chain is the one that a table describes. */
-function isWhole({ model, base, tip }: Readonly<State>): boolean {
-  const ends = [base ?? model?.ends.base_frame, tip ?? model?.ends.tip_frame];
-  return ends[0] === TABLE_CHAIN.base_frame && ends[1] === TABLE_CHAIN.tip_frame;
-}
-
 function namesOf(model: RobotModel): string {
   return model.joints.map(({ name }) => name).join();
-}
-
-export function tablePath(robot: string, convention: string, base: string | null, tip: string | null): string {
-  const query = new URLSearchParams({ convention });
-  if (base) query.set("base_frame", base);
-  if (tip) query.set("tip_frame", tip);
-  return `v1/robots/${encodeURIComponent(robot)}/dh?${query}`;
 }
 
 export function asProblem(error: unknown): Problem {

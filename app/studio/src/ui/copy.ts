@@ -3,7 +3,11 @@
 import { button } from "./dom.ts";
 
 export function copyButton(text: () => string, what: string): HTMLButtonElement {
-  const made = button("Copy", () => void copy(), { class: "button small", "aria-label": `Copy ${what}` });
+  const made = button("Copy", () => void copy(), {
+    class: "button small",
+    title: `Copy ${what}`,
+    "aria-label": `Copy ${what}`,
+  });
   const copy = async () => {
     try {
       await navigator.clipboard.writeText(text());

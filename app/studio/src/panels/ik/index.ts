@@ -1,5 +1,7 @@
 /** Inverse kinematics: say where the tip is to be, see every way to get there, and take one. */
 
+import "../../styles/ik.css";
+
 import { shownChain } from "../../robot/chain.ts";
 import { asPose, straightened } from "../../robot/pose.ts";
 import type { Pose } from "../../types.ts";

@@ -15,9 +15,9 @@ const ANGULAR: Record<Representation, string[]> = {
 };
 
 export class MatrixView {
-  readonly host = element("div", { class: "matrix" });
+  readonly host = element("div", { class: "jacobian" });
   #summary = element("p", { class: "muted small" });
-  #scroll = element("div", { class: "matrix-scroll", tabindex: "0", role: "region", "aria-label": "The Jacobian" });
+  #scroll = element("div", { class: "jacobian-scroll", tabindex: "0", role: "region", "aria-label": "The Jacobian" });
   #names: string[] = [];
   #cells: HTMLElement[][] = [];
   #columns: HTMLElement[][] = [];

@@ -1,7 +1,8 @@
 /** The robot on the screen: what it is, where it comes from, what is odd about it; and its files. */
 
-import { asProblem, tablePath } from "../../robot/load.ts";
+import { asProblem } from "../../robot/load.ts";
 import type { RobotModel } from "../../robot/model.ts";
+import { tablePath } from "../../robot/table.ts";
 import type { State } from "../../state.ts";
 import type { TableAnswer } from "../../types.ts";
 import { button, element } from "../../ui/dom.ts";

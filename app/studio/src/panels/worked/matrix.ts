@@ -1,0 +1,46 @@
+/** A matrix of numbers between brackets, or a single number; a change writes only what differs. */
+
+import { element } from "../../ui/dom.ts";
+import { fixed } from "../../ui/quantity.ts";
+
+const DECIMALS = 4;
+const DUST = 1e-14;
+
+export class NumberMatrix {
+  readonly host: HTMLElement;
+  #cells: HTMLElement[][] = [];
+
+  /** @param name what a screen reader says. */
+  constructor(name: string) {
+    this.host = element("span", { class: "matrix", role: "group", "aria-label": name });
+  }
+
+  set(values: readonly (readonly number[])[]): void {
+    if (values.length !== this.#cells.length || values[0]?.length !== this.#cells[0]?.length) this.#build(values);
+    for (const [i, row] of values.entries()) {
+      for (const [j, value] of row.entries()) {
+        const text = rounded(value);
+        const cell = this.#cells[i]![j]!;
+        if (cell.textContent !== text) cell.textContent = text;
+      }
+    }
+  }
+
+  #build(values: readonly (readonly number[])[]): void {
+    this.host.classList.toggle("bracketed", values.flat().length > 1);
+    this.#cells = values.map((row) => row.map(() => element("span", { class: "matrix-cell" })));
+    this.host.replaceChildren(...this.#cells.map((row) => element("span", { class: "matrix-row" }, ...row)));
+  }
+}
+
+/** With four decimals; what is whole but for the dust of rounding as such. */
+export function rounded(value: number): string {
+  const isWhole = Math.abs(value - Math.round(value)) < DUST;
+  return fixed(value, isWhole ? 0 : DECIMALS);
+}
+
+/** The same for LaTeX. */
+export function matrixLatex(values: readonly (readonly number[])[]): string {
+  const lines = values.map((row) => row.map((value) => rounded(value).replace("−", "-")).join(" & "));
+  return `\\begin{bmatrix} ${lines.join(" \\\\ ")} \\end{bmatrix}`;
+}
