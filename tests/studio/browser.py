@@ -45,6 +45,7 @@ class Studio:
         """A page with nothing opened yet, in a profile of its own."""
         context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme)
         context.add_init_script(_WATCH_POLICY)
+        context.set_default_timeout(90_000)  # a busy machine draws slowly
         studio = cls(context.new_page(), url)
         studio.page.on("console", studio._hear)
         studio.page.on("pageerror", lambda error: studio.complaints.append(str(error)))
