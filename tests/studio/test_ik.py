@@ -1,4 +1,4 @@
-"""The Inverse panel: a pose in any notation, its solutions as a list and as ghosts, and the verdict where none is."""
+"""The Inverse panel: a pose typed or dragged, its solutions as a list and as ghosts, and the verdict where none is."""
 
 import json
 import math
@@ -261,6 +261,71 @@ def test_the_arrow_keys_take_the_robot_along(studio: Studio) -> None:
     tip = studio.fk("panda", {"joint_positions": [positions]})["poses"][0]["position"]
     assert np.abs(np.array(tip) - target["position"]).max() < 1e-6
     assert np.abs(np.array(positions) - [float(text) for text in START.split(",")[:7]]).max() < 0.5  # the same branch
+
+
+HANDLE = """([axis, along]) => {
+  const {view, store} = studio;
+  const handle = view.scene.getObjectByName("target handle");
+  handle.updateMatrixWorld();
+  const size = handle.position.distanceTo(view.camera.position) * Math.tan(view.camera.fov * Math.PI / 360) * 0.75 / 4;
+  const point = handle.position.clone().set(0, 0, 0);
+  point.setComponent(axis, 1.9 * size * 0.4 + along).applyMatrix4(handle.matrixWorld).project(view.camera);
+  const {left, top, width, height} = view.canvas.getBoundingClientRect();
+  return [left + (point.x + 1) / 2 * width, top + (1 - point.y) / 2 * height];
+}"""
+"""Where the arrow of an axis is on the screen, or how far to drag it."""
+
+
+def drag(studio: Studio, axis: int, along: float) -> None:
+    """Take the arrow of an axis with the mouse and drag it so many metres."""
+    start, end = studio.run(HANDLE, [axis, 0]), studio.run(HANDLE, [axis, along])
+    mouse = studio.page.mouse
+    mouse.move(*start)
+    mouse.down()
+    for step in range(1, 6):
+        mouse.move(*np.array(start) + (np.array(end) - start) * step / 5)
+    mouse.up()
+
+
+@pytest.mark.parametrize("robot", ["panda", "anthropomorphic"])
+def test_the_robot_follows_what_is_dragged(studio: Studio, robot: str) -> None:
+    start = {"panda": START, "anthropomorphic": "0.3,0.6,-1.2"}[robot]
+    studio.open("ik", robot=robot, q=start)
+    studio.until(SOLVED)
+    before, camera = studio.state("target"), studio.run("studio.view.camera.position.toArray()")
+    drag(studio, 2, 0.08)
+    studio.until(f"Math.abs({TIP_HEIGHT} - studio.store.value.target.position[2]) < 1e-5")
+    target = studio.state("target")
+    moved = np.subtract(target["position"], before["position"])
+    assert moved[2] == pytest.approx(0.08, abs=0.01)
+    assert np.abs(moved[:2]).max() < 1e-12
+    assert np.abs(np.subtract(target["rpy"], before["rpy"])).max() < 1e-12
+    assert studio.run("studio.view.camera.position.toArray()") == camera
+    positions = list(studio.state("positions").values())[: 7 if robot == "panda" else 3]
+    pose = studio.fk(robot, {"joint_positions": [positions], "pose_format": "matrix"})["poses"][0]["matrix"]
+    assert np.abs(np.array(pose)[:3, 3] - target["position"]).max() < 1e-6
+    assert np.abs(np.subtract(positions, [float(text) for text in start.split(",")][: len(positions)])).max() < 0.6
+    # At rest it is solved as wanted: every branch of an arm that has finitely many.
+    studio.until(f"document.querySelectorAll('.solution').length === {1 if robot == 'panda' else 4}")
+    assert studio.button("Turn").is_disabled() == (robot == "anthropomorphic")
+
+
+def test_the_target_is_turned_about_its_own_axes(studio: Studio) -> None:
+    studio.open("ik", robot="panda", q=START)
+    studio.until(SOLVED)
+    studio.button("Turn").click()
+    before = pose_of(studio.state("target")).rotations[0]
+    ring = studio.run(HANDLE.replace("1.9 * size * 0.4", "1.9 * size * 0.5"), [0, 0])
+    studio.page.mouse.move(*ring)
+    studio.page.mouse.down()
+    studio.page.mouse.move(ring[0] + 12, ring[1] - 12, steps=4)
+    studio.page.mouse.up()
+    after = pose_of(studio.state("target")).rotations[0]
+    turn = before.T @ after
+    angle = math.acos((np.trace(turn) - 1) / 2)
+    assert 0.02 < angle < 1
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / (2 * math.sin(angle))
+    assert sorted(np.abs(axis).round(9).tolist()) == [0, 0, 1]
 
 
 def test_long_work_is_cancelled(studio: Studio) -> None:

@@ -10,12 +10,15 @@ import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
+import { type DragMode, Gizmo } from "./gizmo.ts";
 import { OptionFields } from "./options.ts";
 import { Picture } from "./picture.ts";
 import { SolutionList } from "./solutions.ts";
 import { Solver } from "./solver.ts";
 import { TargetFields } from "./target.ts";
 import { Verdict } from "./verdict.ts";
+
+const REST = 350; // ms after the last key that moved the target
 
 export const inversePanel: Panel = {
   id: "ik",
@@ -30,13 +33,33 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const solver = new Solver(request.api, store);
   const fields = new TargetFields({
     typed: (target) => store.set({ target }),
-    nudged: (target) => solver.follow(target),
+    nudged: (target) => {
+      solver.follow(target);
+      solver.rest(REST);
+    },
     degrees: () => store.value.degrees,
   });
   const options = new OptionFields(store, () => void solver.solve());
   const verdict = new Verdict(store, solver);
   const list = new SolutionList(store, solver.outcome);
   const picture = view && new Picture(view, store, solver.outcome);
+  const gizmo =
+    view && new Gizmo(view, store, { dragged: (target) => solver.follow(target), dropped: () => solver.rest() });
+  const drag = new Choice<DragMode>(
+    "Dragging in the picture",
+    [
+      { value: "translate", text: "Move" },
+      { value: "rotate", text: "Turn" },
+    ],
+    (mode) => turnTo(mode),
+  );
+  const turnTo = (wanted: DragMode) => {
+    const mode = gizmo?.turnTo(wanted) ?? wanted;
+    drag.show(mode);
+    for (const other of ["translate", "rotate"] as const) {
+      drag.allow(other, gizmo?.allows(other) ? null : "None of its directions counts");
+    }
+  };
   const unit = new Choice(
     "Unit of angles",
     [
@@ -48,11 +71,24 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const straighten = button("Make it a rotation", () => store.set({ target: straight(store.value.target!, fields) }), {
     hidden: true,
   });
+  const hint = element(
+    "p",
+    { class: "muted small", title: "1 cm or 1° at a time, ten times as much with Shift" },
+    `${gizmo ? "Drag it in the picture, or press" : "Press"} ↑ or ↓ in a field: the robot follows.`,
+  );
   host.append(
     section(
       "Target",
-      element("div", { class: "bar" }, ...presets(studio, fields), element("span", { class: "spring" }), unit.host),
+      element(
+        "div",
+        { class: "bar" },
+        gizmo && drag.host,
+        ...presets(studio, fields),
+        element("span", { class: "spring" }),
+        unit.host,
+      ),
       fields.host,
+      hint,
     ),
     section("Solutions", options.host, problem.host, straighten, verdict.host, list.host),
     request.host,
@@ -64,6 +100,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
     }),
     store.watch(["target", "degrees"], ({ target }) => target && fields.show(target)),
     store.watch(["model", "base", "tip", "inverse", "degrees"], (state) => options.show(state)),
+    store.watch(["model", "base", "tip", "inverse"], () => turnTo(gizmo?.mode ?? "translate")),
     store.watch(["degrees"], ({ degrees }) => unit.show(degrees ? "deg" : "rad")),
     store.watch(["positions", "degrees"], () => list.show()),
     solver.outcome.watch(["result"], () => list.show()),
@@ -75,6 +112,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
     () => solver.cancel(),
     () => verdict.close(),
     () => picture?.close(),
+    () => gizmo?.close(),
   ];
   return () => {
     for (const stop of stops) stop();

@@ -56,7 +56,7 @@ export class Picture {
     clear(this.#target);
     const chain = shownChain(state);
     if (chain && state.target) {
-      this.#target.add(triad(state.unit * 1.4));
+      this.#target.add(triad(state.unit * 0.8));
       put(this.#target, chain.model.link(chain.base).matrixWorld.clone().multiply(asMatrix(state.target)));
     }
     this.view.draw();

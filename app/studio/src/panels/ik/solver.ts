@@ -8,8 +8,6 @@ import { Store } from "../../store.ts";
 import type { InverseAnswer, InverseResult, Pose } from "../../types.ts";
 import { type FullOptions, fullOptions, inverseCall } from "./call.ts";
 
-const SETTLE_AFTER = 350; // ms of rest after which a target that was moved is solved as wanted
-
 /** What the service has said, and how it stands with the next answer. */
 export interface Outcome {
   /** Of the target and chain on the screen; null before the first answer, and where there is none. */
@@ -39,6 +37,7 @@ export class Solver {
   #latest = new Latest();
   #isChasing = false;
   #hasMoved = false;
+  #isAtRest = false;
   #timer = 0;
 
   constructor(
@@ -48,27 +47,40 @@ export class Solver {
 
   /** Solve the target as wanted, from the posture on the screen. */
   async solve(): Promise<void> {
-    clearTimeout(this.#timer);
-    this.#hasMoved = false;
+    this.#stop();
     this.outcome.set({ isFollowing: false });
     await this.#ask((options) => options);
   }
 
-  /** Bring the robot after a target that is being moved; solved as wanted when it rests, or with `settle`. */
-  follow(target: Pose, rests = true): void {
+  /** Bring the robot after a target that is being moved, until `rest`. */
+  follow(target: Pose): void {
+    clearTimeout(this.#timer);
     this.outcome.set({ isFollowing: true });
     this.#hasMoved = true;
+    this.#isAtRest = false;
     this.store.set({ target });
-    clearTimeout(this.#timer);
-    if (rests) this.#timer = window.setTimeout(() => void this.solve(), SETTLE_AFTER);
     void this.#chase();
   }
 
-  cancel(): void {
+  /** The target stays where it is, or does if it is not moved for a while: solve it as wanted when the robot is there. */
+  rest(after = 0): void {
     clearTimeout(this.#timer);
-    this.#hasMoved = false;
+    this.#timer = window.setTimeout(() => {
+      this.#isAtRest = true;
+      if (!this.#isChasing) void this.solve();
+    }, after);
+  }
+
+  cancel(): void {
+    this.#stop();
     this.#latest.cancel();
     this.outcome.set({ isBusy: false, isCancelled: true, isFollowing: false });
+  }
+
+  #stop(): void {
+    clearTimeout(this.#timer);
+    this.#hasMoved = false;
+    this.#isAtRest = false;
   }
 
   /** What was said was of another robot or chain. */
@@ -87,6 +99,7 @@ export class Solver {
       if (this.outcome.value.isFollowing) this.#take();
     }
     this.#isChasing = false;
+    if (this.#isAtRest) await this.solve();
   }
 
   #take(): void {
@@ -106,7 +119,7 @@ export class Solver {
       const answer = await this.#latest.run((signal) => this.#post(chain, call, signal));
       if (answer) this.outcome.set({ answer, result: answer.results[0]!, problem: null, isBusy: false, pointed: null });
     } catch (error) {
-      this.#hasMoved = false;
+      this.#stop();
       this.outcome.set({ ...NOTHING, problem: asProblem(error) });
     }
   }
