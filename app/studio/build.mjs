@@ -28,6 +28,8 @@ const { metafile } = await build({
   outdir: out,
   bundle: true,
   format: "esm",
+  splitting: true,
+  chunkNames: "chunks/[name]-[hash]",
   target: "es2022",
   minify: true,
   charset: "utf8",

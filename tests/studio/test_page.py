@@ -109,6 +109,15 @@ def test_the_first_robot_is_there_within_two_seconds(studio: Studio) -> None:
     studio.go("")
     studio.wait_for_robot("panda")
     assert studio.run("performance.now()") < 2000 * SLOW
+    assert not [name for name in loaded(studio) if "katex" in name.lower()], "the first robot waits for no formulas"
+    studio.page.get_by_role("tab", name="Worked solution").click()
+    studio.until("document.querySelector('.sheet .katex')")
+    assert any("chunks/katex" in name for name in loaded(studio))
+
+
+def loaded(studio: Studio) -> list[str]:
+    names: list[str] = studio.run("performance.getEntriesByType('resource').map(({name}) => name)")
+    return names
 
 
 SLOW = 3

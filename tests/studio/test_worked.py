@@ -28,7 +28,7 @@ SLIDE = """() => {
     slider.dispatchEvent(new Event("input"));
   }
 }"""
-AGREES = "document.querySelector('.agreement')?.dataset.tone === 'good'"
+AGREES = "document.querySelector('.agreement')?.dataset.tone === 'good' && !document.querySelector('.formula:empty')"
 
 
 def part(studio: Studio, name: str) -> None:

@@ -1,12 +1,28 @@
 /** Formulas, set by KaTeX. It builds elements (`render`, never `renderToString`): the page allows no inline style. */
 
-import katex from "katex";
 import "katex/dist/katex.min.css";
 
 import { element } from "./dom.ts";
 
+type Katex = typeof import("katex").default;
+
+/** The robot is on the screen sooner where its page does not wait for this: it comes with the first formula. */
+let katex: Katex | null = null;
+let arrival: Promise<Katex> | null = null;
+
+/** A formula: at once, or as soon as KaTeX is there. */
 export function formula(latex: string, display = false): HTMLElement {
   const host = element(display ? "div" : "span", { class: display ? "formula display" : "formula" });
-  katex.render(latex, host, { displayMode: display, throwOnError: false, output: "htmlAndMathml" });
+  const set = (by: Katex) =>
+    by.render(latex, host, { displayMode: display, throwOnError: false, output: "htmlAndMathml" });
+  if (katex) {
+    set(katex);
+    return host;
+  }
+  arrival ??= import("katex").then((module) => (katex = module.default));
+  arrival.then(set).catch(() => {
+    arrival = null;
+    host.textContent = latex;
+  });
   return host;
 }
