@@ -212,6 +212,57 @@ def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int], cell: 
     studio.until("!studio.store.value.loading && !studio.store.value.failure")
 
 
+def test_base_tool_names_and_limits_are_typed(studio: Studio) -> None:
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.page.get_by_role("tab", name="Pose").click()
+    studio.type("joint_2, number", "0.7")
+    studio.page.get_by_role("tab", name="Robot").click()
+    studio.button("Names, velocity, effort").click()
+    for label, text in {"name": "shoulder", "velocity limit": "2.5", "effort limit": "40"}.items():
+        studio.type(f"Row 2, {label}", text)
+    studio.page.get_by_text("Base and tool").click()
+    studio.type("Base, z", "0.3")
+    studio.type("Tool, x", "0.1")
+    studio.page.get_by_role("group", name="Orientation of the tool").get_by_text("Euler ZYZ").click()
+    studio.type("Tool, ϑ", "pi/2")
+    studio.until("studio.store.value.model.joints[1].name === 'shoulder' && !studio.store.value.loading")
+    assert studio.state("positions")["shoulder"] == 0.7, "a joint moves when it gets another name"
+    keep(studio, "with_tool")
+    table = get(f"{studio.url}/v1/robots/with_tool")[1]["dh"]
+    assert table["base"] == {"matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.3], [0, 0, 0, 1]]}
+    assert [table["joints"][1][key] for key in ("name", "velocity", "effort")] == ["shoulder", 2.5, 40.0]
+    studio.page.get_by_role("tab", name="Pose").click()
+    q1, q2, q3 = (studio.state("positions")[name] for name in ("joint_1", "shoulder", "joint_3"))
+    assert (q1, q2, q3) == (0.0, 0.7, 0.0)
+    out, up = 0.5 * np.cos(q2) + 0.5 * np.cos(q2 + q3), 0.5 * np.sin(q2) + 0.5 * np.sin(q2 + q3)
+    tip = np.array(studio.tip())
+    assert tip[:3, 3] == pytest.approx([out, 0.0, 0.3 + up], abs=1e-12)
+    assert tip[:3, 2] == pytest.approx([np.cos(q2), 0.0, np.sin(q2)], abs=1e-12), "z of the tool along x of frame 3"
+
+
+def test_wrong_names_limits_and_places_show_their_error(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(422)
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.button("Names, velocity, effort").click()
+    studio.page.get_by_text("Base and tool").click()
+    wrong = {
+        "Row 2, name": ("joint_1", "name: 'joint_1' stands twice", "joint_2"),
+        "Row 1, velocity limit": ("-2", "velocity limit: ", ""),
+        "Tool, x": ("1e9", "Tool, x: ", "0"),
+        "Base, pitch": ("up", "Base, pitch: Write a number", "0"),
+    }
+    alert = studio.page.locator("[role=alert]:visible")
+    for label, (text, reason, right) in wrong.items():
+        studio.type(label, text)
+        alert.wait_for()
+        assert reason in (alert.text_content() or "")
+        assert studio.field(label).get_attribute("aria-invalid") == "true"
+        studio.type(label, right)
+        alert.wait_for(state="hidden")
+        studio.until("!studio.store.value.loading && !studio.store.value.failure")
+    assert studio.state("draft").keys() == {"convention", "joints"}, "nothing is left of the places"
+
+
 def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     refusals.add(409)
     type_table(studio, ANTHROPOMORPHIC[1:])

@@ -4,7 +4,7 @@ import { LoadingManager, Mesh, type Object3D } from "three";
 import URDFLoader, { type URDFRobot } from "urdf-loader";
 
 import { type Api, Latest, NOT_OF_THE_SERVICE, Problem } from "../api.ts";
-import type { State } from "../state.ts";
+import type { Positions, State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { ChainEnds, DhTable, RobotInfo, ToUrdfAnswer } from "../types.ts";
 import { type MeshSource, meshSource, quiet } from "./meshes.ts";
@@ -127,8 +127,7 @@ export class Loader {
     const base = model.has(state.base) ? state.base : null;
     const tip = model.has(state.tip) ? state.tip : null;
     const [from, to] = [base ?? model.ends.base_frame, tip ?? model.ends.tip_frame];
-    const isSame = before !== null && namesOf(before) === namesOf(model);
-    const positions = model.complete(this.#restored ?? (isSame ? state.positions : null), from, to);
+    const positions = model.complete(this.#restored ?? carried(before, model, state.positions), from, to);
     this.#restored = null;
     model.place(positions);
     const table = state.draft && draftTable(state.draft);
@@ -151,6 +150,15 @@ export class Loader {
       this.store.set({ table: null });
     }
   }
+}
+
+/** The positions of the robot before, where they mean the same: its joints have these names, or it is a table whose
+ * joints have been renamed. */
+function carried(before: RobotModel | null, model: RobotModel, positions: Positions): Positions | number[] | null {
+  if (!before) return null;
+  if (namesOf(before) === namesOf(model)) return positions;
+  const isRenamed = before.name === null && model.name === null && before.joints.length === model.joints.length;
+  return isRenamed ? before.joints.map(({ name }) => positions[name]!) : null;
 }
 
 function namesOf(model: RobotModel): string {

@@ -3,12 +3,13 @@
 import { Latest, type Problem } from "../../api.ts";
 import { asProblem } from "../../robot/load.ts";
 import type { Convention, DhTable } from "../../types.ts";
-import { button, Choice, element } from "../../ui/dom.ts";
+import { button, Choice, element, toggle } from "../../ui/dom.ts";
 import { formula } from "../../ui/mathematics.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import type { Studio } from "../panel.ts";
 import { keep } from "./keep.ts";
 import { PRESETS } from "./presets.ts";
+import { Places } from "./places.ts";
 import { TableRows } from "./rows.ts";
 
 const CONVENTIONS: readonly { value: Convention; text: string }[] = [
@@ -28,11 +29,6 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
   const latest = new Latest();
   const problem = new ProblemView();
   const product = element("div", { class: "product" });
-  const placed = element(
-    "p",
-    { class: "muted small", hidden: true },
-    "The base and tool transforms of this table stay as they are.",
-  );
   let table: DhTable | null = null;
   const draw = (dh: DhTable) => store.set({ draft: dh, robot: "", base: null, tip: null });
   const edit = (dh: DhTable) => {
@@ -40,7 +36,12 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
     table = dh;
     draw(dh);
   };
-  const rows = new TableRows(edit, () => store.value.degrees);
+  const degrees = () => store.value.degrees;
+  const rows = new TableRows((joints) => edit({ ...table!, joints }), degrees);
+  const places = new Places((end, pose) => {
+    const { [end]: _, ...others } = table!;
+    edit(pose ? { ...others, [end]: pose } : others);
+  }, degrees);
   const convention = new Choice("Convention", CONVENTIONS, (wanted) => void convert(wanted));
   const convert = async (wanted: Convention) => {
     if (!table || wanted === table.convention) return;
@@ -56,10 +57,19 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
   };
   /** Each place of a problem at its cell; what has none, below. */
   const show = (found: Problem | null) => {
-    const elsewhere = rows.fail(found?.places ?? []);
-    problem.show(found && (elsewhere || found.places.length === 0) ? found : null);
+    const elsewhere = places.fail(rows.fail(found?.places ?? []));
+    problem.show(found && (elsewhere.length || found.places.length === 0) ? found : null);
   };
   const preset = presetList((chosen) => draw(structuredClone(chosen)));
+  const details = toggle(
+    "Names, velocity, effort",
+    "The joints' names, and their limits of velocity and effort",
+    () => {
+      const isShown = details.getAttribute("aria-pressed") !== "true";
+      details.setAttribute("aria-pressed", String(isShown));
+      rows.detail(isShown);
+    },
+  );
   const kept = keep({ api, store }, () => table);
   host.append(
     element("div", { class: "bar" }, convention.host, element("span", { class: "spring" }), preset),
@@ -69,8 +79,9 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
       "div",
       { class: "bar" },
       button("Add a row", () => rows.add()),
+      details,
     ),
-    placed,
+    places.host,
     problem.host,
     kept,
   );
@@ -79,11 +90,13 @@ export function tableEditor(host: HTMLElement, { api, store }: Studio): () => vo
     store.watch(["draft", "table", "degrees"], (state) => {
       const next = state.draft ?? state.table?.dh ?? (state.model ? null : FIRST_ROW);
       if (!next) return;
-      if (next !== table || rows.isEmpty) rows.build(next);
+      if (next !== table || rows.isEmpty) {
+        rows.build(next.joints);
+        places.build(next);
+      }
       table = next;
       convention.show(next.convention);
       product.replaceChildren(formula(PRODUCTS[next.convention]));
-      placed.hidden = !(next.base || next.tool);
     }),
     store.watch(["failure"], ({ failure, draft }) => show(draft ? failure : null)),
     () => latest.cancel(),
