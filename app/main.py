@@ -6,8 +6,15 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 
 from fastapi import FastAPI
+from fastapi.routing import iter_route_contexts
 
 from app.api import documentation, openapi, problems, studio
+from app.api.access.directory import Directory
+from app.api.access.door import Check, Door
+from app.api.access.hosts import TrustedHosts
+from app.api.access.keyring import Keyring
+from app.api.access.keys import KeyCheck
+from app.api.access.origins import Origins
 from app.api.compare import compare_route
 from app.api.course_components import component_routes
 from app.api.course_fly_over import fly_over_route
@@ -81,7 +88,6 @@ def create_app(settings: Settings) -> FastAPI:
         version="0.1.0",
         summary="Robot kinematics over HTTP, every answer certified",
         description=DESCRIPTION,
-        root_path=settings.root_path,
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
@@ -95,6 +101,7 @@ def create_app(settings: Settings) -> FastAPI:
             {"name": "Service", "description": "About the service itself."},
         ],
     )
+    app.root_path = settings.root_path
     problems.install(app)
     app.include_router(robots_router(library))
     app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
@@ -127,7 +134,11 @@ def create_app(settings: Settings) -> FastAPI:
     app.include_router(service_router(readiness))
     documentation.install(app)
     studio.install(app)
-    openapi.describe(app)
+    openapi.describe(app, has_keys=bool(settings.api_keys))
+    checks: list[Check] = [TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
+    if settings.api_keys:
+        checks.append(KeyCheck(Keyring(settings.api_keys)))
+    app.door = Door(app.answer, Directory(iter_route_contexts(app.routes)), settings.root_path, checks)
     return app
 
 

@@ -1,15 +1,22 @@
 """Run the service: `python -m app.serve`, or `./dev serve`."""
 
 import argparse
+import ipaddress
 import os
 import sys
 
 import uvicorn
 
+from app.api.access.keyring import InvalidKeys, Keyring
 from app.settings import InvalidSetting, Settings
 
 SHUTDOWN_SECONDS = 7
 """How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
+
+OPEN_TO_ALL = (
+    "at {host} others than this machine could do everything without a key: make keys with `./dev keys` and name their "
+    "file in GELENK_API_KEYS, or say with --open (or GELENK_OPEN_ACCESS=yes) that this is meant"
+)
 
 
 def main() -> None:
@@ -18,11 +25,18 @@ def main() -> None:
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine alone)")
     parser.add_argument("--port", default=8000, type=int, choices=range(1, 65536), metavar="PORT")
     parser.add_argument("--workers", default=1, type=int, choices=range(1, 129), metavar="N", help="processes")
+    parser.add_argument("--open", action="store_true", help="listen beyond this machine without keys")
     arguments = parser.parse_args()
     try:
         settings = Settings.from_environment(os.environ)
+        if settings.api_keys:
+            Keyring(settings.api_keys)
     except InvalidSetting as error:
         sys.exit(str(error))
+    except InvalidKeys as error:
+        sys.exit(f"GELENK_API_KEYS: {error}")
+    if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
+        sys.exit(OPEN_TO_ALL.format(host=arguments.host))
     print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
     uvicorn.run(
         "app.main:from_environment",
@@ -35,9 +49,19 @@ def main() -> None:
         access_log=False,
         log_level="warning",
         server_header=False,
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=list(settings.trusted_proxies),
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
         timeout_worker_healthcheck=60,
     )
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address leads to this machine alone; of names only `localhost` is known to."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
 
 
 if __name__ == "__main__":

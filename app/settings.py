@@ -1,9 +1,11 @@
 """What an operator may set, read once from the environment and passed down; nothing below imports it."""
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
+from typing import TypeAlias
 
 from platformdirs import user_data_path
 
@@ -33,6 +35,12 @@ class Settings:
         kept_job_bytes: Bytes of these (`GELENK_KEPT_JOB_BYTES`).
         job_seconds: How long a job may run, [s] (`GELENK_JOB_SECONDS`).
         max_job_samples: Most configurations of a workspace (`GELENK_MAX_JOB_SAMPLES`).
+        api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty where none are needed
+            (`GELENK_API_KEYS`).
+        open_access: Whether the service may listen beyond this machine without keys (`GELENK_OPEN_ACCESS`).
+        trusted_hosts: Names that it answers for beside this machine's own (`GELENK_TRUSTED_HOSTS`).
+        allowed_origins: Origins whose pages may call it (`GELENK_ALLOWED_ORIGINS`).
+        trusted_proxies: Addresses whose word is taken for where a request comes from (`GELENK_TRUSTED_PROXIES`).
     """
 
     data_dir: Path = field(default_factory=lambda: user_data_path("gelenk", appauthor=False))
@@ -48,16 +56,21 @@ class Settings:
     kept_job_bytes: int = 2 * 1024**3
     job_seconds: int = 600
     max_job_samples: int = 10_000_000
+    api_keys: str = ""
+    open_access: bool = False
+    trusted_hosts: tuple[str, ...] = ()
+    allowed_origins: tuple[str, ...] = ()
+    trusted_proxies: tuple[str, ...] = ()
 
     @classmethod
     def from_environment(cls, environment: Mapping[str, str]) -> "Settings":
         """Read the `GELENK_*` variables.
 
         Raises:
-            InvalidSetting: A variable is unknown (a misspelt limit must not go unnoticed) or is no positive number.
+            InvalidSetting: A variable is unknown (a misspelt limit must not go unnoticed) or not what it should be.
         """
         known = {_PREFIX + item.name.upper(): item.name for item in fields(cls)}
-        values: dict[str, Path | str | int] = {}
+        values: dict[str, _Value] = {}
         for variable, text in environment.items():
             if not variable.startswith(_PREFIX):
                 continue
@@ -67,7 +80,19 @@ class Settings:
         return cls(**values)  # type: ignore[arg-type]
 
 
-def _parse(variable: str, name: str, text: str) -> Path | str | int:
+_Value: TypeAlias = Path | str | int | tuple[str, ...]
+_HOST = re.compile(r"\*|(\*\.)?[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
+_ORIGIN = re.compile(r"\*|https?://([a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\])(:\d{1,5})?")
+_LISTS = {
+    "trusted_hosts": (_HOST, "lab.example.org or *.example.org, without a port"),
+    "allowed_origins": (_ORIGIN, "https://lab.example.org, without a path"),
+    "trusted_proxies": (re.compile(r"\*|[0-9a-f:.]+(/\d{1,3})?"), "10.0.0.5 or 10.0.0.0/8"),
+}
+"""Settings with several values: what each must be, and an example."""
+_ANSWERS = {"yes": True, "no": False}
+
+
+def _parse(variable: str, name: str, text: str) -> _Value:
     if not text and name != "root_path":
         raise InvalidSetting(f"{variable} is empty: leave it out for the default")
     if name.endswith("_dir"):
@@ -76,6 +101,22 @@ def _parse(variable: str, name: str, text: str) -> Path | str | int:
         if text and not text.startswith("/"):
             raise InvalidSetting(f"{variable} must start with a slash, such as /gelenk")
         return text.rstrip("/")
+    if name in _LISTS:
+        return _parse_list(variable, text, *_LISTS[name])
+    if name == "open_access":
+        if text not in _ANSWERS:
+            raise InvalidSetting(f"{variable} must be yes or no")
+        return _ANSWERS[text]
+    if name == "api_keys":
+        return text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")
     return int(text)
+
+
+def _parse_list(variable: str, text: str, allowed: re.Pattern[str], example: str) -> tuple[str, ...]:
+    words = tuple(text.lower().replace(",", " ").split())
+    for word in words:
+        if not allowed.fullmatch(word):
+            raise InvalidSetting(f"{variable} lists values such as {example}; {word[:80]!r} is none")
+    return words

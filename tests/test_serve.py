@@ -16,6 +16,10 @@ from typing import Any
 
 import pytest
 
+from app import serve
+from app.api.access.keyring import new_key
+from app.api.access.scopes import Scope
+
 HOST = "127.0.0.1"
 
 
@@ -120,3 +124,59 @@ def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
     assert run.returncode == 1
     assert run.stderr.count("\n") == 1
     assert "GELENK_DATA_DRI" in run.stderr
+
+
+def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: str) -> dict[str, Any]:
+    """What the server would be started with."""
+    found: dict[str, Any] = {}
+    monkeypatch.setattr("sys.argv", ["serve", *arguments])
+    monkeypatch.setattr("uvicorn.run", lambda *_, **options: found.update(options))
+    for variable, value in settings.items():
+        monkeypatch.setenv(variable, value)
+    serve.main()
+    return found
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.0.2.1", "lab.example.org", ""])
+def test_beyond_this_machine_it_wants_keys_or_a_word(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(SystemExit, match="without a key: make keys with"):
+        started_with(monkeypatch, "--host", host)
+    with pytest.raises(SystemExit, match="without a key"):
+        started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="no")
+    assert started_with(monkeypatch, "--host", host, "--open")["host"] == host
+    assert started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="yes")["host"] == host
+    _, key = new_key("anna", [Scope.READ])
+    keys = {"GELENK_OPEN_ACCESS": "no", "GELENK_API_KEYS": key.entry()}
+    assert started_with(monkeypatch, "--host", host, **keys)["host"] == host
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "127.8.8.8", "::1", "localhost"])
+def test_on_this_machine_it_wants_neither(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert started_with(monkeypatch, "--host", host)["host"] == host
+
+
+def test_keys_that_cannot_be_read_end_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    with pytest.raises(SystemExit, match=r"GELENK_API_KEYS: .*No such file"):
+        started_with(monkeypatch, GELENK_API_KEYS=str(tmp_path / "none"))
+
+
+def test_only_a_trusted_proxy_says_where_a_request_comes_from(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FORWARDED_ALLOW_IPS", "*")
+    options = started_with(monkeypatch)
+    assert (options["proxy_headers"], options["forwarded_allow_ips"]) == (False, [])
+    options = started_with(monkeypatch, GELENK_TRUSTED_PROXIES="10.0.0.5")
+    assert (options["proxy_headers"], options["forwarded_allow_ips"]) == (True, ["10.0.0.5"])
+
+
+def test_keys_over_real_connections(tmp_path: Path) -> None:
+    token, key = new_key("anna", [Scope.READ])
+    with service(tmp_path / "data", GELENK_API_KEYS=key.entry()) as (_, url):
+        assert get(f"{url}/v1/robots")[0] == 401
+        for path, method, status in (("/v1/robots", "GET", 200), ("/v1/robots/nobody", "DELETE", 403)):
+            request = urllib.request.Request(url + path, method=method, headers={"Authorization": f"Bearer {token}"})
+            try:
+                with urllib.request.urlopen(request, timeout=20) as answer:
+                    assert answer.status == status
+            except urllib.error.HTTPError as error:
+                assert error.code == status
+                assert json.loads(error.read())["missing_scope"] == "write"

@@ -22,11 +22,32 @@ def test_defaults_and_values() -> None:
     assert (settings.max_body_bytes, settings.threads) == (1000, 3)
 
 
+def test_settings_of_several_values() -> None:
+    settings = Settings.from_environment(
+        {
+            "GELENK_TRUSTED_HOSTS": "Lab.example.org, *.example.net [fe80::1]",
+            "GELENK_ALLOWED_ORIGINS": "https://lab.example.org:8443,http://[::1]:5173",
+            "GELENK_TRUSTED_PROXIES": "10.0.0.5,fd00::/8",
+            "GELENK_OPEN_ACCESS": "yes",
+        }
+    )
+    assert settings.trusted_hosts == ("lab.example.org", "*.example.net", "[fe80::1]")
+    assert settings.allowed_origins == ("https://lab.example.org:8443", "http://[::1]:5173")
+    assert settings.trusted_proxies == ("10.0.0.5", "fd00::/8")
+    assert settings.open_access
+
+
 @pytest.mark.parametrize(
     ("variable", "value"),
     [
         ("GELENK_DATADIR", "x"),
-        ("GELENK_API_KEYS", "secret"),
+        ("GELENK_API_KEYS", ""),
+        ("GELENK_OPEN_ACCESS", "true"),
+        ("GELENK_TRUSTED_HOSTS", "lab.example.org:8000"),
+        ("GELENK_TRUSTED_HOSTS", "lab*.example.org"),
+        ("GELENK_ALLOWED_ORIGINS", "lab.example.org"),
+        ("GELENK_ALLOWED_ORIGINS", "https://lab.example.org/"),
+        ("GELENK_TRUSTED_PROXIES", "proxy"),
         ("GELENK_MAX_BODY_BYTES", "0"),
         ("GELENK_MAX_BODY_BYTES", "-1"),
         ("GELENK_MAX_BODY_BYTES", "64M"),

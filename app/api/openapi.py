@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 
+from app.api.access.scopes import SCHEME, security_of
 from app.api.payloads import CSV, NPY, PNG, SVG
 from app.api.problems import MEDIA_TYPE
 from app.schemas.problem import Problem
@@ -48,8 +49,13 @@ def picture_content(description: str | None) -> dict[str, Any]:
     return {kind: {"schema": {"type": "string", "format": "binary", "description": description}} for kind in (SVG, PNG)}
 
 
-def describe(app: FastAPI) -> None:
-    """Make the application write its schema once, with problems in the place of FastAPI's own validation error."""
+def describe(app: FastAPI, has_keys: bool) -> None:
+    """Make the application write its schema once, with problems in the place of FastAPI's own validation error.
+
+    Args:
+        app: The application.
+        has_keys: Whether its operations need keys.
+    """
 
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
@@ -68,13 +74,25 @@ def describe(app: FastAPI) -> None:
             problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
             components.update(problem.pop("$defs"))
             components["Problem"] = problem
-            for path in schema["paths"].values():
-                for operation in path.values():
+            schema["components"]["securitySchemes"] = {"key": SCHEME}
+            for path, operations in schema["paths"].items():
+                for method, operation in operations.items():
                     _replace_validation_error(operation)
+                    _add_refusals(operation, security_of(path, method, operation), has_keys)
             app.openapi_schema = schema
         return app.openapi_schema
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:
+    """What any operation may answer before it is asked; that a key is not needed where keys are off."""
+    statuses = [HTTPStatus.MISDIRECTED_REQUEST, HTTPStatus.FORBIDDEN]
+    if security:
+        operation["security"] = security if has_keys else [{}, *security]
+        statuses.append(HTTPStatus.UNAUTHORIZED)
+    for status, response in problem_responses(*statuses).items():
+        operation["responses"].setdefault(str(int(status)), response)
 
 
 def _replace_validation_error(operation: dict[str, Any]) -> None:

@@ -97,6 +97,7 @@ def problem(
         "status": int(status),
         "detail": detail[:_MOST_TEXT],
         "instance": request.url.path[:256],
+        "request_id": request.scope.get("request_id"),
     }
     for key, value in (facts or {}).items():
         content.setdefault(key, _shortened(value))

@@ -18,7 +18,7 @@ from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
-from starlette.types import Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api import problems
 from app.api.openapi import RobotPath, csv_content, json_example, npy_content, picture_content, problem_responses
@@ -78,19 +78,24 @@ class DocumentedRoute(APIRoute):
 
 
 class Application(FastAPI):
-    """FastAPI, with the operations on a robot answered at the door.
+    """FastAPI, with the operations on a robot answered before anything else is asked.
 
     `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
-    an unknown operation, takes FastAPI's way.
+    an unknown operation, takes FastAPI's way. `door` is where requests come in, and leads to `answer`.
     """
 
     def __init__(self, max_body_bytes: int, **description: Any) -> None:
         super().__init__(**description)
         self._max_body_bytes = max_body_bytes
         self.operations: dict[str, Handler] = {}
+        self.door: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve a connection; HEAD is GET, whose body the server keeps to itself."""
+        """Serve a connection."""
+        await self.door(scope, receive, send)
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request that was let in; HEAD is GET, whose body the server keeps to itself."""
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
         if scope["type"] == "http" and scope["method"] == "POST":

@@ -91,4 +91,4 @@ def test_a_page_and_what_it_loads_come_from_here_alone(client: TestClient, page:
 
 
 def test_the_schema_names_no_host(client: TestClient) -> None:
-    assert "http" not in client.get("/openapi.json").text
+    assert "://" not in client.get("/openapi.json").text

@@ -1,0 +1,67 @@
+"""A request and its answer, as far as they have got: what the checks look at, and what is told of it afterwards."""
+
+import os
+import re
+import time
+from dataclasses import dataclass, field
+
+from starlette.requests import Request
+from starlette.types import Scope
+
+from app.api.access.directory import Operation
+
+_WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
+
+
+@dataclass(slots=True)
+class Exchange:
+    """A request and its answer.
+
+    Attributes:
+        scope: As the server has it.
+        operation: What is asked for.
+        robot: The robot that the path names.
+        headers: Of the request; of a repeated one the last.
+        request_id: The caller's own where it has sent a good one, else a new one.
+        started: On the monotonic clock, [s].
+        key: Name of the key it was let in with; "" where there was none.
+        answer_headers: What its answer carries beside the headers that all have.
+        status: Of the answer; 0 until there is one.
+    """
+
+    scope: Scope
+    operation: Operation
+    robot: str | None
+    headers: dict[bytes, bytes]
+    request_id: str
+    started: float
+    key: str = ""
+    answer_headers: list[tuple[bytes, bytes]] = field(default_factory=list)
+    status: int = 0
+
+    @classmethod
+    def begun(cls, scope: Scope, operation: Operation, robot: str | None) -> "Exchange":
+        """A request that has just come in; problems find its id in the scope."""
+        headers = dict(scope["headers"])
+        given = headers.get(b"x-request-id", b"")
+        request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else os.urandom(16).hex()
+        scope["request_id"], scope["exchange"] = request_id, None
+        exchange = cls(scope, operation, robot, headers, request_id, time.perf_counter())
+        scope["exchange"] = exchange
+        return exchange
+
+    @property
+    def request(self) -> Request:
+        """The request, for a problem that answers it."""
+        return Request(self.scope)
+
+    @property
+    def is_safe(self) -> bool:
+        """Whether its method changes nothing."""
+        return self.scope["method"] in {"GET", "HEAD", "OPTIONS"}
+
+    @property
+    def client(self) -> str:
+        """The address it came from."""
+        client = self.scope.get("client")
+        return client[0] if client else ""

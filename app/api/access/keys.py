@@ -1,0 +1,60 @@
+"""Lets in who sends a key that is good for the operation: `Authorization: Bearer gelenk.…`."""
+
+import asyncio
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from app.api.access.exchange import Exchange
+from app.api.access.keyring import Keyring
+from app.api.access.scopes import Scope
+from app.api.problems import problem
+
+_REALM = 'Bearer realm="gelenk"'
+
+
+class KeyCheck:
+    """Refuses operations that need a key to whoever has not sent it.
+
+    Args:
+        keyring: The keys.
+    """
+
+    def __init__(self, keyring: Keyring) -> None:
+        self._keyring = keyring
+        self._refreshing: asyncio.Future[None] | None = None
+
+    def __call__(self, exchange: Exchange) -> Response | None:
+        """A refusal, or None."""
+        operation = exchange.operation
+        if operation.is_open:
+            return None
+        if self._keyring.is_due:
+            # Its file may lie on a slow disk: nobody waits for that.
+            self._refreshing = asyncio.get_running_loop().run_in_executor(None, self._keyring.refresh)
+        scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
+        if scheme.lower() != "bearer":
+            return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)
+        key = self._keyring.find(token.strip())
+        if key is None:
+            return _unauthorised(
+                exchange, "the key is none of this service's, or none any more", f'{_REALM}, error="invalid_token"'
+            )
+        exchange.key = key.name
+        if operation.scope is not None and operation.scope not in key.scopes:
+            return _forbidden(exchange, operation.scope, key.scopes)
+        return None
+
+
+def _unauthorised(exchange: Exchange, detail: str, challenge: str) -> Response:
+    response = problem(exchange.request, HTTPStatus.UNAUTHORIZED, "key-needed", detail)
+    response.headers["WWW-Authenticate"] = challenge
+    return response
+
+
+def _forbidden(exchange: Exchange, needed: Scope, given: frozenset[Scope]) -> Response:
+    facts = {"missing_scope": needed, "scopes": sorted(given)}
+    detail = f"this needs the scope `{needed}`, which the key has not"
+    response = problem(exchange.request, HTTPStatus.FORBIDDEN, "missing-scope", detail, facts)
+    response.headers["WWW-Authenticate"] = f'{_REALM}, error="insufficient_scope", scope="{needed}"'
+    return response
