@@ -1,6 +1,7 @@
 """Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
 
 - `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there. `keys`: makes API keys.
+- `logs`: the log, as lines of JSON.
 - `prune`: takes from a container image what the service never opens.
 - `api`: HTTP only. `schemas`: what travels. `store`: robots on disk. `jobs`: long work in processes of its own.
 - `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.

@@ -12,6 +12,7 @@ from app.api import documentation, openapi, problems, studio
 from app.api.access.directory import Directory
 from app.api.access.door import Check, Door
 from app.api.access.hosts import TrustedHosts
+from app.api.access.journal import Audit, log_request
 from app.api.access.keyring import Keyring
 from app.api.access.keys import KeyCheck
 from app.api.access.origins import Origins
@@ -138,7 +139,8 @@ def create_app(settings: Settings) -> FastAPI:
     checks: list[Check] = [TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
-    app.door = Door(app.answer, Directory(iter_route_contexts(app.routes)), settings.root_path, checks)
+    directory, audit = Directory(iter_route_contexts(app.routes)), Audit(settings.data_dir / "audit")
+    app.door = Door(app.answer, directory, settings.root_path, checks, [log_request], audit)
     return app
 
 

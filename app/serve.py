@@ -8,6 +8,7 @@ import sys
 import uvicorn
 
 from app.api.access.keyring import InvalidKeys, Keyring
+from app.logs import configuration
 from app.settings import InvalidSetting, Settings
 
 SHUTDOWN_SECONDS = 7
@@ -47,7 +48,7 @@ def main() -> None:
         loop="uvloop",
         http="httptools",
         access_log=False,
-        log_level="warning",
+        log_config=configuration(settings.log_level),
         server_header=False,
         proxy_headers=bool(settings.trusted_proxies),
         forwarded_allow_ips=list(settings.trusted_proxies),

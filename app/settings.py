@@ -9,6 +9,8 @@ from typing import TypeAlias
 
 from platformdirs import user_data_path
 
+from app.logs import LEVELS
+
 _PREFIX = "GELENK_"
 
 
@@ -38,6 +40,8 @@ class Settings:
         api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty where none are needed
             (`GELENK_API_KEYS`).
         open_access: Whether the service may listen beyond this machine without keys (`GELENK_OPEN_ACCESS`).
+        log_level: The least that is logged: `debug`, `info` (each request), `warning` (refusals) or `error`
+            (`GELENK_LOG_LEVEL`).
         trusted_hosts: Names that it answers for beside this machine's own (`GELENK_TRUSTED_HOSTS`).
         allowed_origins: Origins whose pages may call it (`GELENK_ALLOWED_ORIGINS`).
         trusted_proxies: Addresses whose word is taken for where a request comes from (`GELENK_TRUSTED_PROXIES`).
@@ -58,6 +62,7 @@ class Settings:
     max_job_samples: int = 10_000_000
     api_keys: str = ""
     open_access: bool = False
+    log_level: str = "warning"
     trusted_hosts: tuple[str, ...] = ()
     allowed_origins: tuple[str, ...] = ()
     trusted_proxies: tuple[str, ...] = ()
@@ -107,7 +112,9 @@ def _parse(variable: str, name: str, text: str) -> _Value:
         if text not in _ANSWERS:
             raise InvalidSetting(f"{variable} must be yes or no")
         return _ANSWERS[text]
-    if name == "api_keys":
+    if name == "log_level" and text not in LEVELS:
+        raise InvalidSetting(f"{variable} must be one of {', '.join(LEVELS)}")
+    if name in {"api_keys", "log_level"}:
         return text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")

@@ -3,7 +3,7 @@
 - `problems`: every error as RFC 9457; the one table from error class to status.
 - `payloads`: bodies in: JSON and NumPy's npy, strictly.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
-- `access`: the door: hosts, origins, keys, and the headers of every answer.
+- `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
 - `isolated`: a process of its own, with a deadline, for work that holds the GIL.
 - `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to

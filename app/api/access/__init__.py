@@ -3,5 +3,5 @@
 - `exchange`: a request and its answer, as far as they have got. `door`: passes each through the checks, in order.
 - `scopes`: which operation needs which scope. `directory`: which operation a path is.
 - `hosts`, `origins`, `keys`: the checks; `keyring` holds the keys.
-- `headers`: what every answer carries.
+- `headers`: what every answer carries. `journal`: what is told of each request, and kept of each write.
 """

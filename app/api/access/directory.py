@@ -6,11 +6,14 @@ It is made of the expressions that the routes themselves match with, so that wha
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from fastapi.routing import RouteContext
 
 from app.api.access.scopes import Scope, scope_of_route
 
+_MOST_REMEMBERED = 1024
+_LONGEST_REMEMBERED = 128
 _NAMED_GROUP = re.compile(r"\(\?P<(\w+)>")
 
 
@@ -52,9 +55,13 @@ class Directory:
                 methods.setdefault(method, operation)
         self._methods = list(self._operations.values())
         self._pattern = re.compile("|".join(map(_numbered, range(len(self._methods)), self._operations)))
+        self._remembered = lru_cache(_MOST_REMEMBERED)(self._found)
 
     def find(self, path: str, method: str) -> tuple[Operation, str | None]:
         """The operation, and the robot that the path names."""
+        return (self._remembered if len(path) <= _LONGEST_REMEMBERED else self._found)(path, method)
+
+    def _found(self, path: str, method: str) -> tuple[Operation, str | None]:
         match = self._pattern.match(path)
         if match is None or match.lastgroup is None:
             return UNKNOWN, None

@@ -1,5 +1,6 @@
 """Where every request comes in and every answer goes out."""
 
+import asyncio
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
@@ -9,9 +10,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.api.access.directory import Directory
 from app.api.access.exchange import Exchange
 from app.api.access.headers import completed
+from app.api.access.journal import Audit
+from app.logs import REQUEST_ID
 
 Check: TypeAlias = Callable[[Exchange], Response | None]
 """Looks at a request; what it returns is the answer, and None lets the request pass."""
+Observer: TypeAlias = Callable[[Exchange], None]
+"""Is told of each request when it is over."""
 
 
 class Door:
@@ -22,11 +27,21 @@ class Door:
         directory: Its operations.
         root_path: Path prefix under which a proxy serves it.
         checks: The first refusal counts.
+        observers: Told of every request, the refused ones included.
+        audit: Where writes are kept.
     """
 
-    def __init__(self, app: ASGIApp, directory: Directory, root_path: str, checks: Sequence[Check]) -> None:
+    def __init__(
+        self,
+        app: ASGIApp,
+        directory: Directory,
+        root_path: str,
+        checks: Sequence[Check],
+        observers: Sequence[Observer],
+        audit: Audit,
+    ) -> None:
         self._app, self._directory, self._root_path = app, directory, root_path
-        self._checks = tuple(checks)
+        self._checks, self._observers, self._audit = tuple(checks), tuple(observers), audit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a connection."""
@@ -40,16 +55,35 @@ class Door:
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
         path: str = scope["path"].removeprefix(self._root_path)
         exchange = Exchange.begun(scope, *self._directory.find(path, scope["method"]))
+        REQUEST_ID.set(exchange.request_id)
 
         async def answer(message: Message) -> None:
             if message["type"] == "http.response.start":
                 exchange.status = message["status"]
                 own = (b"x-request-id", exchange.request_id.encode())
                 message["headers"] = completed(message.get("headers", ()), [own, *exchange.answer_headers])
+                if exchange.is_audited:
+                    await asyncio.to_thread(self._audit.write, exchange, _location(message["headers"]))
             await send(message)
 
+        try:
+            refusal = self._refusal(exchange)
+            await (refusal or self._app)(scope, receive, answer)
+        finally:
+            if exchange.is_audited and not exchange.status:
+                # Its client has left, or it broke off: what was written may stand.
+                await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
+            for observer in self._observers:
+                observer(exchange)
+
+    def _refusal(self, exchange: Exchange) -> Response | None:
+        """The answer of the first check that has one."""
         for check in self._checks:
             if (refusal := check(exchange)) is not None:
-                await refusal(scope, receive, answer)
-                return
-        await self._app(scope, receive, answer)
+                return refusal
+        exchange.was_let_in = True
+        return None
+
+
+def _location(headers: Sequence[tuple[bytes, bytes]]) -> str | None:
+    return next((value.decode("latin-1") for name, value in headers if name == b"location"), None)

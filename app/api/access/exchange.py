@@ -6,9 +6,10 @@ import time
 from dataclasses import dataclass, field
 
 from starlette.requests import Request
-from starlette.types import Scope
+from starlette.types import Scope as AsgiScope
 
 from app.api.access.directory import Operation
+from app.api.access.scopes import Scope
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 
@@ -27,9 +28,10 @@ class Exchange:
         key: Name of the key it was let in with; "" where there was none.
         answer_headers: What its answer carries beside the headers that all have.
         status: Of the answer; 0 until there is one.
+        was_let_in: Whether it has passed all checks.
     """
 
-    scope: Scope
+    scope: AsgiScope
     operation: Operation
     robot: str | None
     headers: dict[bytes, bytes]
@@ -38,9 +40,10 @@ class Exchange:
     key: str = ""
     answer_headers: list[tuple[bytes, bytes]] = field(default_factory=list)
     status: int = 0
+    was_let_in: bool = False
 
     @classmethod
-    def begun(cls, scope: Scope, operation: Operation, robot: str | None) -> "Exchange":
+    def begun(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "Exchange":
         """A request that has just come in; problems find its id in the scope."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id", b"")
@@ -54,6 +57,11 @@ class Exchange:
     def request(self) -> Request:
         """The request, for a problem that answers it."""
         return Request(self.scope)
+
+    @property
+    def is_audited(self) -> bool:
+        """Whether it writes, by someone who was let in or whose key is known."""
+        return self.operation.scope is Scope.WRITE and (self.was_let_in or self.key != "")
 
     @property
     def is_safe(self) -> bool:

@@ -1,8 +1,11 @@
 """Requests down to their last header, and the answers as they leave the application."""
 
 import asyncio
+import atexit
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import orjson
@@ -11,8 +14,21 @@ from starlette.types import Message
 
 from app.api.access.keyring import new_key
 from app.api.access.scopes import Scope
+from app.main import create_app
+from app.settings import Settings
 
+_FOLDER = tempfile.TemporaryDirectory()
+atexit.register(_FOLDER.cleanup)
 HOST = (b"host", b"127.0.0.1:8000")
+
+
+def application(**settings: Any) -> FastAPI:
+    """An application with these settings; all of them share a data folder."""
+    return create_app(Settings(**{"data_dir": Path(_FOLDER.name), **settings}))
+
+
+class Sent(list[Message]):
+    """What the application has sent, in order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +82,7 @@ async def _asked(app: FastAPI, path: str, method: str, headers: Sequence[tuple[b
         "server": ("192.0.2.1", 8000),
     }
     requests: list[Message] = [{"type": "http.request", "body": body}, {"type": "http.disconnect"}]
-    sent: list[Message] = []
+    sent = Sent()
 
     async def receive() -> Message:
         return requests.pop(0) if len(requests) > 1 else requests[0]

@@ -8,12 +8,10 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.api import studio
 from app.api.access.headers import COMMON
-from app.main import create_app
-from app.settings import Settings
-from tests.api.access.asking import HOST, ask, bearer, keys_for
+from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 
 ENTRIES, KEYS = keys_for("read")
-APP = create_app(Settings(data_dir=Path("unused"), api_keys=ENTRIES))
+APP = application(api_keys=ENTRIES)
 OWN_POLICIES = {"/", "/studio/index.html", "/docs", "/v1/robots/panda/urdf"}
 ANSWERS = [
     ("GET", "/v1/robots", 200),
@@ -69,7 +67,7 @@ def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.Mo
         raise RuntimeError("boom")
 
     monkeypatch.setattr("app.store.library.Library.records", fail)
-    with TestClient(create_app(Settings(data_dir=tmp_path)), raise_server_exceptions=False) as client:
+    with TestClient(application(data_dir=tmp_path), raise_server_exceptions=False) as client:
         answer = client.get("/v1/robots")
     assert answer.status_code == 500
     assert answer.headers["x-request-id"] == answer.json()["request_id"]
@@ -93,7 +91,7 @@ def test_an_ill_formed_id_is_replaced(given: bytes) -> None:
 
 def test_sockets_of_another_kind_are_closed(tmp_path: Path) -> None:
     with (
-        TestClient(create_app(Settings(data_dir=tmp_path))) as client,
+        TestClient(application(data_dir=tmp_path)) as client,
         pytest.raises(WebSocketDisconnect) as caught,
         client.websocket_connect("/v1/robots"),
     ):

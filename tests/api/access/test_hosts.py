@@ -1,19 +1,11 @@
 """The service answers for its own names alone, and pages of other origins can change nothing."""
 
-from pathlib import Path
-
 import pytest
 from fastapi import FastAPI
 
-from app.main import create_app
-from app.settings import Settings
-from tests.api.access.asking import HOST, Answer, ask
+from tests.api.access.asking import HOST, Answer, application, ask
 
 ELSEWHERE = b"https://page.example"
-
-
-def application(**settings: object) -> FastAPI:
-    return create_app(Settings(data_dir=Path("unused"), **settings))  # type: ignore[arg-type]
 
 
 APP = application()

@@ -12,9 +12,7 @@ from app import keys
 from app.api.access import keyring
 from app.api.access.keyring import InvalidKeys, Keyring, new_key, read_keys
 from app.api.access.scopes import Scope
-from app.main import create_app
-from app.settings import Settings
-from tests.api.access.asking import HOST, ask, bearer
+from tests.api.access.asking import HOST, application, ask, bearer
 
 
 def test_a_key_is_known_by_its_entry_which_does_not_hold_it() -> None:
@@ -119,7 +117,7 @@ def test_keys_are_made_used_and_taken_away(
     assert stat.S_IMODE(file.stat().st_mode) == 0o600
     assert anna not in file.read_text()
     monkeypatch.setattr(keyring, "_LOOK_SECONDS", 0.0)
-    app = create_app(Settings(data_dir=tmp_path, api_keys=str(file)))
+    app = application(data_dir=tmp_path, api_keys=str(file))
 
     def status(token: str) -> int:
         return ask(app, "/v1/robots", headers=(HOST, bearer(token))).status
@@ -184,7 +182,7 @@ def test_a_name_is_given_once_and_a_foreign_file_left_alone(
 )
 def test_what_is_no_key_is_a_small_401(authorization: bytes) -> None:
     _, key = new_key("anna", [Scope.READ])
-    app = create_app(Settings(data_dir=Path("unused"), api_keys=key.entry()))
+    app = application(api_keys=key.entry())
     answer = ask(app, "/v1/robots", headers=(HOST, (b"authorization", authorization)))
     assert answer.status == 401
     assert (answer.header("www-authenticate") or "").startswith('Bearer realm="gelenk"')
@@ -194,7 +192,7 @@ def test_what_is_no_key_is_a_small_401(authorization: bytes) -> None:
 def test_a_wrong_key_is_told_apart_from_none_and_never_repeated() -> None:
     token, _ = new_key("anna", [Scope.READ])
     _, other = new_key("otto", [Scope.READ])
-    app = create_app(Settings(data_dir=Path("unused"), api_keys=other.entry()))
+    app = application(api_keys=other.entry())
     answer = ask(app, "/v1/robots", headers=(HOST, bearer(token)))
     assert answer.header("www-authenticate") == 'Bearer realm="gelenk", error="invalid_token"'
     assert token.encode() not in answer.body

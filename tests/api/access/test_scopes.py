@@ -1,15 +1,12 @@
 """Every route of the application needs a key, or is known to need none; each key opens what its scopes say."""
 
 import re
-from pathlib import Path
 
 import pytest
 from fastapi import FastAPI
 from fastapi.routing import RouteContext, iter_route_contexts
 
-from app.main import create_app
-from app.settings import Settings
-from tests.api.access.asking import HOST, Answer, ask, bearer, keys_for
+from tests.api.access.asking import HOST, Answer, application, ask, bearer, keys_for
 
 OPEN = {"/", "/studio", "/docs", "/redoc", "/documentation/bundles", "/documentation/own", "/openapi.json"}
 OPEN |= {"/healthz", "/readyz"}
@@ -24,7 +21,7 @@ ADMINISTERING: set[tuple[str, str]] = set()
 
 ENTRIES, KEYS = keys_for("read", "write", "admin", "read+write", "write+admin", "read+admin", "read+write+admin")
 OTHERS = {"read": "write+admin", "write": "read+admin", "admin": "read+write"}
-APP = create_app(Settings(data_dir=Path("unused"), api_keys=ENTRIES))
+APP = application(api_keys=ENTRIES)
 ROUTES = [(method, route) for route in iter_route_contexts(APP.routes) for method in sorted(route.methods or {"GET"})]
 
 
@@ -122,7 +119,7 @@ def test_head_is_guarded_as_get() -> None:
 
 
 def test_the_prefix_of_a_proxy_opens_nothing() -> None:
-    app = create_app(Settings(data_dir=Path("unused"), api_keys=ENTRIES, root_path="/gelenk"))
+    app = application(api_keys=ENTRIES, root_path="/gelenk")
     for path in ("/v1/robots", "/gelenk/v1/robots", "/gelenk/v1/robots/panda/fk", "/gelenk/healthz/v1/robots"):
         assert asked(app, "POST", path, None).status == 401
     assert asked(app, "GET", "/gelenk/v1/robots", KEYS["write"]).status == 403
@@ -131,13 +128,13 @@ def test_the_prefix_of_a_proxy_opens_nothing() -> None:
 
 
 def test_without_keys_nothing_needs_one() -> None:
-    app = create_app(Settings(data_dir=Path("unused")))
+    app = application()
     for method, route in ROUTES:
         assert asked(app, method, filled(route), None).status not in {401, 403}, route.path
 
 
 def test_the_schema_says_which_scope_an_operation_needs() -> None:
-    with_keys, without = APP.openapi(), create_app(Settings(data_dir=Path("unused"))).openapi()
+    with_keys, without = APP.openapi(), application().openapi()
     assert with_keys["components"]["securitySchemes"]["key"]["scheme"] == "bearer"
     for path, operations in with_keys["paths"].items():
         for method, operation in operations.items():

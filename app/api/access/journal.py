@@ -1,0 +1,94 @@
+"""What is told of each request in the log, and what is kept of each write."""
+
+import logging
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+from app.api.access.exchange import Exchange
+from app.logs import line, moment
+from app.model.errors import StorageFailed
+from app.store import folders
+
+_LONGEST_PATH = 256
+_BUSY = 503
+_LEFT = 499
+"""Stands in the log for the status of an answer that nobody waited for."""
+
+requests = logging.getLogger("gelenk.requests")
+logger = logging.getLogger("gelenk")
+
+
+def log_request(exchange: Exchange) -> None:
+    """Log a request that is over: what went wrong in the service as an error, who was not let in as a warning.
+
+    All else is information, also that the service was busy, which it would say often: the metrics count that.
+    """
+    if exchange.status >= 500 and exchange.status != _BUSY:
+        level = logging.ERROR
+    else:
+        level = logging.INFO if exchange.was_let_in else logging.WARNING
+    if requests.isEnabledFor(level):
+        facts = _facts(exchange) | {"seconds": round(time.perf_counter() - exchange.started, 6)}
+        requests.log(level, "request", extra={"facts": facts})
+
+
+def _facts(exchange: Exchange) -> dict[str, Any]:
+    return {
+        "request_id": exchange.request_id,
+        "key": exchange.key or None,
+        "client": exchange.client,
+        "method": exchange.scope["method"],
+        "path": exchange.scope["path"][:_LONGEST_PATH],
+        "operation": exchange.operation.name,
+        "status": exchange.status or _LEFT,
+    }
+
+
+class Audit:
+    """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
+
+    A line is on disk before the write is acknowledged. Who was not let in has written nothing: that stands in the log
+    alone, so that nobody can flood this one from outside.
+
+    Args:
+        folder: Where it is kept; made when first written to.
+        most_bytes: Of one file; a full one becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`.
+        kept: Full files that are kept.
+    """
+
+    def __init__(self, folder: Path, most_bytes: int = 16 * 1024 * 1024, kept: int = 4) -> None:
+        self._folder, self._most_bytes, self._kept = folder, most_bytes, kept
+
+    def write(self, exchange: Exchange, location: str | None) -> None:
+        """Add a line; where the disk does not take it, it goes to the log.
+
+        Args:
+            exchange: The write, with its status.
+            location: Where what was written can be found.
+        """
+        entry = {"time": moment(time.time())} | _facts(exchange) | {"location": location}
+        content = (line(entry) + "\n").encode("ascii")
+        try:
+            with folders.exclusive(self._folder), folders.writing():
+                self._make_room(len(content))
+                with open(self._folder / "audit.jsonl", "ab", opener=_private) as stream:
+                    stream.write(content)
+                    stream.flush()
+                    os.fsync(stream.fileno())
+        except StorageFailed as error:
+            logger.error("the audit log cannot be written: %s", error.reason, extra={"facts": entry})
+
+    def _make_room(self, more: int) -> None:
+        current = self._folder / "audit.jsonl"
+        if not current.exists() or current.stat().st_size + more <= self._most_bytes:
+            return
+        files = [current, *(self._folder / f"audit.{i}.jsonl" for i in range(1, self._kept + 1))]
+        for older, newer in zip(reversed(files), reversed(files[:-1]), strict=False):
+            if newer.exists():
+                newer.replace(older)
+
+
+def _private(path: str, flags: int) -> int:
+    return os.open(path, flags, 0o600)
