@@ -7,6 +7,8 @@ export interface Call {
   body?: unknown;
   /** Fields of a form that carries an archive, in the place of a body. */
   form?: { fields: Record<string, string>; archive: File };
+  /** The form of the answer that is wanted, where it is not JSON. */
+  accept?: string;
 }
 
 /** An `application/problem+json`, or that there was no answer at all. */
@@ -58,6 +60,11 @@ export class Api {
     return (await this.answer({ method: "GET", path }, signal)).text();
   }
 
+  /** An answer in another form than JSON. */
+  async bytes(path: string, accept: string, signal?: AbortSignal): Promise<ArrayBuffer> {
+    return (await this.answer({ method: "GET", path, accept }, signal)).arrayBuffer();
+  }
+
   async call<T>(call: Call, signal?: AbortSignal): Promise<T> {
     const answer = await this.answer(call, signal);
     return (answer.status === 204 ? null : await answer.json()) as T;
@@ -78,6 +85,7 @@ export class Api {
 }
 
 function content(call: Call): RequestInit {
+  if (call.accept !== undefined) return { headers: { Accept: call.accept } };
   if (call.form) {
     const body = new FormData();
     for (const [name, value] of Object.entries(call.form.fields)) body.set(name, value);

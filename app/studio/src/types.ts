@@ -266,3 +266,41 @@ export interface DeriveAnswer {
   certificate: { samples: number; max_error: number } | null;
   numeric_certificate: { max_position_error: number; max_jacobian_error: number } | null;
 }
+
+export interface JobInfo {
+  id: string;
+  state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+  /** From 0 to 1. */
+  progress: number;
+  error: { detail: string } | null;
+}
+
+export interface WorkspaceSummary {
+  robot: string;
+  joint_names: string[];
+  base_frame: string;
+  tip_frame: string;
+  kind: "cloud" | "grid" | "dexterity";
+  samples: number;
+  samples_counted: number;
+  bounding_box: { lower: number[]; upper: number[] } | null;
+  reach: { min: number; max: number } | null;
+  voxels: {
+    size: number;
+    dimensions: number;
+    count: number;
+    volume: number;
+    inner_volume: number;
+    late_share: number | null;
+  };
+  measure: {
+    directions: number[][];
+    min: number | null;
+    mean: number | null;
+    max: number | null;
+    joint_positions: number[] | null;
+  };
+  dexterity: { orientations: number; mean_share: number | null; max_share: number | null; full_volume: number } | null;
+  notes: string[];
+  certificate: { max_position_error: number; max_measure_error: number };
+}

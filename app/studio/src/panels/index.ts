@@ -6,5 +6,13 @@ import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
 import { workedPanel } from "./worked/index.ts";
+import { workspacePanel } from "./workspace/index.ts";
 
-export const PANELS: readonly Panel[] = [robotPanel, posePanel, inversePanel, jacobianPanel, workedPanel];
+export const PANELS: readonly Panel[] = [
+  robotPanel,
+  posePanel,
+  inversePanel,
+  jacobianPanel,
+  workspacePanel,
+  workedPanel,
+];

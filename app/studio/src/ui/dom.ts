@@ -27,6 +27,15 @@ export function section(title: string, ...children: Child[]): HTMLElement {
   return element("section", { class: "section" }, element("h2", {}, title), ...children);
 }
 
+/** A titled part with choices beside its title. */
+export function titled(title: string, choices: readonly HTMLElement[], ...children: Child[]): HTMLElement {
+  const made = section(title, ...children);
+  made.prepend(
+    element("div", { class: "bar" }, made.firstElementChild, element("span", { class: "spring" }), ...choices),
+  );
+  return made;
+}
+
 export function button(text: string, onclick: () => void, properties: Properties = {}): HTMLButtonElement {
   return element("button", { type: "button", class: "button", onclick, ...properties }, text);
 }

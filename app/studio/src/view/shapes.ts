@@ -11,6 +11,7 @@ import {
   Mesh,
   MeshBasicMaterial,
   type Object3D,
+  Points,
   Quaternion,
   Vector3,
 } from "three";
@@ -81,7 +82,7 @@ export function clear(group: Object3D): void {
   group.traverse((node) => {
     if (node instanceof CSS2DObject) node.element.remove();
     if (node instanceof Mesh && node.material instanceof MeshBasicMaterial) node.material.dispose();
-    if (node instanceof Line) (node.material as Material).dispose();
+    if (node instanceof Line || node instanceof Points) (node.material as Material).dispose();
   });
   group.clear();
 }

@@ -35,6 +35,7 @@ export class View {
   #renderer: WebGLRenderer;
   #labels = new CSS2DRenderer();
   #model: RobotModel | null = null;
+  #around: Box3 | null = null;
   #grid = new Group();
   #floor = { level: 0, cell: 0.1 };
   #asked = false;
@@ -43,6 +44,7 @@ export class View {
   /** Throws where the browser has no WebGL. */
   constructor(host: HTMLElement) {
     this.#renderer = new WebGLRenderer({ antialias: true });
+    this.#renderer.localClippingEnabled = true;
     this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
@@ -81,23 +83,32 @@ export class View {
     this.draw();
   }
 
+  /** What is to be seen besides the robot, in the world; null for nothing. */
+  surround(box: Box3 | null): void {
+    this.#around = box;
+    this.settle();
+  }
+
   /** Look at the whole robot from the usual side. */
   fit(): void {
     if (!this.#model) return;
     this.#isMoved = false;
-    const box = extent(this.#model);
-    const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
-    const centre = box.getCenter(new Vector3());
+    const robot = extent(this.#model);
+    const box = robot.clone();
+    const size = Math.max(robot.getSize(new Vector3()).length(), 0.05);
     // Meshes that arrive change the size a little; marks stay as they are until it has changed much.
     if (Math.abs(size * 0.09 - this.unit) > 0.15 * this.unit) this.unit = size * 0.09;
-    const distance = (size * 0.62) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    if (this.#around) box.union(this.#around);
+    const seen = Math.max(box.getSize(new Vector3()).length(), size);
+    const centre = box.getCenter(new Vector3());
+    const distance = (seen * 0.62) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.near = size / 200;
     this.camera.far = size * 60;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(DIRECTION, distance);
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.#lay(box, size);
+    this.#lay(robot, size);
   }
 
   /** Take the colours of the page's theme. */

@@ -6,7 +6,7 @@ import { Latest, Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
 import { asProblem } from "../../robot/load.ts";
 import { choosing } from "../../state.ts";
-import { Choice, element, section } from "../../ui/dom.ts";
+import { Choice, section, titled } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
@@ -48,9 +48,9 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const forms = new Choice("Axes and rates of the matrix", FORMS, choose("jacobian.form", FORMS[0]!.value));
   const parts = new Choice("What counts", PARTS, choose("jacobian.part", PARTS[0]!.value));
   host.append(
-    part("Joints", presets(studio), joints.host),
-    part("Jacobian", [forms.host], problems.matrix.host, matrix.host),
-    part("Ellipsoids at the tip", [parts.host], drawing.host, axes.host, drawing.words),
+    titled("Joints", presets(studio), joints.host),
+    titled("Jacobian", [forms.host], problems.matrix.host, matrix.host),
+    titled("Ellipsoids at the tip", [parts.host], drawing.host, axes.host, drawing.words),
     section("Singularity", singularity.host, problems.all.host),
     ...Object.values(requests).map((request) => request.host),
   );
@@ -109,20 +109,6 @@ function open(host: HTMLElement, studio: Studio): () => void {
   return () => {
     for (const stop of stops) stop();
   };
-}
-
-/** A part of the panel with its choices beside the title. */
-function part(title: string, choices: HTMLElement[], ...content: HTMLElement[]): HTMLElement {
-  const made = section(title, ...content);
-  const head = element(
-    "div",
-    { class: "bar" },
-    made.firstElementChild!,
-    element("span", { class: "spring" }),
-    ...choices,
-  );
-  made.prepend(head);
-  return made;
 }
 
 /** To the slider of a joint. */
