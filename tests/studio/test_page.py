@@ -11,7 +11,7 @@ from tests.studio.browser import Studio
 from tests.test_serve import service
 
 AXE = Path(__file__).parents[2] / "app" / "studio" / "node_modules" / "axe-core" / "axe.min.js"
-PANELS = ["robot", "pose", "ik", "jacobian", "workspace", "worked"]
+PANELS = ["robot", "pose", "ik", "jacobian", "trajectory", "workspace", "worked"]
 
 
 @pytest.mark.parametrize("panel", PANELS)

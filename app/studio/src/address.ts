@@ -1,5 +1,6 @@
 /** The state in the address bar, behind `#`: readable, exact to the last digit, and never sent to a server. */
 
+import { asMotion } from "./panels/trajectory/link.ts";
 import { FIRST, type Linked, type State, type Writing } from "./state.ts";
 import type { Store } from "./store.ts";
 import { isPose } from "./robot/pose.ts";
@@ -28,6 +29,7 @@ export function read(hash: string): Address {
   linked.target = isPose(target) ? target : null;
   linked.inverse = inverseOptions(json<unknown>(given.get("ik")));
   linked.writing = writing(given.get("worked")?.split(",") ?? []);
+  linked.motion = asMotion(json(given.get("motion")));
   const shown = new Set((given.get("show") ?? "").split(","));
   for (const flag of FLAGS) linked[flag] = shown.has(flag);
   linked.options = Object.fromEntries([...given].filter(([key]) => OPTION.test(key)));
@@ -47,6 +49,7 @@ export function write(state: Readonly<State>): string {
   if (state.inverse) parts.push(["ik", JSON.stringify(state.inverse)]);
   const worked = writtenAs(state.writing);
   if (worked !== writtenAs(FIRST.writing)) parts.push(["worked", worked]);
+  if (state.motion) parts.push(["motion", JSON.stringify(state.motion)]);
   const shown = FLAGS.filter((flag) => state[flag]);
   if (shown.length) parts.push(["show", shown.join(",")]);
   parts.push(...Object.entries(state.options).sort());
@@ -79,6 +82,7 @@ export function mirror(store: Store<State>, restore: (address: Address) => void)
       "target",
       "inverse",
       "writing",
+      "motion",
       "positions",
       "model",
       "loading",

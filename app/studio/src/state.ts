@@ -1,6 +1,8 @@
 /** What the page shows at this moment. The first part stands in the address bar, so that a link reopens exactly it. */
 
 import type { Problem } from "./api.ts";
+import type { Plan } from "./panels/trajectory/answer.ts";
+import type { Motion } from "./panels/trajectory/motion.ts";
 import type { RobotModel } from "./robot/model.ts";
 import type { ChainTable } from "./robot/table.ts";
 import type { DhTable, InverseOptions, Pose } from "./types.ts";
@@ -30,6 +32,8 @@ export interface Linked {
   /** How the inverse is asked for, where it is not as usual. */
   inverse: InverseOptions | null;
   writing: Writing;
+  /** The motion that is being built. */
+  motion: Motion | null;
   /** Whether angles are shown and typed in degrees; calls are always in radians. */
   degrees: boolean;
   frames: boolean;
@@ -52,6 +56,8 @@ export interface State extends Linked {
   failure: Problem | null;
   /** The table of the chain, where it has been asked for. */
   table: ChainTable | null;
+  /** What the service made of a motion. */
+  plan: Plan | null;
   /** The joint that the pointer or the focus is on, in whatever list of joints. */
   joint: string | null;
   /** Length that suits marks on the robot on the screen, [m]. */
@@ -70,6 +76,7 @@ export const FIRST: Linked = {
   target: null,
   inverse: null,
   writing: { part: "transforms", notation: "short", symbolic: true },
+  motion: null,
   degrees: false,
   frames: false,
   axes: false,
@@ -87,6 +94,7 @@ export function initial(linked: Linked): State {
     loading: false,
     failure: null,
     table: null,
+    plan: null,
     joint: null,
     unit: 0.1,
     theme: "auto",

@@ -5,6 +5,7 @@ import type { Panel } from "./panel.ts";
 import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
+import { trajectoryPanel } from "./trajectory/index.ts";
 import { workedPanel } from "./worked/index.ts";
 import { workspacePanel } from "./workspace/index.ts";
 
@@ -13,6 +14,7 @@ export const PANELS: readonly Panel[] = [
   posePanel,
   inversePanel,
   jacobianPanel,
+  trajectoryPanel,
   workspacePanel,
   workedPanel,
 ];

@@ -1,6 +1,6 @@
 /** The chain that every panel speaks of: what a call about the robot on the screen says of it. */
 
-import type { State } from "../state.ts";
+import type { Positions, State } from "../state.ts";
 import type { Joint, RobotModel } from "./model.ts";
 
 export interface ShownChain {
@@ -9,6 +9,8 @@ export interface ShownChain {
   tip: string;
   /** Base to tip: the order of a configuration. */
   joints: readonly Joint[];
+  /** Of the whole robot on the screen. */
+  positions: Positions;
   /** The configuration on the screen, one number a joint. */
   configuration: number[];
   /** The fields of a call that name the chain. */
@@ -29,6 +31,7 @@ export function shownChain(state: Readonly<State>): ShownChain | null {
     base,
     tip,
     joints,
+    positions,
     configuration: joints.map((joint) => positions[joint.name] ?? 0),
     ends: { base_frame: base, tip_frame: tip },
     path: model.name === null ? null : `v1/robots/${encodeURIComponent(model.name)}`,

@@ -1,0 +1,45 @@
+/** The motion that is being built, of the chain on the screen: read and changed in one place. */
+
+import { shownChain, type ShownChain } from "../../robot/chain.ts";
+import type { State } from "../../state.ts";
+import type { Store } from "../../store.ts";
+import { moved } from "./configurations.ts";
+import { belongs, defined, fresh, type Motion, type Segment } from "./motion.ts";
+
+export class Draft {
+  constructor(readonly store: Store<State>) {}
+
+  /** Only while the robot is on the screen, as it is while the panel is open. */
+  get chain(): ShownChain {
+    return shownChain(this.store.value)!;
+  }
+
+  get motion(): Motion {
+    const { motion } = this.store.value;
+    return belongs(motion, this.chain) ? motion : fresh(this.chain);
+  }
+
+  get degrees(): boolean {
+    return this.store.value.degrees;
+  }
+
+  /** Begin where the robot is, unless there is a motion of this chain already. */
+  begin(): void {
+    if (!belongs(this.store.value.motion, this.chain)) this.set({});
+  }
+
+  /** Move the robot to a configuration of the chain. */
+  goTo(configuration: readonly number[]): void {
+    this.store.set({ positions: moved(this.chain, this.chain.positions, configuration) });
+  }
+
+  /** Change some fields; undefined takes one out. */
+  set(patch: { [K in keyof Motion]?: Motion[K] | undefined }): void {
+    this.store.set({ motion: defined<Motion>({ ...this.motion, ...patch }) });
+  }
+
+  edit(index: number, change: (segment: Segment) => Segment): void {
+    const segments = this.motion.segments.map((segment, i) => (i === index ? defined(change(segment)) : segment));
+    this.set({ segments });
+  }
+}

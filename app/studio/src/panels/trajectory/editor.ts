@@ -1,0 +1,230 @@
+/** What can be changed about one segment: its type, where it leads, how it goes there. */
+
+import { isPose } from "../../robot/pose.ts";
+import { Choice, button, element } from "../../ui/dom.ts";
+import type { Draft } from "./draft.ts";
+import { choice, type Field, icon, optional, placeFields } from "./fields.ts";
+import {
+  asPoseOf,
+  type Boundary,
+  converted,
+  LAWS,
+  type Law,
+  type OrientationLaw,
+  type Place,
+  presentPose,
+  type Segment,
+  type SegmentType,
+  TYPES,
+} from "./motion.ts";
+
+type Blend = "blend_radius" | "blend_time" | "blend_acceleration";
+
+const BLENDS: readonly { value: Blend; text: string; unit: string }[] = [
+  { value: "blend_radius", text: "Radius [m]", unit: "m" },
+  { value: "blend_time", text: "Time [s]", unit: "s" },
+  { value: "blend_acceleration", text: "Acceleration [m/s²]", unit: "m/s²" },
+];
+const ORIENTATIONS: readonly { value: OrientationLaw; text: string }[] = [
+  { value: "axis_angle", text: "One axis" },
+  { value: "zyz", text: "Euler ZYZ" },
+  { value: "zyz_other", text: "ZYZ, other" },
+];
+const BOUNDARIES: readonly { value: Boundary; text: string }[] = [
+  { value: "clamped", text: "At rest (clamped)" },
+  { value: "natural", text: "No acceleration (natural)" },
+  { value: "not_a_knot", text: "Not a knot" },
+  { value: "periodic", text: "Periodic" },
+  { value: "assigned", text: "At rest, no acceleration" },
+];
+
+export class Editor {
+  readonly host = element("div", { class: "segment-body" });
+  #shows: ((segment: Segment) => void)[] = [];
+
+  constructor(
+    private readonly draft: Draft,
+    private readonly index: number,
+  ) {
+    const { type } = this.#segment;
+    this.host.append(
+      element("div", { class: "settings" }, this.#type(), this.#law()),
+      ...this.#places(),
+      ...(type === "line" ? [this.#line()] : []),
+      ...(type === "spline" ? [this.#spline()] : []),
+      element("div", { class: "settings thirds" }, ...this.#pace()),
+    );
+  }
+
+  show(): void {
+    for (const show of this.#shows) show(this.#segment);
+  }
+
+  get #segment(): Segment {
+    return this.draft.motion.segments[this.index]!;
+  }
+
+  get #name(): string {
+    return `Segment ${this.index + 1}`;
+  }
+
+  #edit(patch: { [K in keyof Segment]?: Segment[K] | undefined }): void {
+    this.draft.edit(this.index, (segment) => ({ ...segment, ...patch }) as Segment);
+  }
+
+  #follow<T>(field: Field<T>, value: (segment: Segment) => T): HTMLElement {
+    this.#shows.push((segment) => field.show(value(segment)));
+    return field.host;
+  }
+
+  #type(): HTMLElement {
+    const change = (type: SegmentType) =>
+      this.draft.edit(this.index, (segment) => converted(segment, type, this.draft.chain));
+    return this.#follow(choice("Type", `${this.#name}, type`, TYPES, change), ({ type }) => type);
+  }
+
+  #law(): HTMLElement {
+    const options = [{ value: "" as Law | "", text: "As the motion" }, ...LAWS];
+    const change = (law: Law | "") => this.#edit({ law: law || undefined });
+    return this.#follow(choice("Law", `${this.#name}, law`, options, change), ({ law }) => law ?? "");
+  }
+
+  #pace(): HTMLElement[] {
+    const fields = [
+      { name: "velocity_scale", title: "Velocity scale", unit: "", left: "1" },
+      { name: "acceleration_scale", title: "Acceleration scale", unit: "", left: "1" },
+      { name: "duration", title: "Duration", unit: "s", left: "shortest" },
+    ] as const;
+    return fields.map(({ name, title, unit, left }) => {
+      const label = `${this.#name}, ${title.toLowerCase()}`;
+      const field = optional(title, label, unit, left, (value) => this.#edit({ [name]: value }));
+      return this.#follow(field, (segment) => segment[name]);
+    });
+  }
+
+  #places(): HTMLElement[] {
+    const { type, waypoints } = this.#segment;
+    if (waypoints) return waypoints.map((_, i) => this.#waypoint(i, waypoints.length));
+    const target = this.#place(
+      "Target",
+      (segment) => segment.target,
+      (place) => this.#edit({ target: place }),
+    );
+    if (type !== "circle") return [target];
+    const via = this.#place(
+      "Via",
+      (segment) => segment.via,
+      (place) => this.#edit({ via: asPoseOf(place, this.draft.chain) }),
+    );
+    return [via, target];
+  }
+
+  #waypoint(i: number, count: number): HTMLElement {
+    const remove = () => this.#edit({ waypoints: this.#segment.waypoints!.filter((_, other) => other !== i) });
+    return this.#place(
+      `Waypoint ${i + 1}`,
+      (segment) => segment.waypoints?.[i],
+      (place) => this.#edit({ waypoints: this.#segment.waypoints!.map((old, other) => (other === i ? place : old)) }),
+      count > 1 && icon("×", `${this.#name}, remove waypoint ${i + 1}`, remove),
+    );
+  }
+
+  /** A place with its numbers; a configuration can be gone to, and either be set to where the robot is. */
+  #place(
+    title: string,
+    read: (segment: Segment) => Place | undefined,
+    write: (place: Place) => void,
+    ...tools: (HTMLElement | false)[]
+  ): HTMLElement {
+    const { draft } = this;
+    const place = read(this.#segment);
+    const label = `${this.#name}, ${title.toLowerCase()}`;
+    const wantsPose = this.#segment.type === "line" || this.#segment.type === "circle";
+    const isTip = place ? isPose(place) : wantsPose;
+    const set = () => write(isTip ? presentPose(draft.chain) : draft.chain.configuration);
+    const go = () => draft.goTo(read(this.#segment) as number[]);
+    const small = (text: string, press: () => void) =>
+      button(text, press, { class: "button small", "aria-label": `${text}: ${label}` });
+    const head = element(
+      "div",
+      { class: "bar" },
+      element("h3", {}, title),
+      element("span", { class: "unit" }, isTip ? "tip in base" : "joints"),
+      element("span", { class: "spring" }),
+      small("Set to the present pose", set),
+      place && !isTip && small("Go there", go),
+      ...tools,
+    );
+    if (!place) return element("div", { class: "part" }, head);
+    const fields = placeFields(place, {
+      label,
+      joints: draft.chain.joints,
+      degrees: () => draft.degrees,
+      change: write,
+    });
+    return element(
+      "div",
+      { class: "part" },
+      head,
+      this.#follow(fields, (segment) => read(segment) ?? place),
+    );
+  }
+
+  /** A line's blend into the next one, and how it turns. */
+  #line(): HTMLElement {
+    let kind: Blend = blendOf(this.#segment);
+    const write = (value: number | undefined) =>
+      this.#edit({ ...Object.fromEntries(BLENDS.map(({ value: name }) => [name, undefined])), [kind]: value });
+    const size = optional("Blend into next line", `${this.#name}, blend`, "", "none", write);
+    const by = choice("by", `${this.#name}, blend by`, BLENDS, (chosen) => {
+      const value = this.#segment[kind];
+      kind = chosen;
+      if (value !== undefined) write(value);
+    });
+    this.#shows.push((segment) => {
+      if (BLENDS.some(({ value }) => segment[value] !== undefined)) kind = blendOf(segment);
+      size.show(segment[kind]);
+      by.show(kind);
+    });
+    const turns = choice("Orientation", `${this.#name}, orientation`, ORIENTATIONS, (orientation) =>
+      this.#edit({ orientation }),
+    );
+    const orientation = this.#follow(turns, (segment) => segment.orientation ?? "axis_angle");
+    return element("div", { class: "settings thirds" }, size.host, by.host, orientation);
+  }
+
+  #spline(): HTMLElement {
+    const through = new Choice<"joints" | "tip">(
+      `${this.#name}, through`,
+      [
+        { value: "joints", text: "Joints" },
+        { value: "tip", text: "Tip" },
+      ],
+      (chosen) => {
+        if (chosen === "tip")
+          this.#edit({ waypoints: this.#segment.waypoints!.map((place) => asPoseOf(place, this.draft.chain)) });
+      },
+    );
+    const [joints] = through.host.querySelectorAll("button");
+    this.#shows.push(({ waypoints }) => {
+      const isTip = waypoints!.some(isPose);
+      through.show(isTip ? "tip" : "joints");
+      joints!.disabled = isTip;
+      joints!.title = isTip ? "A pose can be reached in several ways: add configurations as a new spline" : "";
+    });
+    const ends = choice("At its ends", `${this.#name}, at its ends`, BOUNDARIES, (boundary) =>
+      this.#edit({ boundary }),
+    );
+    const boundary = this.#follow(ends, (segment) => segment.boundary ?? "clamped");
+    return element(
+      "div",
+      { class: "settings" },
+      element("div", { class: "setting" }, element("span", { class: "field" }, "A spline of"), through.host),
+      boundary,
+    );
+  }
+}
+
+function blendOf(segment: Segment): Blend {
+  return BLENDS.find(({ value }) => segment[value] !== undefined)?.value ?? "blend_radius";
+}

@@ -1,0 +1,161 @@
+/** Settings with their titles, and the fields of a place. */
+
+import { asMatrix, isPose, orientation, position } from "../../robot/pose.ts";
+import type { Joint } from "../../robot/model.ts";
+import { button, element } from "../../ui/dom.ts";
+import { NumberField } from "../../ui/number.ts";
+import { format, type Kind, unitOf } from "../../ui/quantity.ts";
+import type { Place } from "./motion.ts";
+
+/** Something to fill in that can show another value without being built anew, so that the focus stays. */
+export interface Field<T> {
+  host: HTMLElement;
+  show(value: T): void;
+}
+
+/** A title above a control, and its unit behind it. */
+export function titled(title: string, control: HTMLElement, unit = ""): HTMLElement {
+  return element(
+    "label",
+    { class: "setting" },
+    element("span", { class: "field" }, title, unit && element("span", { class: "unit" }, ` [${unit}]`)),
+    control,
+  );
+}
+
+export function choice<T extends string>(
+  title: string,
+  label: string,
+  options: readonly { value: T; text: string }[],
+  change: (value: T) => void,
+): Field<T> {
+  const select = element(
+    "select",
+    { class: "select", "aria-label": label, onchange: () => change(select.value as T) },
+    ...options.map(({ value, text }) => element("option", { value }, text)),
+  );
+  return { host: titled(title, select), show: (value) => (select.value = value) };
+}
+
+/** A number that may be left out: the placeholder then says what holds. */
+export function optional(
+  title: string,
+  label: string,
+  unit: string,
+  placeholder: string,
+  change: (value: number | undefined) => void,
+): Field<number | undefined> {
+  const field = new NumberField({
+    label,
+    kind: "length",
+    degrees: () => false,
+    optional: true,
+    change: (value) => change(value ?? undefined),
+  });
+  field.input.placeholder = placeholder;
+  return { host: titled(title, field.input, unit), show: (value) => field.set(value ?? null) };
+}
+
+export interface PlaceOptions {
+  /** What a screen reader says in front of each field. */
+  label: string;
+  joints: readonly Joint[];
+  degrees: () => boolean;
+  change: (place: Place) => void;
+}
+
+/** The numbers of a configuration or of a pose, each in a field; which of the two it is stays. */
+export function placeFields(place: Place, options: PlaceOptions): Field<Place> {
+  return isPose(place) ? poseFields(options) : configurationFields(options);
+}
+
+function configurationFields({ label, joints, degrees, change }: PlaceOptions): Field<Place> {
+  let shown: number[] = [];
+  const fields = joints.map((joint, index) => {
+    const kind = kindOf(joint);
+    const title = `${label}, ${joint.name}`;
+    return numberField(title, kind, degrees, (value) => change(shown.map((old, i) => (i === index ? value : old))));
+  });
+  const cells = fields.map((field, i) =>
+    element(
+      "label",
+      { class: "number-cell", title: joints[i]!.name },
+      element("span", { class: "field" }, `q${i + 1}`),
+      field.input,
+    ),
+  );
+  return {
+    host: element("div", { class: "place" }, ...cells),
+    show: (place) => {
+      shown = place as number[];
+      for (const [index, field] of fields.entries()) field.set(shown[index] ?? 0);
+    },
+  };
+}
+
+function poseFields({ label, degrees, change }: PlaceOptions): Field<Place> {
+  let shown: number[] = [];
+  const fields = COORDINATES.map(({ name, kind }, index) =>
+    numberField(`${label}, ${name}`, kind, degrees, (value) => {
+      const numbers = shown.map((old, i) => (i === index ? value : old));
+      change({ position: numbers.slice(0, 3), rpy: numbers.slice(3) });
+    }),
+  );
+  const cells = fields.map((field, i) =>
+    element("label", { class: "number-cell" }, element("span", { class: "field" }, COORDINATES[i]!.name), field.input),
+  );
+  return {
+    host: element("div", { class: "place pose-place" }, ...cells),
+    show: (place) => {
+      shown = coordinates(place);
+      for (const [index, field] of fields.entries()) field.set(shown[index]!);
+    },
+  };
+}
+
+const COORDINATES: readonly { name: string; kind: Kind }[] = [
+  { name: "x", kind: "length" },
+  { name: "y", kind: "length" },
+  { name: "z", kind: "length" },
+  { name: "roll", kind: "angle" },
+  { name: "pitch", kind: "angle" },
+  { name: "yaw", kind: "angle" },
+];
+
+/** x y z and roll pitch yaw; the very numbers where the pose is written so. */
+function coordinates(place: Place): number[] {
+  if (!isPose(place)) return [];
+  if (place.position && place.rpy) return [...place.position, ...place.rpy];
+  const T = asMatrix(place);
+  return [...position(T), ...(orientation(T, "rpy") as number[])];
+}
+
+function numberField(label: string, kind: Kind, degrees: () => boolean, change: (value: number) => void): NumberField {
+  return new NumberField({
+    label,
+    kind,
+    degrees,
+    change: (value) => {
+      if (value !== null) change(value);
+    },
+  });
+}
+
+export function kindOf(joint: Joint): Kind {
+  return joint.type === "prismatic" ? "length" : "angle";
+}
+
+/** A place in a line: a configuration in its joints' units, of a pose where it is. */
+export function told(place: Place, joints: readonly Joint[], degrees: boolean): string {
+  if (isPose(place)) {
+    const numbers = coordinates(place).slice(0, 3);
+    return `${numbers.map((value) => format(value, "length", degrees, 3)).join(", ")} m`;
+  }
+  const unit = new Set(joints.map((joint) => unitOf(kindOf(joint), degrees)));
+  const numbers = place.map((value, i) => format(value, kindOf(joints[i]!), degrees, 2));
+  return unit.size === 1 ? `${numbers.join(", ")} ${[...unit][0]}` : numbers.join(", ");
+}
+
+export function icon(text: string, label: string, press: () => void, isOff = false): HTMLButtonElement {
+  return button(text, press, { class: "icon", "aria-label": label, title: label, disabled: isOff });
+}

@@ -1,0 +1,57 @@
+/** Trajectory: build a motion from poses of the arm, have it planned, play it and see how near it comes to its limits. */
+
+import "../../styles/trajectory.css";
+
+import { section } from "../../ui/dom.ts";
+import { RequestView } from "../../ui/request.ts";
+import { whileKept } from "../kept.ts";
+import type { Panel, Studio } from "../panel.ts";
+import { Arm } from "./arm.ts";
+import { Draft } from "./draft.ts";
+import { belongs, missing } from "./motion.ts";
+import { Planner } from "./planner.ts";
+import { Result } from "./result.ts";
+import { MotionMarks } from "./scene.ts";
+import { SegmentList } from "./segments.ts";
+import { Settings } from "./settings.ts";
+
+export const trajectoryPanel: Panel = {
+  id: "trajectory",
+  title: "Trajectory",
+  open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
+};
+
+function open(host: HTMLElement, studio: Studio): () => void {
+  const { store, view } = studio;
+  const draft = new Draft(store);
+  const asked = new RequestView(studio.api);
+  const marks = view && new MotionMarks(view);
+  const list = new SegmentList(draft);
+  const settings = new Settings(draft);
+  const arm = new Arm(studio);
+  const result = new Result(draft, marks);
+  const planner = new Planner(draft, asked, list, () => result.begin());
+  host.append(section("Motion", list.host, arm.host, settings.host, planner.host), result.host, asked.host);
+  const stops = [
+    store.watch(["model", "base", "tip", "motion", "degrees", "plan"], ({ plan }) => {
+      draft.begin();
+      list.update();
+      settings.update(plan && belongs(plan.motion, draft.chain) ? plan.answer.limits : null);
+      planner.update();
+      result.update();
+    }),
+    store.watch(["model", "base", "tip", "motion", "unit", "dark"], ({ unit }) => {
+      marks?.showPlaces(draft.chain, draft.motion, unit);
+    }),
+    store.watch(["unit", "dark"], () => result.draw()),
+    store.watch(["positions"], () => marks?.follow(draft.chain)),
+    () => planner.stop(),
+    () => arm.stop(),
+    () => result.stop(),
+    () => marks?.remove(),
+  ];
+  if (!store.value.plan && missing(draft.motion) === null) void planner.plan();
+  return () => {
+    for (const stop of stops) stop();
+  };
+}

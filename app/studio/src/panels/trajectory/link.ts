@@ -1,0 +1,69 @@
+/** A motion from the address bar, where anybody can have written anything. */
+
+import { isPose } from "../../robot/pose.ts";
+import { type Motion, type Place, type Segment, TYPES } from "./motion.ts";
+
+const NUMBERS = ["duration", "velocity_scale", "acceleration_scale"] as const;
+const OF_A_SEGMENT = [...NUMBERS, "blend_radius", "blend_time", "blend_acceleration"] as const;
+
+/** The motion, where it is one that the panel can show; whether it can be done the service knows. */
+export function asMotion(value: unknown): Motion | null {
+  const motion = value as Motion;
+  const isMotion =
+    isObject(value) &&
+    [motion.robot, motion.base_frame, motion.tip_frame].every((name) => typeof name === "string") &&
+    areNumbers(motion.start) &&
+    Array.isArray(motion.segments) &&
+    motion.segments.every((segment) => isSegment(segment, motion.start.length)) &&
+    hasNumbers(motion, [...NUMBERS, "sample_period"]) &&
+    areLimits(motion.limits);
+  return isMotion ? motion : null;
+}
+
+function isSegment(value: unknown, joints: number): value is Segment {
+  if (!isObject(value) || !hasNumbers(value, OF_A_SEGMENT)) return false;
+  const { type, via, target, waypoints } = value as Partial<Segment>;
+  const isThere = (place: unknown) => isPlace(place, joints);
+  const isTip = (place: unknown) => isThere(place) && !Array.isArray(place);
+  switch (TYPES.find((known) => known.value === type)?.value) {
+    case "joint":
+      return isThere(target);
+    case "line":
+      return isTip(target);
+    case "circle":
+      return isTip(via) && (target === undefined || isTip(target));
+    case "spline":
+      return Array.isArray(waypoints) && waypoints.length > 0 && waypoints.every(isThere);
+    default:
+      return false;
+  }
+}
+
+function isPlace(value: unknown, joints: number): value is Place {
+  return isPose(value) || (areNumbers(value) && value.length === joints);
+}
+
+function areLimits(value: unknown): boolean {
+  if (value === undefined) return true;
+  return (
+    isObject(value) &&
+    Object.values(value).every((limit) => isNumber(limit) || (isObject(limit) && Object.values(limit).every(isNumber)))
+  );
+}
+
+function hasNumbers(value: object, names: readonly string[]): boolean {
+  const fields = value as Record<string, unknown>;
+  return names.every((name) => fields[name] === undefined || isNumber(fields[name]));
+}
+
+function areNumbers(value: unknown): value is number[] {
+  return Array.isArray(value) && value.every(isNumber);
+}
+
+function isNumber(value: unknown): value is number {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}

@@ -1,0 +1,167 @@
+/** A motion as it is built here: the request itself, but for places that are still missing, and whose it is. */
+
+import type { ShownChain } from "../../robot/chain.ts";
+import { asPose, isPose } from "../../robot/pose.ts";
+import type { Pose } from "../../types.ts";
+import { poseAt } from "./configurations.ts";
+
+export type Law = "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
+export type SegmentType = "joint" | "line" | "circle" | "spline";
+export type Boundary = "clamped" | "natural" | "not_a_knot" | "periodic" | "assigned";
+export type OrientationLaw = "axis_angle" | "zyz" | "zyz_other";
+export type NearSingularity = "stop" | "damp" | "slow_down";
+
+/** A configuration of the chain, base to tip, or a pose of its tip in its base. */
+export type Place = number[] | Pose;
+
+export interface Limits {
+  joint_velocity?: Record<string, number>;
+  joint_acceleration?: Record<string, number>;
+  joint_jerk?: Record<string, number>;
+  tip_velocity?: number;
+  tip_acceleration?: number;
+  tip_angular_velocity?: number;
+  tip_angular_acceleration?: number;
+}
+
+/** How fast and by which law; of a segment what is left out is the motion's. */
+export interface Pace {
+  law?: Law;
+  duration?: number;
+  velocity_scale?: number;
+  acceleration_scale?: number;
+}
+
+export interface Segment extends Pace {
+  type: SegmentType;
+  /** Of a circle. */
+  via?: Pose;
+  /** Of all but a spline; a circle may lack it for a while. */
+  target?: Place;
+  /** Of a spline: configurations or poses, never both. */
+  waypoints?: Place[];
+  /** Of a line, at most one of the three. */
+  blend_radius?: number;
+  blend_time?: number;
+  blend_acceleration?: number;
+  orientation?: OrientationLaw;
+  boundary?: Boundary;
+}
+
+export interface Motion extends Pace {
+  robot: string;
+  base_frame: string;
+  tip_frame: string;
+  start: number[];
+  segments: Segment[];
+  limits?: Limits;
+  sample_period?: number;
+  near_singularity?: NearSingularity;
+}
+
+export const TYPES: readonly { value: SegmentType; text: string }[] = [
+  { value: "joint", text: "Joints" },
+  { value: "line", text: "Line" },
+  { value: "circle", text: "Circle" },
+  { value: "spline", text: "Spline" },
+];
+
+export const LAWS: readonly { value: Law; text: string }[] = [
+  { value: "trapezoidal", text: "Trapezoidal" },
+  { value: "cubic", text: "Cubic" },
+  { value: "quintic", text: "Quintic" },
+  { value: "septic", text: "Septic" },
+  { value: "jerk_limited", text: "Jerk-limited" },
+  { value: "time_optimal", text: "Time-optimal" },
+];
+
+/** A motion of the chain on the screen that has a start, where the robot is now, and goes nowhere yet. */
+export function fresh(chain: ShownChain): Motion {
+  return { robot: chain.model.title, ...chain.ends, start: chain.configuration, segments: [] };
+}
+
+/** Whether a motion is one of the chain on the screen. */
+export function belongs(motion: Motion | null, chain: ShownChain): motion is Motion {
+  return (
+    motion !== null &&
+    motion.robot === chain.model.title &&
+    motion.base_frame === chain.base &&
+    motion.tip_frame === chain.tip &&
+    motion.start.length === chain.joints.length
+  );
+}
+
+/** The tip's pose as the API takes it, its orientation as roll, pitch and yaw, which can be typed. */
+export function presentPose({ model, base, tip }: ShownChain): Pose {
+  return asPose(model.pose(base, tip), "rpy");
+}
+
+/** Whether a circle waits for the place that it leads to. */
+export function isOpen(segment: Segment | undefined): boolean {
+  return segment?.type === "circle" && segment.target === undefined;
+}
+
+/** The segments after the present pose was added as one of a type; an open circle and a spline go on instead. */
+export function added(segments: readonly Segment[], type: SegmentType, chain: ShownChain): Segment[] {
+  const last = segments.at(-1);
+  const pose = () => presentPose(chain);
+  if (last && type === "circle" && isOpen(last)) return [...segments.slice(0, -1), { ...last, target: pose() }];
+  if (last?.waypoints && type === "spline") {
+    const waypoint = last.waypoints.some(isPose) ? pose() : chain.configuration;
+    return [...segments.slice(0, -1), { ...last, waypoints: [...last.waypoints, waypoint] }];
+  }
+  const made: Record<SegmentType, () => Segment> = {
+    joint: () => ({ type, target: chain.configuration }),
+    line: () => ({ type, target: pose() }),
+    circle: () => ({ type, via: pose() }),
+    spline: () => ({ type, waypoints: [chain.configuration] }),
+  };
+  return [...segments, made[type]()];
+}
+
+/** Where a segment leads through, in order, its end last. */
+export function places(segment: Segment): Place[] {
+  return [segment.via, ...(segment.waypoints ?? []), segment.target].filter((place) => place !== undefined);
+}
+
+/** A segment of another type through the same places, as many of them as it has; what both know stays. */
+export function converted(segment: Segment, type: SegmentType, chain: ShownChain): Segment {
+  const { law, duration, velocity_scale, acceleration_scale } = segment;
+  const pace = defined({ law, duration, velocity_scale, acceleration_scale });
+  const all = places(segment);
+  const last = all.at(-1)!;
+  const pose = (place: Place): Pose => asPoseOf(place, chain);
+  switch (type) {
+    case "joint":
+      return { type, target: last, ...pace };
+    case "line":
+      return { type, target: pose(last), ...pace };
+    case "circle":
+      return { type, via: pose(all[0]!), ...(all.length > 1 ? { target: pose(last) } : {}), ...pace };
+    case "spline":
+      return { type, waypoints: all.some(isPose) ? all.map(pose) : all, ...pace };
+  }
+}
+
+/** A place as a pose of the tip: where the joints bring it. */
+export function asPoseOf(place: Place, chain: ShownChain): Pose {
+  return isPose(place) ? place : asPose(poseAt(chain, place), "rpy");
+}
+
+/** What keeps a motion from being asked for; null for one that is whole. */
+export function missing({ segments }: Motion): string | null {
+  if (segments.length === 0) return "Move the arm, then add its pose as the first segment.";
+  const open = segments.findIndex(isOpen);
+  return open < 0 ? null : `Segment ${open + 1} lacks its target: move the arm, then press “Circle target”.`;
+}
+
+/** The body of the call; with the polynomials, which are exact between the samples too. */
+export function request(motion: Motion): object {
+  const { robot: _, ...call } = motion;
+  return { ...call, coefficients: true };
+}
+
+/** Without the fields that are undefined or null. */
+export function defined<T extends object>(fields: { [K in keyof T]: T[K] | null | undefined }): T {
+  return Object.fromEntries(Object.entries(fields).filter(([, value]) => value !== undefined && value !== null)) as T;
+}

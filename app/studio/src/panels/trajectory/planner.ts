@@ -1,0 +1,88 @@
+/** Has the motion planned: the button, how long it has been at it, how to end that, and what is wrong. */
+
+import { Latest } from "../../api.ts";
+import { asProblem } from "../../robot/load.ts";
+import { button, element } from "../../ui/dom.ts";
+import { ProblemView } from "../../ui/problem.ts";
+import type { RequestView } from "../../ui/request.ts";
+import type { TrajectoryAnswer } from "./answer.ts";
+import type { Draft } from "./draft.ts";
+import { missing, request } from "./motion.ts";
+import type { SegmentList } from "./segments.ts";
+
+export class Planner {
+  readonly host: HTMLElement;
+  #latest = new Latest();
+  #timer = 0;
+  #begun = 0;
+  #status = element("p", { class: "muted small plan-status", role: "status" });
+  #problem = new ProblemView();
+  #plan: HTMLButtonElement;
+  #cancel = button("Cancel", () => this.#latest.cancel(), { hidden: true });
+
+  /** @param planned is told when a plan that was pressed for is there. */
+  constructor(
+    private readonly draft: Draft,
+    private readonly asked: RequestView,
+    private readonly list: SegmentList,
+    planned: () => void,
+  ) {
+    const press = async () => {
+      if (await this.plan()) planned();
+    };
+    this.#plan = button("Plan", () => void press(), { class: "button primary" });
+    this.host = element(
+      "div",
+      { class: "part" },
+      element("div", { class: "bar" }, this.#plan, this.#cancel, this.#status),
+      this.#problem.host,
+    );
+  }
+
+  /** Whether there is something to plan, and whether what is shown is of it. */
+  update(): void {
+    const { motion, store } = this.draft;
+    const lacks = missing(motion);
+    const isBusy = this.#timer !== 0;
+    this.#plan.disabled = isBusy || lacks !== null;
+    this.#plan.hidden = isBusy;
+    this.#cancel.hidden = !isBusy;
+    const { plan } = store.value;
+    if (isBusy) {
+      const seconds = Math.floor((performance.now() - this.#begun) / 1000);
+      this.#status.textContent = seconds < 1 ? "Planning …" : `Planning … ${seconds} s`;
+    } else if (lacks) this.#status.textContent = lacks;
+    else if (plan && plan.motion !== motion) this.#status.textContent = "The motion has changed since it was planned.";
+    else this.#status.textContent = "";
+  }
+
+  /** Ask the service; whether an answer came. */
+  async plan(): Promise<boolean> {
+    const { motion, chain, store } = this.draft;
+    this.#begun = performance.now();
+    this.#timer = window.setInterval(() => this.update(), 1000);
+    this.update();
+    try {
+      const answer = await this.#latest.run((signal) =>
+        this.asked.api.post<TrajectoryAnswer>(`${chain.path}/trajectory`, request(motion), signal),
+      );
+      if (!answer) return false;
+      this.#problem.show(null);
+      this.list.fail([]);
+      store.set({ plan: { motion, answer } });
+      return true;
+    } catch (error) {
+      const problem = asProblem(error);
+      this.#problem.show(this.list.fail(problem.places) ? problem : null);
+      return false;
+    } finally {
+      clearInterval(this.#timer);
+      this.#timer = 0;
+      this.update();
+    }
+  }
+
+  stop(): void {
+    this.#latest.cancel();
+  }
+}

@@ -1,0 +1,335 @@
+"""The Trajectory panel: a motion is built from poses of the arm, planned, played and judged."""
+
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import Route
+
+from tests.studio.browser import Studio
+from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
+from tests.studio.test_page import AXE, CUT_OFF
+from tests.test_serve import get
+
+HOME = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
+ABOVE = [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]
+ASIDE = [0.6, -0.3, 0.1, -2.2, 0.05, 1.8, 0.9]
+FAR = [0.5, -0.1, 0.1, -1.9, 0.05, 1.8, 0.9]
+TOLERANCE = 1e-9
+COLD = 200
+"""Seconds that the first plan of a fresh tree may take, while its kernels are compiled."""
+
+
+def put(studio: Studio, configuration: list[float]) -> None:
+    """Move the chain's joints, as another panel would."""
+    studio.run(
+        """(q) => {
+          const {model, base, tip, positions} = studio.store.value;
+          const joints = model.chain(base ?? model.ends.base_frame, tip ?? model.ends.tip_frame);
+          const moved = Object.fromEntries(joints.map(({name}, i) => [name, q[i]]));
+          studio.store.set({positions: {...positions, ...moved}});
+        }""",
+        configuration,
+    )
+
+
+def add(studio: Studio, name: str, configuration: list[float]) -> None:
+    """Add a pose of the arm to the motion."""
+    put(studio, configuration)
+    studio.button(name).click()
+
+
+def plan(studio: Studio) -> Any:
+    """Press Plan; the service's answer to the very call that the panel shows."""
+    studio.run("studio.store.set({plan: null})")
+    studio.button("Plan").click()
+    studio.until("studio.store.value.plan", COLD)
+    return asked(studio)
+
+
+def asked(studio: Studio) -> Any:
+    """What the service says to the call under "as request", asked without the page."""
+    if not studio.button("JSON").is_visible():
+        studio.page.get_by_text("As request").click()
+    studio.button("JSON").click()
+    call = json.loads(studio.page.locator(".request code").text_content() or "")
+    robot = studio.run("studio.store.value.model.name")
+    status, answer = get(f"{studio.url}/v1/robots/{robot}/trajectory", "POST", call)
+    assert status == 200, answer
+    return answer
+
+
+def seek(studio: Studio, time: float) -> list[float]:
+    """Scrub to a time; the joints' positions then."""
+    studio.field("Time in the motion").fill(str(time))
+    return shown(studio)
+
+
+def shown(studio: Studio) -> list[float]:
+    """The joints that the plan moves, as they are on the screen."""
+    found: list[float] = studio.run(
+        "(({positions, plan}) => plan.answer.joint_names.map((name) => positions[name]))(studio.store.value)"
+    )
+    return found
+
+
+def row(studio: Studio, name: str) -> list[str]:
+    """A row of the audit."""
+    cells = studio.page.locator(".findings tr", has=studio.page.get_by_role("rowheader", name=name, exact=True))
+    return [text.replace("−", "-") for text in cells.locator("td").all_text_contents()]
+
+
+def panda(studio: Studio) -> None:
+    studio.open("trajectory", robot="panda", q=",".join(map(str, [*HOME, 0.02])))
+
+
+def test_a_motion_of_the_panda(studio: Studio) -> None:
+    """Built, planned and scrubbed: joints, audit and the tip's way are those of the service's samples."""
+    panda(studio)
+    assert "add its pose" in (studio.page.locator(".plan-status").text_content() or "")
+    assert studio.button("Plan").is_disabled()
+    add(studio, "Joint target", ABOVE)
+    add(studio, "Line", ASIDE)
+    add(studio, "Circle via", FAR)
+    assert studio.button("Plan").is_disabled()
+    add(studio, "Circle target", ABOVE)
+    add(studio, "Spline", FAR)
+    add(studio, "Waypoint", HOME)
+    answer = plan(studio)
+    assert [segment["type"] for segment in answer["segments"]] == ["joint", "line", "circle", "spline"]
+    assert studio.page.locator("h2").last.text_content() == f"Motion of {answer['duration']:.3f} s"
+    assert shown(studio) == pytest.approx(HOME, abs=TOLERANCE)
+    times, positions = np.array(answer["times"]), np.array(answer["joint_positions"])
+    for i in np.linspace(0, len(times) - 1, 9).astype(int):
+        assert np.abs(np.array(seek(studio, times[i])) - positions[i]).max() < TOLERANCE
+
+    audit = answer["audit"]
+    for name in ("velocity", "acceleration", "jerk"):
+        value, ratio, joint, time = row(studio, name.capitalize())
+        assert float(value.split()[0]) == pytest.approx(abs(audit[name]["value"]), abs=6e-3)
+        assert float(ratio.split()[0]) == pytest.approx(100 * audit[name]["ratio"], abs=0.06)
+        assert joint == audit[name]["joint"]
+        assert float(time.split()[0]) == pytest.approx(audit[name]["time"], abs=6e-4)
+    studio.page.locator(".goto.worst").click()
+    worst = max((audit[name] for name in ("velocity", "acceleration")), key=lambda peak: float(peak["ratio"]))
+    at = int(np.abs(times - worst["time"]).argmin())
+    speed = np.abs(answer["joint_velocities"]).max()
+    assert np.abs(np.array(shown(studio)) - positions[at]).max() <= speed * abs(times[at] - worst["time"]) + TOLERANCE
+
+    points = np.array(studio.run(WAY)).reshape(-1, 3)
+    tips = np.array([pose["position"] for pose in answer["tip_poses"]])
+    step = np.linalg.norm(np.diff(tips, axis=0), axis=1).max()
+    assert len(points) > 200
+    for tip in tips[:: len(tips) // 20]:
+        assert np.linalg.norm(points - tip, axis=1).min() < step
+    assert np.abs(points[0] - tips[0]).max() < 1e-6  # the picture is in single precision
+    assert np.abs(points[-1] - tips[-1]).max() < 1e-6
+
+
+WAY = """(() => {
+  const line = studio.view.scene.getObjectByName("way of the tip").geometry;
+  const {instanceStart: from, instanceEnd: to} = line.attributes;
+  const at = (part, i) => [part.getX(i), part.getY(i), part.getZ(i)];
+  return [...Array(from.count).keys()].flatMap((i) => at(from, i)).concat(at(to, to.count - 1));
+})()"""
+"""The points of the tip's way in the picture, one after the other."""
+
+
+def test_a_motion_of_a_typed_arm(studio: Studio) -> None:
+    """A typed arm is first added to the robots; its time is that of the trapezoid by hand."""
+    type_table(studio, ANTHROPOMORPHIC)
+    studio.page.get_by_role("tab", name="Trajectory").click()
+    keep(studio, "typed_for_motion")
+    put(studio, [0.0, 0.5, 0.5])
+    studio.page.locator(".segment-head").first.click()
+    studio.button("Set to the present pose").click()
+    studio.page.get_by_text("Move the arm", exact=True).click()
+    studio.type("joint_1, number", "1.2")
+    studio.type("joint_3, number", "-0.1")
+    studio.button("Joint target").click()
+    answer = plan(studio)
+    # Joint 1 goes 1.2 rad at the assumed 1 rad/s and 2 rad/s²: d/v + v/a.
+    assert answer["duration"] == pytest.approx(1.2 + 0.5, abs=1e-12)
+    assert "1.700 s" in (studio.page.locator("h2").last.text_content() or "")
+    for time in (0.25, 0.5, 0.85, 1.6):
+        assert seek(studio, time)[:2] == pytest.approx([trapezoid(time, 1.2, 1.0, 2.0), 0.5], abs=1e-12)
+    assert seek(studio, 1.7) == pytest.approx([1.2, 0.5, -0.1], abs=1e-12)
+    assert row(studio, "Velocity")[:3] == ["1.000 rad/s", "100.0 %", "joint_1"]
+    studio.run("studio.store.set({degrees: true})")
+    assert row(studio, "Velocity")[0] == f"{math.degrees(1.0):.2f} °/s"
+
+
+def trapezoid(time: float, distance: float, speed: float, acceleration: float) -> float:
+    """How far a trapezoid of velocity has come."""
+    duration, ramp = distance / speed + speed / acceleration, speed / acceleration
+    if time <= ramp:
+        return acceleration * time**2 / 2
+    if time <= duration - ramp:
+        return speed * (time - ramp / 2)
+    return distance - acceleration * (duration - time) ** 2 / 2
+
+
+def test_it_is_played(studio: Studio) -> None:
+    studio.open("trajectory", robot="planar_2r", q="0,0.5")
+    add(studio, "Joint target", [0.4, 0.7])
+    answer = plan(studio)
+    studio.field("Speed").select_option("2×")
+    studio.button("Play").click()
+    studio.until(f"Math.abs(studio.store.value.positions.joint_1 - 0.4) < {TOLERANCE}")
+    assert shown(studio) == pytest.approx([0.4, 0.7], abs=TOLERANCE)
+    assert studio.button("Play").is_visible()
+    # Over and over: it passes its beginning again, and stops where it is told to.
+    studio.button("Loop").click()
+    studio.button("Play").click()
+    studio.until("studio.store.value.positions.joint_1 < 0.2")
+    studio.until("studio.store.value.positions.joint_1 > 0.2")
+    studio.until("studio.store.value.positions.joint_1 < 0.2")
+    studio.button("Pause").click()
+    paused = shown(studio)
+    studio.page.wait_for_timeout(100)
+    assert shown(studio) == paused
+    # The keyboard scrubs by a hundredth.
+    seek(studio, 0.0)
+    studio.field("Time in the motion").press("ArrowRight")
+    assert float(studio.field("Time in the motion").input_value()) == pytest.approx(answer["duration"] / 100)
+
+
+def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
+    """What is typed is what is asked for; another panel and a reload leave all of it as it is."""
+    studio.open("trajectory", robot="ur5_dh", q="0,-1.2,1.4,-1.7,-1.5,0.2")
+    first, second = [0.2, -1.1, 1.4, -1.7, -1.5, 0.2], [0.3, -1.2, 1.5, -1.7, -1.5, 0.3]
+    add(studio, "Joint target", first)
+    add(studio, "Joint target", second)
+    assert segments(studio) == [
+        {"type": "joint", "target": pytest.approx(first)},
+        {"type": "joint", "target": pytest.approx(second)},
+    ]
+    studio.page.locator(".segment-head").nth(1).click()
+    studio.field("Segment 1, type").select_option("line")
+    expected = studio.fk("ur5_dh", {"joint_positions": [first], "pose_format": "rpy"})["poses"][0]
+    assert segments(studio)[0] == {"type": "line", "target": {k: pytest.approx(v) for k, v in expected.items()}}
+    studio.type("Segment 1, target, z", "0.55")
+    studio.field("Segment 1, law").select_option("Cubic")
+    studio.type("Segment 1, velocity scale", "0.5")
+    studio.button("Move segment 1 down").click()
+    assert [segment["type"] for segment in segments(studio)] == ["joint", "line"]
+    studio.page.locator("details.law summary").click()
+    studio.field("Law of time").select_option("Jerk-limited")
+    studio.type("Velocity scale", "0.8")
+    studio.type("joint_3, velocity", "1.5")
+    studio.type("Tip velocity", "0.2")
+    studio.field("Near a singularity").select_option("Slow down")
+    answer = plan(studio)
+    assert answer["limits"]["joint_velocity"][2] == pytest.approx(0.8 * 1.5)
+    assert answer["limit_sources"]["joint_velocity"][2] == "request"
+    assert [segment["law"] for segment in answer["segments"]] == ["jerk_limited", "cubic"]
+    assert answer["tip_poses"][-1]["position"][2] == pytest.approx(0.55, abs=1e-4)
+    assert answer["audit"]["tip"]["speed"]["value"] < 0.2
+
+    motion, planned = studio.state("motion"), studio.state("plan")
+    studio.page.get_by_role("tab", name="Pose").click()
+    studio.page.get_by_role("tab", name="Trajectory").click()
+    assert (studio.state("motion"), studio.state("plan")) == (motion, planned)
+    studio.page.wait_for_timeout(600)
+    studio.page.reload()
+    studio.wait_for_robot("ur5_dh")
+    studio.until("studio.store.value.plan", COLD)  # a link plans what it holds
+    assert studio.state("motion") == motion
+    assert studio.run("studio.store.value.plan.answer.duration") == planned["answer"]["duration"]
+    studio.button("Remove segment 1").click()
+    assert "changed since" in (studio.page.locator(".plan-status").text_content() or "")
+    assert [segment["type"] for segment in segments(studio)] == ["line"]
+
+
+def segments(studio: Studio) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = studio.state("motion")["segments"]
+    return found
+
+
+def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[int]) -> None:
+    """A refused field is told at its segment; a way out of reach is shown as far as it goes."""
+    studio.open("trajectory", robot="ur5_dh", q="0,-1.2,1.4,-1.7,-1.5,0.2")
+    add(studio, "Line", [0.2, -1.1, 1.4, -1.7, -1.5, 0.2])
+    studio.page.locator(".segment-head").nth(1).click()
+    studio.type("Segment 1, blend", "0.1")
+    studio.button("Plan").click()
+    error = studio.page.locator(".segment-error:visible")
+    error.wait_for(timeout=COLD * 1000)
+    assert "no line to blend into" in (error.text_content() or "")
+    refusals.add(422)
+    studio.type("Segment 1, blend", "")
+    studio.type("Segment 1, target, x", "1.5")
+    answer = plan(studio)
+    failure = answer["failure"]
+    assert failure["reason"] == "out_of_reach"
+    box = studio.page.locator(".ended")
+    text = box.text_content() or ""
+    assert f"{100 * answer['completed_fraction']:.1f} %" in text
+    assert "out of reach" in text
+    assert "segment 1" in text
+    mark = studio.run(
+        "studio.view.scene.getObjectByName('failure').getWorldPosition(studio.view.camera.position.clone()).toArray()"
+    )
+    assert mark == pytest.approx(failure["position"], abs=1e-12)  # the base is the world
+    box.get_by_role("button").click()
+    assert np.abs(np.array(shown(studio)) - answer["joint_positions"][-1]).max() < TOLERANCE
+    assert studio.page.locator(".segment-error:visible").count() == 0
+
+
+def test_a_plan_is_cancelled(studio: Studio) -> None:
+    studio.open("trajectory", robot="planar_2r", q="0,0.5")
+    add(studio, "Joint target", [0.4, 0.7])
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        held.append(route)
+
+    studio.page.route("**/trajectory", hold)
+    studio.button("Plan").click()
+    studio.page.get_by_text("Planning …").wait_for()
+    assert studio.button("Plan").count() == 0
+    studio.button("Cancel").click()
+    studio.button("Plan").wait_for()
+    assert studio.state("plan") is None
+    assert len(held) == 1
+    studio.page.unroute("**/trajectory")
+    assert plan(studio)["completed_fraction"] == 1
+
+
+def test_a_motion_in_a_link_that_is_none_is_left_aside(studio: Studio) -> None:
+    own = {"robot": "planar_2r", "base_frame": "base", "tip_frame": "tool", "start": [0.1, 0.2], "segments": []}
+    for motion in (
+        "{",
+        "[]",
+        json.dumps({**own, "start": "here"}),
+        json.dumps({**own, "segments": [{"type": "jump", "target": [0, 0]}]}),
+        json.dumps({**own, "segments": [{"type": "line", "target": [0, 0]}]}),
+        json.dumps({**own, "robot": "panda"}),
+    ):
+        studio.open("trajectory", robot="planar_2r", q="0.3,0.4", motion=motion)
+        assert studio.state("motion") == {**own, "start": [0.3, 0.4]}, motion
+    studio.open("trajectory", robot="planar_2r", q="0.3,0.4", motion=json.dumps(own))
+    assert studio.state("motion") == own
+
+
+def test_axe_finds_nothing_serious_in_a_planned_motion(another: Callable[..., Studio]) -> None:
+    if not AXE.exists():
+        pytest.skip("axe-core is not there: ./dev studio installs it")
+    studio = another(scheme="light", width=1024, height=768)
+    studio.open("trajectory", robot="ur5_dh", q="0,-1.2,1.4,-1.7,-1.5,0.2")
+    add(studio, "Joint target", [0.2, -1.1, 1.4, -1.7, -1.5, 0.2])
+    add(studio, "Line", [0.3, -1.2, 1.5, -1.7, -1.5, 0.3])
+    plan(studio)
+    studio.page.locator(".segment-head").nth(2).click()
+    studio.page.locator("details.law summary").click()
+    for colours in ("Dark", "Light"):
+        studio.button(colours).click()
+        findings: list[Any] = studio.run(AXE.read_text() + "; axe.run().then(({violations}) => violations)")
+        serious = [
+            (found["id"], found["nodes"][0]["html"]) for found in findings if found["impact"] in {"serious", "critical"}
+        ]
+        assert serious == []
+    assert studio.run(CUT_OFF) == []
