@@ -172,6 +172,85 @@ def trapezoid(time: float, distance: float, speed: float, acceleration: float) -
     return distance - acceleration * (duration - time) ** 2 / 2
 
 
+def test_the_profiles_are_the_services_samples(studio: Studio) -> None:
+    """Values at the time that is shown, jerk by differences of the samples, and what is drawn on the canvas."""
+    studio.open("trajectory", robot="planar_2r", q="0,0.5")
+    add(studio, "Joint target", [0.9, 0.1])
+    studio.page.locator("details.law summary").click()
+    studio.field("Law of time").select_option("Quintic")
+    studio.type("Sample period", "0.001")
+    answer = plan(studio)
+    times = np.array(answer["times"])
+    jerk = np.gradient(np.array(answer["joint_accelerations"]), times, axis=0)
+    expected = {
+        "Position": answer["joint_positions"],
+        "Velocity": answer["joint_velocities"],
+        "Acceleration": answer["joint_accelerations"],
+        "Jerk": jerk,
+    }
+    for i in (len(times) // 5, len(times) // 2):
+        seek(studio, times[i])
+        for name, values in expected.items():
+            studio.button(name).click()
+            texts = studio.page.locator(".profile-value").all_text_contents()
+            numbers = [float(text.replace("−", "-")) for text in texts]
+            assert numbers == pytest.approx(list(values[i]), abs=6e-4 + 1e-4 * np.abs(jerk).max()), name
+
+    studio.button("Velocity").click()
+    plot = studio.page.locator(".profiles .u-over")
+    box = plot.bounding_box()
+    assert box is not None
+    plot.click(position={"x": box["width"] * 0.75, "y": 40})
+    at = float(studio.field("Time in the motion").input_value())
+    assert at == pytest.approx(0.75 * answer["duration"], abs=2 * answer["duration"] / box["width"])
+    share = at / answer["duration"]
+    reached = 0.9 * (10 * share**3 - 15 * share**4 + 6 * share**5)
+    assert shown(studio)[0] == pytest.approx(reached, abs=1e-9)
+
+    # The limits of joint 1, which the motion does not reach, are dashed lines from one side to the other.
+    studio.button("Acceleration").click()
+    studio.page.get_by_title("joint_2: show or hide").click()
+    columns, rows = drawn(studio, "--joint-1"), drawn(studio, "--joint-1", axis=0)
+    assert columns.sum() > 0.9 * box["width"]
+    dashed = np.flatnonzero((0.3 * box["width"] < rows) & (rows < 0.8 * box["width"]))
+    assert len(dashed) == 2
+    middle = dashed.mean()
+    peak = abs(answer["audit"]["acceleration"]["ratio"])
+    assert peak < 0.95
+    filled = np.flatnonzero(rows)
+    inner = filled[(filled > dashed[0] + 1) & (filled < dashed[1] - 1)]
+    assert (middle - inner.min()) / (middle - dashed[0]) == pytest.approx(peak, abs=0.04)
+    studio.page.get_by_title("joint_1: show or hide").click()
+    assert drawn(studio, "--joint-1").sum() == 0
+
+
+def drawn(studio: Studio, hue: str, axis: int = 1) -> Any:
+    """In the plot, how many pixels of a colour each row has (axis 0), or whether each column has one."""
+    studio.page.wait_for_timeout(100)
+    pixels = studio.run(
+        """(hue) => {
+          const canvas = document.querySelector(".profiles canvas");
+          const probe = document.body.appendChild(document.createElement("i"));
+          probe.style.color = `var(${hue})`;
+          const wanted = getComputedStyle(probe).color.match(/\\d+/g).map(Number);
+          probe.remove();
+          const {width, height} = canvas;
+          const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
+          copy.drawImage(canvas, 0, 0);
+          const {data} = copy.getImageData(0, 0, width, height);
+          const isWanted = (i) =>
+            data[4 * i + 3] > 128 && wanted.every((value, k) => Math.abs(data[4 * i + k] - value) < 40);
+          const found = [...Array(width * height).keys()].filter(isWanted);
+          return {found, width, height};
+        }""",
+        hue,
+    )
+    mask = np.zeros(pixels["width"] * pixels["height"], bool)
+    mask[pixels["found"]] = True
+    mask = mask.reshape(pixels["height"], pixels["width"])
+    return mask.sum(axis=1) if axis == 0 else mask.any(axis=0)
+
+
 def test_it_is_played(studio: Studio) -> None:
     studio.open("trajectory", robot="planar_2r", q="0,0.5")
     add(studio, "Joint target", [0.4, 0.7])

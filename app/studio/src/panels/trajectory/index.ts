@@ -44,6 +44,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
       marks?.showPlaces(draft.chain, draft.motion, unit);
     }),
     store.watch(["unit", "dark"], () => result.draw()),
+    store.watch(["joint"], ({ joint }) => result.point(joint)),
     store.watch(["positions"], () => marks?.follow(draft.chain)),
     () => planner.stop(),
     () => arm.stop(),

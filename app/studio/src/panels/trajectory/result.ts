@@ -1,4 +1,4 @@
-/** What came of a plan: the player, the audit, and the motion in the picture. */
+/** What came of a plan: the player, the profiles, the audit, and the motion in the picture. */
 
 import { element } from "../../ui/dom.ts";
 import type { Plan } from "./answer.ts";
@@ -6,6 +6,7 @@ import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
 import { belongs } from "./motion.ts";
 import { Player } from "./player.ts";
+import { Profiles } from "./profiles.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
 import { auditTable, failureBox, percent } from "./verdict.ts";
 
@@ -15,14 +16,25 @@ export class Result {
   #degrees = false;
   #curve: Curve | null = null;
   #player = new Player((time) => this.#move(time));
+  #profiles: Profiles;
   #title = element("h2");
+  #ended = element("div");
   #body = element("div", { class: "part" });
 
   constructor(
     private readonly draft: Draft,
     private readonly marks: MotionMarks | null,
   ) {
-    this.host = element("section", { class: "section", hidden: true }, this.#title, this.#player.host, this.#body);
+    this.#profiles = new Profiles(draft.store, (time) => this.#player.seek(time));
+    this.host = element(
+      "section",
+      { class: "section", hidden: true },
+      this.#title,
+      this.#ended,
+      this.#player.host,
+      this.#profiles.host,
+      this.#body,
+    );
   }
 
   /** The plan of the chain on the screen, if there is one. */
@@ -36,17 +48,21 @@ export class Result {
       this.#plan = shown;
       this.#curve = shown && new Curve(shown.answer);
       this.#player.load(this.#curve?.duration ?? 0);
-      this.draw();
     }
     if (isOther || store.value.degrees !== this.#degrees) this.#tell();
     this.#degrees = store.value.degrees;
+    if (isOther) this.#drawWay();
   }
 
-  /** The way of the tip, in the colours of the page. */
+  /** In the colours of the page, and in the size of the robot. */
   draw(): void {
-    const { chain, store } = this.draft;
-    const failure = this.#plan?.answer.failure ?? null;
-    this.marks?.showWay(this.#curve && tipPath(chain, this.#curve), failure, store.value.unit);
+    this.#profiles.draw();
+    this.#drawWay();
+  }
+
+  /** Bring a joint's lines to the front. */
+  point(joint: string | null): void {
+    this.#profiles.point(joint);
   }
 
   /** The robot goes to the beginning. */
@@ -56,12 +72,20 @@ export class Result {
 
   stop(): void {
     this.#player.pause();
+    this.#profiles.stop();
+  }
+
+  #drawWay(): void {
+    const { chain, store } = this.draft;
+    const failure = this.#plan?.answer.failure ?? null;
+    this.marks?.showWay(this.#curve && tipPath(chain, this.#curve), failure, store.value.unit);
   }
 
   #tell(): void {
-    if (!this.#plan) return this.#body.replaceChildren();
+    if (!this.#plan || !this.#curve) return this.#profiles.show(null, 0);
     const { answer } = this.#plan;
     const { chain, degrees } = this.draft;
+    this.#profiles.show({ curve: this.#curve, answer, joints: chain.joints }, this.#player.time);
     const go = (time: number) => this.#player.seek(time);
     const done = answer.completed_fraction < 1 ? `, ${percent(answer.completed_fraction)} of it` : "";
     this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s${done}`;
@@ -70,14 +94,16 @@ export class Result {
       ...answer.notes,
       ...answer.segments.flatMap(({ index, notes }) => notes.map((note) => `Segment ${index + 1}: ${note}`)),
     ];
+    this.#ended.hidden = failure === null;
+    this.#ended.replaceChildren(...(failure ? [failure] : []));
     this.#body.replaceChildren(
-      ...(failure ? [failure] : []),
       auditTable(answer, chain.joints, degrees, go),
       ...(notes.length ? [remarks(notes)] : []),
     );
   }
 
   #move(time: number): void {
+    this.#profiles.at(time);
     this.draft.goTo(this.#curve!.at(time));
   }
 }

@@ -72,7 +72,7 @@ export function auditTable(
   return element(
     "div",
     { class: "part audit" },
-    element("p", { class: "verdict", "data-tone": passed ? "good" : "bad" }, heading),
+    element("p", { class: "audit-verdict", "data-tone": passed ? "good" : "bad" }, heading),
     most &&
       element(
         "p",
