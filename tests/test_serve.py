@@ -113,6 +113,12 @@ def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
         call = {"joint_positions": [[0.0, 0.0]]}
         for prefix in ("", "/gelenk"):
             assert get(f"{url}{prefix}/v1/robots/planar_2r/fk", "POST", call)[0] == 200
+            for file in ("", "studio/studio.js", "docs", "documentation/bundles/swagger-ui.css", "v1/robots"):
+                with urllib.request.urlopen(f"{url}{prefix}/{file}", timeout=60) as answer:
+                    assert answer.status == 200
+        with urllib.request.urlopen(f"{url}/gelenk", timeout=60) as answer:
+            assert answer.url == f"{url}/gelenk/"
+        assert get(f"{url}/gelenkx/v1/robots")[0] == 404
         assert get(f"{url}/v1/robots/nobody/fk", "POST", call)[0] == 404
 
 

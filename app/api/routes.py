@@ -17,7 +17,7 @@ from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api import problems
@@ -96,6 +96,11 @@ class Application(FastAPI):
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that was let in; HEAD is GET, whose body the server keeps to itself."""
+        if self.root_path and scope["type"] == "http":
+            if scope["path"] == self.root_path:  # links are relative to the folder
+                await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
+                return
+            scope = prefixed(scope, self.root_path)
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
         if scope["type"] == "http" and scope["method"] == "POST":
@@ -114,6 +119,12 @@ class Application(FastAPI):
                 await response(scope, receive, send)
                 return
         await super().__call__(scope, receive, send)
+
+
+def prefixed(scope: Scope, root_path: str) -> Scope:
+    """A request with the path prefix, also behind a proxy that has taken it away: mounted files are found by it."""
+    path: str = scope["path"]
+    return scope if path.startswith(f"{root_path}/") else {**scope, "path": root_path + path}
 
 
 async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:

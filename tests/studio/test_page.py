@@ -1,13 +1,18 @@
 """The page as a page: its policy, its looks in both colour schemes, the keyboard, and who can read it."""
 
-from collections.abc import Callable
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from playwright.sync_api import Browser
 
 from tests.studio.browser import Studio
+from tests.studio.proxy import stripping_proxy
 from tests.test_serve import service
 
 AXE = Path(__file__).parents[2] / "app" / "studio" / "node_modules" / "axe-core" / "axe.min.js"
@@ -124,9 +129,32 @@ SLOW = 3
 """Times slower than a laptop that a machine with a software renderer may be."""
 
 
-def test_a_path_prefix(browser: Browser, tmp_path: Path) -> None:
-    with service(tmp_path, GELENK_ROOT_PATH="/gelenk") as (_, url):
-        studio = Studio.new(browser, f"{url}/gelenk")
-        studio.open(robot="planar_2r")
-        studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
-        studio.close(set())
+@pytest.fixture(scope="module")
+def below_a_prefix(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:  # noqa: ARG001
+    """A service at /gelenk: behind a proxy that keeps the prefix, and behind one that takes it away."""
+    with (
+        service(tmp_path_factory.mktemp("data"), GELENK_ROOT_PATH="/gelenk") as (_, url),
+        stripping_proxy(url, "/gelenk") as stripping,
+    ):
+        yield {"kept": url, "taken away": stripping}
+
+
+@pytest.mark.parametrize("prefix", ["kept", "taken away"])
+def test_the_studio_below_a_path_prefix(browser: Browser, below_a_prefix: dict[str, str], prefix: str) -> None:
+    url = f"{below_a_prefix[prefix]}/gelenk"
+    studio = Studio.new(browser, url)
+    studio.open(robot="planar_2r", q="0.3,0.8")
+    studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
+    studio.page.get_by_text("As request").click()
+    studio.button("Python").click()
+    script = studio.page.locator(".request code").text_content() or ""
+    assert f'"{url}/v1/robots/planar_2r/fk"' in script
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)
+    assert json.loads(run.stdout)["poses"][0]["matrix"] == pytest.approx(np.array(studio.tip()), abs=1e-12)
+    studio.page.get_by_role("tab", name="Worked solution").click()
+    studio.until("document.querySelector('.sheet .katex')")
+    assert all(name.startswith(f"{url}/") for name in loaded(studio))
+    studio.page.get_by_role("link", name="API").click()
+    studio.page.locator(".swagger-ui .opblock").first.wait_for()
+    assert studio.page.url == f"{url}/docs"
+    studio.close(set())
