@@ -64,8 +64,8 @@ class PlaceFields {
   #fields = new Map<string, NumberField>();
   #unread = new Map<string, string>();
   #refused = new Map<string, string>();
-  #grid = element("div", { class: "place-fields" });
-  #error = element("div", { class: "place-error", role: "alert", hidden: true });
+  #grid = element("div", { class: "table-place-fields" });
+  #error = element("div", { class: "table-place-error", role: "alert", hidden: true });
   #notation: Choice<Angles>;
 
   constructor(
@@ -80,7 +80,7 @@ class PlaceFields {
     });
     this.host = element(
       "div",
-      { class: "place" },
+      { class: "table-place" },
       element(
         "div",
         { class: "bar" },

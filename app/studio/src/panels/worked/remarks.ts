@@ -13,7 +13,7 @@ const TOLERANCE = 1e-9;
 export class Remarks {
   readonly host: HTMLElement;
   #check = element("p", { class: "agreement", role: "status" });
-  #legend = element("dl", { class: "legend" });
+  #legend = element("dl", { class: "symbols" });
   #symbols = element("details", {}, element("summary", {}, "Symbols"), this.#legend);
   #notes = element("ul", { class: "remarks" });
   #shown = "";

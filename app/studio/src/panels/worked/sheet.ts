@@ -64,7 +64,7 @@ export class Sheet {
     if (numbers) {
       const matrix = new NumberMatrix(`${name} in numbers`);
       this.#follow.push((all) => matrix.set(numbers(all)));
-      host.append(element("div", { class: "value" }, element("span", { class: "approximately" }, "≈"), matrix.host));
+      host.append(element("div", { class: "numeric" }, element("span", { class: "approximately" }, "≈"), matrix.host));
     }
     if (example)
       host.append(

@@ -58,7 +58,7 @@ export class Settings {
       this.#hint,
       element(
         "div",
-        { class: "settings" },
+        { class: "sampling" },
         element("label", { for: "samples" }, "Samples"),
         element("span", { class: "bar" }, this.#samples, this.#sequences.host),
         element("span", {}, "Voxel edge"),
