@@ -1,5 +1,6 @@
 """The only place where the parts are wired together."""
 
+import asyncio
 import os
 from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
@@ -26,24 +27,20 @@ from app.api.course_time_law import time_law_route
 from app.api.course_time_scaling import time_scaling_route
 from app.api.derive import derive_route
 from app.api.dh import dh_routes
-from app.api.dynamics import dynamics_operation
-from app.api.inverse import inverse_operation
 from app.api.isolated import Isolated
 from app.api.jobs import jobs_router
-from app.api.kinematics import kinematics_operations
-from app.api.manipulability import manipulability_operation
+from app.api.operations import Setup
+from app.api.remote import Remote
 from app.api.robots import robots_router, upload_routes
 from app.api.routes import Application
 from app.api.service import Readiness, service_router
-from app.api.singularity import singularity_operation
-from app.api.statics import statics_operation
-from app.api.trajectory import trajectory_operation
-from app.api.velocity import velocity_operation
 from app.api.workspace import SampleLimits, workspace_route
+from app.crew.crew import Crew
 from app.jobs.runner import Runner
 from app.jobs.shelf import Limits, Shelf
 from app.settings import Settings
-from app.store.library import Library
+
+_LOOK_SECONDS = 0.05
 
 DESCRIPTION = """
 A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics, velocities,
@@ -62,9 +59,11 @@ def create_app(settings: Settings) -> FastAPI:
     Args:
         settings: What the operator has set.
     """
-    library = Library(settings.catalogue_dir, settings.data_dir / "robots")
-    executor = ThreadPoolExecutor(settings.threads, thread_name_prefix="work")
-    uploads = ThreadPoolExecutor(2, thread_name_prefix="upload")
+    most, seconds = settings.max_answer_numbers, settings.request_seconds
+    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds)
+    library = setup.library()
+    crew = Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
+    remote = Remote(crew, setup, library, seconds, settings.client_requests)
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
     kept = Limits(settings.kept_jobs, settings.kept_job_bytes, settings.unfinished_jobs)
     shelf = Shelf(settings.data_dir / "jobs", kept)
@@ -76,12 +75,13 @@ def create_app(settings: Settings) -> FastAPI:
         library.prepare()
         shelf.prepare()
         readiness.begin()
+        starting = asyncio.create_task(_start(readiness, crew))
         yield
+        starting.cancel()
+        crew.close()
         runner.close()
         isolated.close()
         derivations.shutdown()
-        executor.shutdown()
-        uploads.shutdown()
 
     app = Application(
         settings.max_body_bytes,
@@ -103,34 +103,26 @@ def create_app(settings: Settings) -> FastAPI:
         ],
     )
     app.root_path = settings.root_path
+    app.state.crew = crew
     problems.install(app)
-    app.include_router(robots_router(library))
-    app.router.routes.extend(upload_routes(library, uploads, settings.max_body_bytes))
-    app.router.routes.extend(dh_routes(library, executor, settings.max_body_bytes))
-    app.router.routes.append(compare_route(library, executor, settings.max_body_bytes))
-    app.router.routes.append(derive_route(isolated, derivations, settings.max_body_bytes))
-    app.router.routes.extend(component_routes(executor, settings.max_body_bytes))
-    app.router.routes.append(fly_over_route(executor, settings.max_body_bytes))
-    app.router.routes.append(mobility_route(library, executor, settings.max_body_bytes))
-    app.router.routes.append(orientation_route(executor, settings.max_body_bytes))
-    for course_route in (time_law_route, spline_route, time_scaling_route):
-        app.router.routes.append(course_route(executor, settings.max_body_bytes))
-    most = settings.max_answer_numbers
-    for operation in (
-        *kinematics_operations(most),
-        inverse_operation(most),
-        statics_operation(most),
-        dynamics_operation(most),
-        manipulability_operation(most),
-        velocity_operation(most),
-        singularity_operation(most),
-        trajectory_operation(most),
+    size = settings.max_body_bytes
+    app.include_router(robots_router(library, remote))
+    app.router.routes.extend(upload_routes(remote, size))
+    app.router.routes.extend(dh_routes(remote, size))
+    app.router.routes.append(compare_route(remote, size))
+    app.router.routes.append(derive_route(isolated, derivations, size))
+    app.router.routes.extend(component_routes(remote, size))
+    for course_route in (
+        *(fly_over_route, mobility_route, orientation_route),
+        *(time_law_route, spline_route, time_scaling_route),
     ):
-        handler = operation.computation.handler(library, executor)
+        app.router.routes.append(course_route(remote, size))
+    for operation in setup.operations():
+        handler = operation.computation.handler(operation.name, remote)
         app.operations[operation.name] = handler
-        app.router.routes.append(operation.route(handler, settings.max_body_bytes))
+        app.router.routes.append(operation.route(handler, size))
     samples = SampleLimits(settings.max_job_samples, most)
-    app.router.routes.append(workspace_route(library, runner, executor, samples, settings.max_body_bytes))
+    app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness))
     documentation.install(app)
@@ -142,6 +134,13 @@ def create_app(settings: Settings) -> FastAPI:
     directory, audit = Directory(iter_route_contexts(app.routes)), Audit(settings.data_dir / "audit")
     app.door = Door(app.answer, directory, settings.root_path, checks, [log_request], audit)
     return app
+
+
+async def _start(readiness: Readiness, crew: Crew) -> None:
+    """Start the crew when the kernels are compiled here: its processes find them in the cache."""
+    while readiness.waiting_for:
+        await asyncio.sleep(_LOOK_SECONDS)
+    await crew.start()
 
 
 def from_environment() -> FastAPI:

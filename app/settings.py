@@ -28,7 +28,13 @@ class Settings:
         root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
         max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
-        threads: Threads for batches in each worker process (`GELENK_THREADS`).
+        crew_processes: Processes of each worker process for what may take long (`GELENK_CREW_PROCESSES`).
+        crew_waiting: Requests that may wait for one of these; more are refused (`GELENK_CREW_WAITING`).
+        client_requests: Requests of one client, told by its key or else by its address, that may wait for one of these
+            or be worked on (`GELENK_CLIENT_REQUESTS`).
+        crew_memory_bytes: What each of these may take beside the program itself (`GELENK_CREW_MEMORY_BYTES`).
+        request_seconds: How long a request may wait for one of these, and may then take, [s]
+            (`GELENK_REQUEST_SECONDS`).
         job_processes: Processes that the jobs of each worker process share, started when first needed
             (`GELENK_JOB_PROCESSES`).
         running_jobs: Jobs of each worker process that run at a time (`GELENK_RUNNING_JOBS`).
@@ -52,7 +58,11 @@ class Settings:
     root_path: str = ""
     max_body_bytes: int = 64 * 1024 * 1024
     max_answer_numbers: int = 20_000_000
-    threads: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))
+    crew_processes: int = field(default_factory=lambda: max(2, min(8, os.cpu_count() or 1)))
+    crew_waiting: int = 200
+    client_requests: int = 16
+    crew_memory_bytes: int = 4 * 1024**3
+    request_seconds: int = 60
     job_processes: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))
     running_jobs: int = 2
     unfinished_jobs: int = 16

@@ -14,12 +14,12 @@ def test_defaults_and_values() -> None:
             "GELENK_DATA_DIR": "data",
             "GELENK_ROOT_PATH": "/gelenk/",
             "GELENK_MAX_BODY_BYTES": "1000",
-            "GELENK_THREADS": "3",
+            "GELENK_CREW_PROCESSES": "3",
         }
     )
     assert settings.data_dir == Path("data")
     assert settings.root_path == "/gelenk"
-    assert (settings.max_body_bytes, settings.threads) == (1000, 3)
+    assert (settings.max_body_bytes, settings.crew_processes) == (1000, 3)
 
 
 def test_settings_of_several_values() -> None:

@@ -4,6 +4,7 @@
 - `payloads`: bodies in: JSON and NumPy's npy, strictly.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
 - `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
+- `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
 - `isolated`: a process of its own, with a deadline, for work that holds the GIL.
 - `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to

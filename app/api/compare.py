@@ -1,11 +1,12 @@
 """Does a Denavit-Hartenberg table describe a chain of a robot."""
 
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
 
-from app.api.dh import dh_route, json_handler
+from app.api.dh import dh_route
+from app.api.errand import RobotErrand
+from app.api.remote import Remote, json_handler
 from app.api.routes import DocumentedRoute
 from app.kinematics.compare import Comparison, compare
 from app.kinematics.comparison.alignment import Freedom
@@ -20,8 +21,8 @@ from app.schemas.pose import PoseFormat, pose_list
 from app.store.library import Library
 
 
-def compare_route(library: Library, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
-    """The comparison, in a thread: it takes tens of milliseconds, and more where mistakes are looked for."""
+def compare_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
+    """The comparison: it takes tens of milliseconds, and more where mistakes are looked for."""
 
     def compare_table(call: CompareRequest) -> CompareAnswer:
         """Says whether a table describes a chain, and if not, which row and parameter are wrong and by how much.
@@ -43,22 +44,23 @@ def compare_route(library: Library, executor: Executor, max_body_bytes: int) -> 
         """
         raise NotImplementedError
 
-    def work(call: CompareRequest) -> dict[str, Any]:
-        robot = library.get(call.robot).robot
-        chain = robot.chain(call.base_frame, call.tip_frame)
-        tolerances = call.position_tolerance, call.orientation_tolerance
-        comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
-        return _content(chain, call, comparison)
-
     return dh_route(
         "/v1/dh/compare",
         compare_table,
-        json_handler(CompareRequest, work, executor),
+        json_handler(RobotErrand(CompareRequest, _compared), remote),
         max_body_bytes,
         operation_id="compare_dh",
         summary="Does a table describe a chain?",
         example=EXAMPLE_COMPARISON,
     )
+
+
+def _compared(call: CompareRequest, library: Library) -> dict[str, Any]:
+    robot = library.get(call.robot).robot
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    tolerances = call.position_tolerance, call.orientation_tolerance
+    comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
+    return _content(chain, call, comparison)
 
 
 def _freedom(call: CompareRequest) -> Freedom:

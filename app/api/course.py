@@ -1,17 +1,16 @@
 """The course's calculators: POST /v1/course/…, each a request in, an answer out, and nothing kept."""
 
 from collections.abc import Callable
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
 from starlette.responses import Response
 
+from app.api.errand import Errand, JsonErrand
 from app.api.openapi import json_example, picture_content, problem_responses
-from app.api.payloads import JSON, PNG, SVG, BoundedRequest, json_response, read_json
-from app.api.problems import UnsupportedMediaType
-from app.api.routes import INLINE_BYTES, DocumentedRoute, Handler, in_thread
-from app.model.errors import InvalidField
+from app.api.payloads import JSON, PNG, SVG, json_response, read_json
+from app.api.remote import Remote, json_handler
+from app.api.routes import DocumentedRoute
 from app.schemas.common import Payload
 
 TAG = "Course"
@@ -25,7 +24,7 @@ class Picture(Generic[_Request]):
 
     Attributes:
         description: What it shows.
-        draw: The bytes of an SVG or a PNG.
+        draw: The bytes of an SVG or a PNG; of a module.
     """
 
     description: str
@@ -42,9 +41,10 @@ def course_route(
     endpoint: Callable[..., Any],
     model: type[_Request],
     compute: Callable[[_Request], Any],
-    executor: Executor,
+    remote: Remote,
     max_body_bytes: int,
     *,
+    errand: Errand | None = None,
     example: dict[str, Any],
     is_heavy: Callable[[_Request], bool] = never,
     statuses: tuple[int, ...] = (400, 413, 415, 422),
@@ -57,19 +57,26 @@ def course_route(
         path: Last part of the path.
         endpoint: Never called: its signature names the models, its docstring is the description.
         model: What the calculator takes.
-        compute: The calculation; its result is what `json_response` takes.
-        executor: Where a large or heavy request is worked on.
+        compute: The calculation, of a module; its result is what `json_response` takes.
+        remote: Who works on a large or heavy request, and draws.
         max_body_bytes: Largest body.
+        errand: What is done of such a request, where it is not that calculation.
         example: A request that runs.
         is_heavy: Whether a request of few bytes is still work of more than a millisecond.
         statuses: Of the problems it may answer with.
         picture: What it draws where an image is accepted instead of JSON.
         documentation: `operation_id` and `summary`.
     """
+    errand = errand or JsonErrand(model, compute, None if picture is None else picture.draw)
+
+    def quick(body: bytes) -> Response | None:
+        call = read_json(model, body)
+        return None if is_heavy(call) else json_response(compute(call))
+
     return DocumentedRoute(
         f"/v1/course/{path}",
         endpoint,
-        _handler(model, compute, executor, is_heavy, picture),
+        json_handler(errand, remote, (JSON, SVG, PNG) if picture else (JSON,), quick),
         max_body_bytes,
         methods=["POST"],
         tags=[TAG],
@@ -80,34 +87,3 @@ def course_route(
         openapi_extra={"requestBody": {"content": json_example(example)}},
         **documentation,
     )
-
-
-def _handler(
-    model: type[_Request],
-    compute: Callable[[_Request], Any],
-    executor: Executor,
-    is_heavy: Callable[[_Request], bool],
-    picture: Picture[_Request] | None,
-) -> Handler:
-    """What reads a JSON request and answers it: on the event loop where that is quick, else in a thread."""
-
-    def drawn(body: bytes, wanted: str, draw: Callable[[_Request, Literal["svg", "png"]], bytes]) -> Response:
-        return Response(draw(read_json(model, body), "svg" if wanted == SVG else "png"), media_type=wanted)
-
-    async def handle(request: BoundedRequest) -> Response:
-        if request.media_type != JSON:
-            raise UnsupportedMediaType(request.media_type, (JSON,))
-        if request.scope["query_string"]:
-            raise InvalidField("query", "this call has its parameters as fields of the body")
-        wanted, body = request.preferred((JSON, SVG, PNG)) if picture else JSON, await request.body()
-        if picture and wanted != JSON:
-            draw = picture.draw
-            return await in_thread(executor, lambda: drawn(body, wanted, draw))
-        if len(body) > INLINE_BYTES:
-            return await in_thread(executor, lambda: json_response(compute(read_json(model, body))))
-        call = read_json(model, body)
-        if is_heavy(call):
-            return await in_thread(executor, lambda: json_response(compute(call)))
-        return json_response(compute(call))
-
-    return handle

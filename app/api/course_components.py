@@ -1,6 +1,5 @@
 """The calculators of actuators: POST /v1/course/dc-motor, /gear and /pwm."""
 
-from concurrent.futures import Executor
 from dataclasses import asdict
 from typing import Any
 
@@ -9,6 +8,7 @@ import numpy as np
 from app.api.course import course_route
 from app.api.course_encoder import encoder_route
 from app.api.course_planar import workspace_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course import pwm
 from app.course.dc_motor import Motor, balance, modes, motor_steps, motor_warnings, operating_point, torque_speed_line
@@ -35,7 +35,7 @@ _SAME_VOLTAGE = 1e-6
 _OF_A_SPEED = ("torque_constant", "back_emf_constant", "viscous_friction", "load_torque")
 
 
-def component_routes(executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
+def component_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
     """Motor, gear, pulse width modulation, encoder and planar workspace."""
 
     def dc_motor(call: DcMotorRequest) -> DcMotorAnswer:
@@ -75,7 +75,7 @@ def component_routes(executor: Executor, max_body_bytes: int) -> list[Documented
             dc_motor,
             DcMotorRequest,
             _dc_motor,
-            executor,
+            remote,
             max_body_bytes,
             example=EXAMPLE_MOTOR,
             is_heavy=lambda call: (call.samples or 0) > _QUICK_SAMPLES,
@@ -87,7 +87,7 @@ def component_routes(executor: Executor, max_body_bytes: int) -> list[Documented
             gear,
             GearRequest,
             _gear,
-            executor,
+            remote,
             max_body_bytes,
             example=EXAMPLE_GEAR,
             operation_id="gear",
@@ -98,14 +98,14 @@ def component_routes(executor: Executor, max_body_bytes: int) -> list[Documented
             pulse_width_modulation,
             PwmRequest,
             _pwm,
-            executor,
+            remote,
             max_body_bytes,
             example=EXAMPLE_PWM,
             operation_id="pulse_width_modulation",
             summary="Pulse width modulation: averages and ripple",
         ),
-        encoder_route(executor, max_body_bytes),
-        workspace_route(executor, max_body_bytes),
+        encoder_route(remote, max_body_bytes),
+        workspace_route(remote, max_body_bytes),
     ]
 
 

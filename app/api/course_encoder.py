@@ -1,10 +1,10 @@
 """POST /v1/course/encoder: what a shaft encoder resolves, and what its signals say."""
 
-from concurrent.futures import Executor
 from dataclasses import asdict
 from typing import Any
 
 from app.api.course import course_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course import gray, quadrature
 from app.course.encoders import COUNTS_A_LINE, TURN, Scale, required, required_step, scale_steps
@@ -19,7 +19,7 @@ _FIELDS = {
 _QUICK_READINGS = 200
 
 
-def encoder_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def encoder_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of encoders."""
 
     def encoder(call: EncoderRequest) -> EncoderAnswer:
@@ -41,7 +41,7 @@ def encoder_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         encoder,
         EncoderRequest,
         _encoder,
-        executor,
+        remote,
         max_body_bytes,
         example=EXAMPLE_ENCODER,
         is_heavy=lambda call: len(call.readings or ()) + len(call.values or ()) > _QUICK_READINGS or call.table,

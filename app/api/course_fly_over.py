@@ -1,12 +1,12 @@
 """POST /v1/course/fly-over: a corner passed without a stop."""
 
-from concurrent.futures import Executor
 from dataclasses import asdict
 from typing import Any, Literal, get_args
 
 import numpy as np
 
 from app.api.course import Picture, course_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.model.arrays import Array
 from app.model.errors import InvalidField
@@ -20,7 +20,7 @@ from app.trajectory.polynomial import PiecewisePolynomial
 _QUICK_SAMPLES = 500
 
 
-def fly_over_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def fly_over_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of fly-over."""
 
     def fly_over(call: FlyOverRequest) -> FlyOverAnswer:
@@ -43,7 +43,7 @@ def fly_over_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         fly_over,
         FlyOverRequest,
         _fly_over,
-        executor,
+        remote,
         max_body_bytes,
         example=EXAMPLE_FLY_OVER,
         picture=Picture("The corner in its plane, and the speed and the acceleration over time.", _picture),

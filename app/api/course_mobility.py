@@ -1,10 +1,11 @@
 """POST /v1/course/mobility: the freedoms of a mechanism or a robot, counted."""
 
-from concurrent.futures import Executor
 from dataclasses import asdict
 from typing import Any
 
 from app.api.course import course_route
+from app.api.errand import RobotErrand
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
 from app.course.mobility import KindCount, Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
@@ -18,8 +19,8 @@ from app.schemas.course_mobility_answer import MobilityAnswer
 from app.store.library import Library
 
 
-def mobility_route(library: Library, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
-    """The count; a robot may have to be loaded first, in a thread."""
+def mobility_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
+    """The count; a robot may have to be loaded first."""
 
     def count_mobility(call: MobilityRequest) -> MobilityAnswer:
         """Counts the freedoms of a mechanism, M = λ(n - 1) - Σc, and says what kind of chain it is.
@@ -40,32 +41,38 @@ def mobility_route(library: Library, executor: Executor, max_body_bytes: int) ->
         """
         raise NotImplementedError
 
-    def compute(call: MobilityRequest) -> dict[str, Any]:
-        if call.robot is not None:
-            robot = library.get(call.robot).robot
-            found = mechanism_of_tree(robot.description)
-            return _content(tally(found), found, chain=robot.chain(None, None))
-        space = call.space or "spatial"
-        if isinstance(call.pairs, list):
-            names, ground = call.link_names()
-            found = mechanism(space, names, ground, call.given_pairs(), call.nodes())
-            stands = posture(found, call.output_link(names), call.rank_tolerance)
-            return {**_content(tally(found), found, stands), "rank_tolerance": stands and call.rank_tolerance}
-        return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
-
     return course_route(
         "mobility",
         count_mobility,
         MobilityRequest,
-        compute,
-        executor,
+        _counted,
+        remote,
         max_body_bytes,
+        errand=RobotErrand(MobilityRequest, _counted_robot),
         example=EXAMPLE_FOUR_BAR,
         is_heavy=lambda call: call.robot is not None or call.has_geometry(),
         statuses=(400, 404, 413, 415, 422),
         operation_id="count_mobility",
         summary="Freedoms of a mechanism",
     )
+
+
+def _counted_robot(call: MobilityRequest, library: Library) -> dict[str, Any]:
+    if call.robot is None:
+        return _counted(call)
+    robot = library.get(call.robot).robot
+    found = mechanism_of_tree(robot.description)
+    return _content(tally(found), found, chain=robot.chain(None, None))
+
+
+def _counted(call: MobilityRequest) -> dict[str, Any]:
+    space = call.space or "spatial"
+    if isinstance(call.pairs, list):
+        names, ground = call.link_names()
+        found = mechanism(space, names, ground, call.given_pairs(), call.nodes())
+        stands = posture(found, call.output_link(names), call.rank_tolerance)
+        return {**_content(tally(found), found, stands), "rank_tolerance": stands and call.rank_tolerance}
+    return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
 
 
 def _content(

@@ -1,12 +1,12 @@
 """POST /v1/course/orientation: an orientation in every notation."""
 
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
 
 from app.api.course import course_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.composition import composed
 from app.course.orientation import DEGENERATE, NEARLY_DEGENERATE, AxisAngle, Notations, Validation, notations
@@ -17,7 +17,7 @@ from app.schemas.course_orientation import EXAMPLE_ZYZ, OrientationAnswer, Orien
 _INLINE_MOTIONS = 8
 
 
-def orientation_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def orientation_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator; a long composition in a thread."""
 
     def convert_orientation(call: OrientationRequest) -> OrientationAnswer:
@@ -41,7 +41,7 @@ def orientation_route(executor: Executor, max_body_bytes: int) -> DocumentedRout
         convert_orientation,
         OrientationRequest,
         _compute,
-        executor,
+        remote,
         max_body_bytes,
         example=EXAMPLE_ZYZ,
         is_heavy=lambda call: len(call.then) > _INLINE_MOTIONS,

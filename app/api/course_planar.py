@@ -2,17 +2,17 @@
 
 import math
 from collections.abc import Sequence
-from concurrent.futures import Executor
 from dataclasses import asdict
 from typing import Any, Literal
 
 from app.api.course import Picture, course_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course import planar
 from app.schemas.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer, PlanarWorkspaceRequest
 
 
-def workspace_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def workspace_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of planar workspaces."""
 
     def planar_workspace(call: PlanarWorkspaceRequest) -> PlanarWorkspaceAnswer:
@@ -36,7 +36,7 @@ def workspace_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         planar_workspace,
         PlanarWorkspaceRequest,
         _workspace,
-        executor,
+        remote,
         max_body_bytes,
         example=EXAMPLE_WORKSPACE,
         picture=Picture("Both workspaces, and the arm with its tip at `point`.", _picture),

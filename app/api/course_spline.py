@@ -1,6 +1,5 @@
 """POST /v1/course/spline: cubic splines through knots."""
 
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from app.api.course_trajectory import (
     told_steps,
     unused,
 )
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.model.arrays import Array
 from app.schemas.course_spline import EXAMPLE_SPLINE, SplineAnswer, SplineRequest
@@ -29,7 +29,7 @@ _VELOCITIES = ("start_velocity", "end_velocity")
 _ACCELERATIONS = ("start_acceleration", "end_acceleration")
 
 
-def spline_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def spline_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of cubic splines."""
 
     def spline(call: SplineRequest) -> SplineAnswer:
@@ -49,7 +49,7 @@ def spline_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         spline,
         SplineRequest,
         _plan,
-        executor,
+        remote,
         max_body_bytes,
         EXAMPLE_SPLINE,
         operation_id="cubic_spline",

@@ -1,6 +1,5 @@
 """POST /v1/course/time-law: a motion between two points, or past some, by a law of time."""
 
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from app.api.course_trajectory import (
     told_steps,
     unused,
 )
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.steps import Step
 from app.model.arrays import Array
@@ -38,7 +38,7 @@ _GIVEN_RATES = {"cubic": 1, "quintic": 2, "septic": 3, "4-3-4": 2, "trapezoidal"
 _KNOTS = {"4-3-4", "parabolic_blends"}
 
 
-def time_law_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def time_law_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of time laws."""
 
     def time_law(call: TimeLawRequest) -> TimeLawAnswer:
@@ -62,7 +62,7 @@ def time_law_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
         time_law,
         TimeLawRequest,
         _plan,
-        executor,
+        remote,
         max_body_bytes,
         EXAMPLE_TIME_LAW,
         operation_id="time_law",

@@ -1,6 +1,5 @@
 """POST /v1/course/time-scaling: by which factor of time a motion keeps its limits."""
 
-from concurrent.futures import Executor
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from app.api.course_trajectory import (
     told_steps,
     unused,
 )
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.model.arrays import Array
 from app.model.errors import InvalidField
@@ -30,7 +30,7 @@ _ORDERS = {"cubic": 2, "quintic": 3, "septic": 4}
 _AT_REST = 1e-9
 
 
-def time_scaling_route(executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def time_scaling_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     """The calculator of uniform time scaling."""
 
     def time_scaling(call: TimeScalingRequest) -> TimeScalingAnswer:
@@ -53,7 +53,7 @@ def time_scaling_route(executor: Executor, max_body_bytes: int) -> DocumentedRou
         time_scaling,
         TimeScalingRequest,
         _plan,
-        executor,
+        remote,
         max_body_bytes,
         EXAMPLE_TIME_SCALING,
         operation_id="time_scaling",

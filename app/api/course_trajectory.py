@@ -1,18 +1,19 @@
 """The calculators of motions in time: POST /v1/course/time-law, /spline and /time-scaling, as JSON or as a picture."""
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
 from dataclasses import asdict, dataclass
-from typing import Any, TypeVar
+from functools import partial
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from starlette.responses import Response
 
 from app.api.course import TAG
+from app.api.errand import JsonErrand
 from app.api.openapi import json_example, picture_content, problem_responses
-from app.api.payloads import JSON, PNG, SVG, BoundedRequest, json_response, read_json
-from app.api.problems import UnsupportedMediaType
-from app.api.routes import INLINE_BYTES, DocumentedRoute, Handler, in_thread
+from app.api.payloads import JSON, PNG, SVG, json_response, read_json
+from app.api.remote import Remote, json_handler
+from app.api.routes import DocumentedRoute
 from app.course.steps import Step
 from app.model.arrays import Array
 from app.model.errors import InvalidField
@@ -65,7 +66,7 @@ def motion_route(
     endpoint: Callable[..., Any],
     model: type[_Request],
     plan: Callable[[_Request], Planned],
-    executor: Executor,
+    remote: Remote,
     max_body_bytes: int,
     example: dict[str, Any],
     **documentation: Any,
@@ -76,16 +77,22 @@ def motion_route(
         path: Last part of the path.
         endpoint: Never called: its signature names the models, its docstring is the description.
         model: What the calculator takes.
-        plan: What finds the motion.
-        executor: Where a large request and each picture is worked on.
+        plan: What finds the motion; of a module.
+        remote: Who works on a large request and on each picture.
         max_body_bytes: Largest body.
         example: A request that runs.
         documentation: `operation_id` and `summary`.
     """
+    errand = JsonErrand(model, partial(_answer, plan=plan), partial(_picture, plan=plan))
+
+    def quick(body: bytes) -> Response | None:
+        call = read_json(model, body)
+        return None if _is_heavy(call) else json_response(_answer(call, plan))
+
     return DocumentedRoute(
         f"/v1/course/{path}",
         endpoint,
-        _handler(model, plan, executor),
+        json_handler(errand, remote, (JSON, SVG, PNG), quick),
         max_body_bytes,
         methods=["POST"],
         tags=[TAG],
@@ -98,25 +105,6 @@ def motion_route(
     )
 
 
-def _handler(model: type[_Request], plan: Callable[[_Request], Planned], executor: Executor) -> Handler:
-    async def handle(request: BoundedRequest) -> Response:
-        if request.media_type != JSON:
-            raise UnsupportedMediaType(request.media_type, (JSON,))
-        if request.scope["query_string"]:
-            raise InvalidField("query", "this call has its parameters as fields of the body")
-        wanted, body = request.preferred((JSON, SVG, PNG)), await request.body()
-        if wanted != JSON:
-            return await in_thread(executor, lambda: _picture(plan(read_json(model, body)), wanted))
-        if len(body) > INLINE_BYTES:
-            return await in_thread(executor, lambda: json_response(_answer(read_json(model, body), plan)))
-        call = read_json(model, body)
-        if _is_heavy(call):
-            return await in_thread(executor, lambda: json_response(_answer(call, plan)))
-        return json_response(_answer(call, plan))
-
-    return handle
-
-
 def _is_heavy(call: SampledRequest) -> bool:
     waypoints = getattr(call, "waypoints", None) or ()
     first = (
@@ -126,10 +114,11 @@ def _is_heavy(call: SampledRequest) -> bool:
     return count * len(first) > _QUICK_NUMBERS or len(waypoints) * len(first) > _QUICK_KNOTS
 
 
-def _picture(planned: Planned, wanted: str) -> Response:
+def _picture(call: _Request, kind: Literal["svg", "png"], plan: Callable[[_Request], Planned]) -> bytes:
     # Matplotlib takes a third of a second to load.
     from app.plots.profiles import Lines, profiles_picture  # noqa: PLC0415
 
+    planned = plan(call)
     limits, joints = planned.limits, planned.knots.shape[1]
     _certified(planned, _peaks(planned.motion))
     lines = Lines(
@@ -138,8 +127,7 @@ def _picture(planned: Planned, wanted: str) -> Response:
         (limits.velocity, limits.acceleration, limits.jerk),
         planned.passed or (planned.times, planned.knots),
     )
-    picture = profiles_picture(planned.title, planned.motion, lines, "svg" if wanted == SVG else "png")
-    return Response(picture, media_type=wanted)
+    return profiles_picture(planned.title, planned.motion, lines, kind)
 
 
 def _peaks(motion: PiecewisePolynomial) -> PeaksByOrder:

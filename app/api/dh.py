@@ -1,24 +1,24 @@
 """Conversions of Denavit-Hartenberg tables: to URDF, from URDF, from one convention to the other."""
 
 from collections.abc import Callable
-from concurrent.futures import Executor
 from dataclasses import asdict
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 from fastapi import Query
+from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
+from app.api.errand import Desk, Inquiry, JsonErrand
 from app.api.openapi import RobotPath, json_example, problem_responses
-from app.api.payloads import JSON, BoundedRequest, json_response, read_json, read_query
-from app.api.problems import UnsupportedMediaType
-from app.api.routes import DocumentedRoute, Handler, in_thread
+from app.api.payloads import BoundedRequest, json_response, read_query
+from app.api.remote import Remote, json_handler
+from app.api.routes import DocumentedRoute, Handler
 from app.kinematics.certify import certify_conversion, certify_table
 from app.model.convert import BASE_FRAME, TOOL_FRAME, converted, describe_dh
 from app.model.dh_from_chain import dh_from_chain
-from app.model.errors import InvalidField
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
-from app.schemas.common import FrameName, Payload
+from app.schemas.common import FrameName
 from app.schemas.dh import (
     EXAMPLE_TABLE,
     EXAMPLE_URDF,
@@ -33,15 +33,12 @@ from app.schemas.dh import (
     ToUrdfRequest,
     table_content,
 )
-from app.store.library import Library
 
 TAG = "DH tables"
 
-_Request = TypeVar("_Request", bound=Payload)
 
-
-def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
-    """The conversions, each in a thread: building a robot takes milliseconds."""
+def dh_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
+    """The conversions, none on the event loop: building a robot takes milliseconds."""
 
     def table_to_urdf(call: ToUrdfRequest) -> ToUrdfAnswer:
         """Writes a table as URDF, to 17 significant digits, with simple bodies to look at and plausible inertias.
@@ -75,14 +72,8 @@ def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list
         raise NotImplementedError
 
     async def get_table(request: BoundedRequest) -> Response:
-        options = read_query(FromUrdfOptions, request.query_params)
-        name: str = request.path_params["robot"]
-
-        def work() -> Response:
-            loaded = library.get(name)
-            return json_response(_table_answer(loaded.robot, options, loaded.warnings))
-
-        return await in_thread(executor, work)
+        inquiry = Inquiry(robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1"))
+        return await remote.answer(request, _robot_table, inquiry)
 
     def post(path: str, endpoint: Callable[..., Any], handler: Handler, **documentation: Any) -> DocumentedRoute:
         return dh_route(f"/v1/dh/{path}", endpoint, handler, max_body_bytes, **documentation)
@@ -91,7 +82,7 @@ def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list
         post(
             "to-urdf",
             table_to_urdf,
-            json_handler(ToUrdfRequest, _to_urdf, executor),
+            json_handler(JsonErrand(ToUrdfRequest, _to_urdf), remote),
             operation_id="dh_to_urdf",
             summary="Table → URDF",
             example={"name": "my_arm", "dh": EXAMPLE_TABLE},
@@ -99,7 +90,7 @@ def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list
         post(
             "from-urdf",
             table_from_urdf,
-            json_handler(FromUrdfRequest, _from_urdf, executor),
+            json_handler(JsonErrand(FromUrdfRequest, _from_urdf), remote),
             operation_id="dh_from_urdf",
             summary="URDF → table",
             example={"urdf": EXAMPLE_URDF, "tip_frame": "hand", "snap_tolerance": 1e-5},
@@ -107,7 +98,7 @@ def dh_routes(library: Library, executor: Executor, max_body_bytes: int) -> list
         post(
             "convert",
             convert_table,
-            json_handler(ConvertRequest, _convert, executor),
+            json_handler(JsonErrand(ConvertRequest, _convert), remote),
             operation_id="convert_dh",
             summary="Standard ↔ modified",
             example={"dh": EXAMPLE_TABLE, "convention": "standard"},
@@ -148,20 +139,6 @@ def dh_route(
     )
 
 
-def json_handler(model: type[_Request], work: Callable[[_Request], Any], executor: Executor) -> Handler:
-    """What reads a JSON request and does its work, both in a thread."""
-
-    async def handle(request: BoundedRequest) -> Response:
-        if request.media_type != JSON:
-            raise UnsupportedMediaType(request.media_type, (JSON,))
-        if request.scope["query_string"]:
-            raise InvalidField("query", "this call has its parameters as fields of the body")
-        body = await request.body()
-        return await in_thread(executor, lambda: json_response(work(read_json(model, body))))
-
-    return handle
-
-
 def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
     table = call.dh.table()
     described = describe_dh(call.name, table)
@@ -179,6 +156,11 @@ def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
 def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
     description = read_urdf(call.urdf)
     return _table_answer(Robot(description), call, description.warnings)
+
+
+def _robot_table(desk: Desk, inquiry: Inquiry) -> Response:
+    options, loaded = read_query(FromUrdfOptions, QueryParams(inquiry.query)), desk.library.get(inquiry.robot)
+    return json_response(_table_answer(loaded.robot, options, loaded.warnings))
 
 
 def _table_answer(robot: Robot, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:

@@ -26,12 +26,15 @@ from app.store.records import LoadedRobot
 _QUICK_STARTS = 64
 """Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a thread."""
 _QUICK_TARGETS = 8
+_SHARE_OF_TIME = 0.8
+"""Of the time that a request may take, what a search may: what is found is to be recomputed and sent."""
 _ROWS_NAMED = 200
 """Unsolved rows that a header names: proxies allow headers of a few kilobytes."""
 
 
-def inverse_operation(max_answer_numbers: int) -> Operation:
-    """The operation `ik`, none of whose answers holds more numbers than given."""
+def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
+    """The operation `ik`, none of whose answers holds more numbers or takes longer than given, [s]."""
+    longest = _SHARE_OF_TIME * seconds
 
     def ik(loaded: LoadedRobot, call: InverseRequest) -> Outcome:
         """Configurations that bring the tip to each target, within the joint limits.
@@ -51,7 +54,7 @@ def inverse_operation(max_answer_numbers: int) -> Operation:
         """
         chain, targets, seeds = _asked(loaded, call)
         _check_size(call, len(targets), len(chain), max_answer_numbers)
-        options = _options(call, _objective(chain, call))
+        options = _options(call, _objective(chain, call), longest)
         return _outcome(chain, call, inverse_kinematics(loaded.robot, chain, targets, seeds, options))
 
     def attempt(loaded: LoadedRobot, call: InverseRequest) -> Outcome | None:
@@ -150,7 +153,7 @@ def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
     return seeds
 
 
-def _options(call: InverseRequest, objective: Objective | None) -> Options:
+def _options(call: InverseRequest, objective: Objective | None, longest: float) -> Options:
     match call.method:
         case "auto" | "analytic":
             rule = None
@@ -167,7 +170,7 @@ def _options(call: InverseRequest, objective: Objective | None) -> Options:
         method=call.method,
         rule=rule,
         max_iterations=call.max_iterations,
-        time_limit=call.time_limit,
+        time_limit=min(call.time_limit, longest),
         random_seed=call.random_seed,
         objective=objective,
         elbow_angle=call.elbow_angle,

@@ -16,6 +16,9 @@ UploadedRobotPath = Annotated[
     str, Path(description="Name of an uploaded robot.", openapi_examples={"my_planar_arm": {"value": "my_planar_arm"}})
 ]
 
+BY_THE_CREW = (429, 500, 503, 504)
+"""Statuses of whatever a process of the crew may have to answer."""
+
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
 

@@ -66,24 +66,30 @@ class BoundedRequest(Request):
         # What nearly every client sends names none but the first.
         return offered[0] if accept in _ANYTHING else preferred_type(accept.decode("latin-1"), offered)
 
+    @property
+    def length(self) -> int:
+        """Bytes of the body that have come in."""
+        return self._count
+
     async def body(self) -> bytes:
-        """The whole body.
+        """The whole body; raises as `pieces` does."""
+        return b"".join(await self.pieces())
+
+    async def pieces(self) -> list[bytes]:
+        """The whole body as it comes in.
 
         Raises:
             TooLarge: It is larger than allowed, or says so.
             ClientDisconnect: The caller has left.
         """
-        chunk, more = await self._receive_chunk()
-        if not more:
-            return chunk
-        chunks = [chunk]
+        pieces, more = [], True
         while more:
-            chunk, more = await self._receive_chunk()
-            chunks.append(chunk)
-        return b"".join(chunks)
+            piece, more = await self._receive_chunk()
+            pieces.append(piece)
+        return pieces
 
     async def stream(self) -> AsyncGenerator[bytes, None]:
-        """The body in pieces; raises as `body` does."""
+        """The body in pieces; raises as `pieces` does."""
         more = True
         while more:
             chunk, more = await self._receive_chunk()

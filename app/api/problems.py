@@ -37,6 +37,11 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.ServiceStopping: HTTPStatus.SERVICE_UNAVAILABLE,
     errors.JobTookTooLong: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
+    errors.TooManyRequests: HTTPStatus.TOO_MANY_REQUESTS,
+    errors.ServiceBusy: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.DeadlineExceeded: HTTPStatus.GATEWAY_TIMEOUT,
+    errors.WorkerCrashed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.WorkerOutOfMemory: HTTPStatus.INTERNAL_SERVER_ERROR,
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
     errors.AuditFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
 }
@@ -56,6 +61,9 @@ class InvalidPayload(Exception):
     def __init__(self, is_json: bool, places: list[dict[str, str]], count: int) -> None:
         self.is_json, self.places, self.count = is_json, places, count
         super().__init__(places[0]["detail"] if places else "the payload is not what is asked for")
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.is_json, self.places, self.count)
 
     @classmethod
     def of(cls, error: ValidationError | RequestValidationError) -> "InvalidPayload":
@@ -131,7 +139,7 @@ def _kinematics(request: Request, error: Exception) -> Response:
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
     response = problem(request, status_of(type(error)), kind_of(type(error)), error.detail, facts)
-    if isinstance(error, errors.TooManyJobs):
+    if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy):
         response.headers["Retry-After"] = str(error.retry_after)
     return response
 

@@ -1,19 +1,23 @@
 """Robots: listed, described, added, replaced, removed; their URDF and their meshes."""
 
+import asyncio
 import os
-from collections.abc import Callable
-from concurrent.futures import Executor
-from typing import Annotated, Any
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path as FilePath
+from typing import Annotated, Any, BinaryIO
 
-from fastapi import APIRouter, Path, Response
+from fastapi import APIRouter, Path, Request, Response
 from starlette.background import BackgroundTask
 from starlette.datastructures import UploadFile
 from starlette.responses import StreamingResponse
 
-from app.api.openapi import RobotPath, UploadedRobotPath, json_example, problem_responses
+from app.api.errand import Desk, Inquiry, buffers
+from app.api.openapi import BY_THE_CREW, RobotPath, UploadedRobotPath, json_example, problem_responses
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.routes import DocumentedRoute, in_thread
+from app.api.remote import Remote
+from app.api.routes import DocumentedRoute
 from app.model.chain import Chain
 from app.model.description import Joint
 from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
@@ -53,37 +57,45 @@ _MESH_TYPES = {
 }
 
 
-def robots_router(library: Library) -> APIRouter:
-    """What only reads robots."""
+def robots_router(library: Library, remote: Remote) -> APIRouter:
+    """What reads robots, or removes them: the crew looks at them, because a description comes from outside."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
 
-    @router.get("", operation_id="list_robots", summary="All robots", response_model=RobotList)
-    def list_robots() -> Any:
+    @router.get(
+        "",
+        operation_id="list_robots",
+        summary="All robots",
+        response_model=RobotList,
+        responses=problem_responses(*BY_THE_CREW),
+    )
+    async def list_robots(request: Request) -> Any:
         """The catalogue's robots, then the uploaded ones, each part by name."""
-        summaries = (_summary(library, record) for record in library.records())
-        return {"robots": [summary for summary in summaries if summary is not None]}
+        return await remote.answer(request, _listed, Inquiry())
 
     @router.get(
         "/{robot}",
         operation_id="get_robot",
         summary="A robot",
         response_model=RobotInfo,
-        responses=problem_responses(404, 422),
+        responses=problem_responses(404, 422, *BY_THE_CREW),
     )
-    def get_robot(robot: RobotPath) -> Any:
+    async def get_robot(robot: RobotPath, request: Request) -> Any:
         """Joints, links, frames, chains, licence, and what is odd about the description."""
-        return info(library.get(robot))
+        return await remote.answer(request, _described, Inquiry(robot=robot))
 
     @router.get(
         "/{robot}/urdf",
         operation_id="get_robot_urdf",
         summary="A robot's URDF",
         response_class=Response,
-        responses={200: {"content": {"application/xml": {}}, "description": "The URDF"}, **problem_responses(404, 422)},
+        responses={
+            200: {"content": {"application/xml": {}}, "description": "The URDF"},
+            **problem_responses(404, 422, *BY_THE_CREW),
+        },
     )
-    def get_urdf(robot: RobotPath) -> Response:
+    async def get_urdf(robot: RobotPath, request: Request) -> Response:
         """The description as it was uploaded, or as it was written from the DH table."""
-        return Response(library.get(robot).urdf, media_type="application/xml", headers=SANDBOXED)
+        return await remote.answer(request, _urdf, Inquiry(robot=robot))
 
     @router.get(
         "/{robot}/meshes/{path:path}",
@@ -92,10 +104,11 @@ def robots_router(library: Library) -> APIRouter:
         response_class=Response,
         responses={
             200: {"content": {kind: {} for kind in _MESH_TYPES.values()}, "description": "The file"},
-            **problem_responses(404, 422),
+            **problem_responses(404, 422, *BY_THE_CREW),
         },
     )
-    def get_mesh(
+    async def get_mesh(
+        request: Request,
         robot: RobotPath,
         path: Annotated[
             str,
@@ -108,11 +121,16 @@ def robots_router(library: Library) -> APIRouter:
         ],
     ) -> Response:
         """The file as it came; nothing on the server has ever looked into it."""
-        file = library.mesh(robot, path)
-        try:
-            stream = file.open("rb")  # once open, it is there to its end, whoever replaces the robot meanwhile
-        except FileNotFoundError:
-            raise UnknownMesh(path) from None
+        await remote.resident(request, robot)
+
+        def opened() -> tuple[FilePath, BinaryIO]:
+            file = library.mesh(robot, path)
+            try:
+                return file, file.open("rb")  # once open, it is there to its end, whoever replaces the robot meanwhile
+            except FileNotFoundError:
+                raise UnknownMesh(path) from None
+
+        file, stream = await asyncio.to_thread(opened)
         headers = {**SANDBOXED, "Content-Length": str(os.fstat(stream.fileno()).st_size)}
         return StreamingResponse(
             iter(lambda: stream.read(_PIECE), b""),
@@ -136,25 +154,14 @@ def robots_router(library: Library) -> APIRouter:
     return router
 
 
-def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> list[DocumentedRoute]:
+def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
     """What writes robots: as JSON, or as a zip in a form."""
 
     async def add(request: BoundedRequest) -> Response:
-        def keep(upload: RobotUpload) -> Response:
-            created = library.add(upload)
-            location = {"Location": f"{request.scope.get('root_path', '')}/v1/robots/{upload.name}"}
-            return json_response(
-                info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location
-            )
-
-        return await _receive(request, None, keep, executor)
+        return await _receive(request, remote, None)
 
     async def replace(request: BoundedRequest) -> Response:
-        def keep(upload: RobotUpload) -> Response:
-            library.replace(upload)
-            return json_response(info(library.get(upload.name)).model_dump(mode="json"))
-
-        return await _receive(request, request.path_params["robot"], keep, executor)
+        return await _receive(request, remote, request.path_params["robot"])
 
     def add_robot(robot: NewRobot) -> RobotInfo:
         """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
@@ -208,17 +215,12 @@ def upload_routes(library: Library, executor: Executor, max_body_bytes: int) -> 
     ]
 
 
-async def _receive(
-    request: BoundedRequest,
-    name: str | None,
-    keep: Callable[[RobotUpload], Response],
-    executor: Executor,
-) -> Response:
-    """Read an upload in either form, and keep it in a thread."""
-    given = request.media_type
+async def _receive(request: BoundedRequest, remote: Remote, name: str | None) -> Response:
+    """Take an upload in either form; the crew looks at it and keeps it."""
+    root_path, given = request.scope.get("root_path", ""), request.media_type
     if given == JSON:
-        body = await request.body()
-        return await in_thread(executor, lambda: keep(_from_json(body, name)))
+        inquiry = Inquiry(buffers(await request.pieces()))
+        return await remote.answer(request, Keep(name, root_path), inquiry)
     if given != MULTIPART:
         raise UnsupportedMediaType(given, (JSON, MULTIPART))
     async with request.form(max_files=1, max_fields=8, max_part_size=64 * 1024) as form:
@@ -227,21 +229,47 @@ async def _receive(
         text = (NewArchive if name is None else ArchiveReplacement).model_validate(fields)
         if not isinstance(archive, UploadFile):
             raise InvalidArchive("the form must have a file in the field `archive`")
+        pieces = await asyncio.to_thread(lambda: list(iter(lambda: archive.file.read(_PIECE), b"")))
+    return await remote.answer(request, Keep(name, root_path, text), Inquiry(buffers(pieces)))
 
-        def unpack_and_keep() -> Response:
-            with unpacked(archive.file) as content:
-                upload = RobotUpload(
-                    name=text.name if isinstance(text, NewArchive) else name or "",
-                    format="urdf",
-                    model=content.urdf,
-                    description=text.description,
-                    default_chain=text.ends(),
-                    meshes=content.meshes,
-                    urdf_folder=content.urdf_folder,
-                )
-                return keep(upload)
 
-        return await in_thread(executor, unpack_and_keep)
+@dataclass(frozen=True, slots=True)
+class Keep:
+    """An upload that is looked at and kept, in the place of another one where that is named.
+
+    Attributes:
+        name: The robot to replace; None adds one.
+        root_path: What goes before the path of its address.
+        form: The fields that come with an archive; None where the body is JSON.
+    """
+
+    name: str | None
+    root_path: str
+    form: ArchiveReplacement | None = None
+
+    def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
+        """The robot as it is kept now."""
+        if self.form is None:
+            return self._kept(desk.library, _from_json(inquiry.body, self.name))
+        with unpacked(BytesIO(inquiry.body)) as content:
+            upload = RobotUpload(
+                name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
+                format="urdf",
+                model=content.urdf,
+                description=self.form.description,
+                default_chain=self.form.ends(),
+                meshes=content.meshes,
+                urdf_folder=content.urdf_folder,
+            )
+            return self._kept(desk.library, upload)
+
+    def _kept(self, library: Library, upload: RobotUpload) -> Response:
+        if self.name is not None:
+            library.replace(upload)
+            return json_response(info(library.get(upload.name)).model_dump(mode="json"))
+        created = library.add(upload)
+        location = {"Location": f"{self.root_path}/v1/robots/{upload.name}"}
+        return json_response(info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location)
 
 
 def _from_json(body: bytes, name: str | None) -> RobotUpload:
@@ -252,6 +280,19 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
         return RobotUpload(name, "dh", model, robot.description, robot.default_chain)
     urdf = (robot.urdf or "").encode("utf-8", "surrogatepass")
     return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain)
+
+
+def _listed(desk: Desk, _: Inquiry) -> Response:
+    summaries = (_summary(desk.library, record) for record in desk.library.records())
+    return json_response({"robots": [summary.model_dump(mode="json") for summary in summaries if summary is not None]})
+
+
+def _described(desk: Desk, inquiry: Inquiry) -> Response:
+    return json_response(info(desk.library.get(inquiry.robot)).model_dump(mode="json"))
+
+
+def _urdf(desk: Desk, inquiry: Inquiry) -> Response:
+    return Response(desk.library.get(inquiry.robot).urdf, media_type="application/xml", headers=SANDBOXED)
 
 
 def info(loaded: LoadedRobot) -> RobotInfo:

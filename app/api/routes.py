@@ -16,12 +16,22 @@ from typing import Any, Generic, Literal, TypeAlias, TypeVar, cast
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
-from starlette.requests import ClientDisconnect, Request
+from starlette.datastructures import QueryParams
+from starlette.requests import ClientDisconnect
 from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api import problems
-from app.api.openapi import RobotPath, csv_content, json_example, npy_content, picture_content, problem_responses
+from app.api.errand import Desk, Inquiry, buffers
+from app.api.openapi import (
+    BY_THE_CREW,
+    RobotPath,
+    csv_content,
+    json_example,
+    npy_content,
+    picture_content,
+    problem_responses,
+)
 from app.api.payloads import (
     CSV,
     JSON,
@@ -37,14 +47,12 @@ from app.api.payloads import (
     read_query,
 )
 from app.api.problems import UnsupportedMediaType
+from app.api.remote import INLINE_BYTES, Remote
 from app.model.arrays import Array
 from app.model.errors import InvalidArray, InvalidField
 from app.schemas.common import Answer, Payload
 from app.store.library import Library
 from app.store.records import LoadedRobot
-
-INLINE_BYTES = 4096
-"""A larger body is parsed in a thread: the event loop does nothing that takes longer than about 2 ms."""
 
 _OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
 
@@ -61,6 +69,7 @@ class DocumentedRoute(APIRoute):
     def __init__(
         self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
     ) -> None:
+        documentation["responses"] = documentation.get("responses", {}) | problem_responses(*BY_THE_CREW)
         super().__init__(path, endpoint, **documentation)
         self._handler = handler
         self._max_body_bytes = max_body_bytes
@@ -174,40 +183,55 @@ class Computation(Generic[_Request]):
     picture: str | None = None
     table: str | None = None
 
-    def handler(self, library: Library, executor: Executor) -> Handler:
-        """What answers its requests: on the event loop where that is quick, else in a thread."""
+    def handler(self, name: str, remote: Remote) -> Handler:
+        """What answers its requests: on the event loop where that is quick, else an errand to the crew.
+
+        Args:
+            name: The operation's.
+            remote: Who runs errands.
+        """
+        errand = OperationErrand(name)
         offered = (JSON, NPY, *((CSV,) if self.table else ()), *((SVG, PNG) if self.picture else ()))
         taken = (JSON,) if self.options is None else (JSON, NPY)
 
         async def handle(request: BoundedRequest) -> Response:
             npy_in, wanted = _is_npy(request, taken), request.preferred(offered)
-            body = await request.body()
-            name: str = request.path_params["robot"]
-
-            def compute(loaded: LoadedRobot, call: _Request) -> Response:
-                return _response(self.run(loaded, call), wanted)
-
-            if len(body) > INLINE_BYTES:
-                return await in_thread(executor, lambda: compute(library.get(name), self._parse(request, body, npy_in)))
-            call = self._parse(request, body, npy_in)
-            loaded = library.loaded(name)
-            if loaded is None or wanted in _PICTURES or self.is_heavy(call):
-                return await in_thread(executor, lambda: compute(library.get(name), call))
-            outcome = (self.attempt or self.run)(loaded, call)
-            if outcome is None:
-                return await in_thread(executor, lambda: compute(loaded, call))
-            return _response(outcome, wanted)
+            pieces = await request.pieces()
+            robot, query = request.path_params["robot"], request.scope["query_string"].decode("latin-1")
+            if request.length <= INLINE_BYTES:
+                call = self._parse(query, b"".join(pieces), npy_in)
+                if wanted not in _PICTURES and not self.is_heavy(call):
+                    outcome = (self.attempt or self.run)(await remote.resident(request, robot), call)
+                    if outcome is not None:
+                        return _response(outcome, wanted)
+            return await remote.answer(request, errand, Inquiry(buffers(pieces), robot, query, npy_in, wanted))
 
         return handle
 
-    def _parse(self, request: Request, body: bytes, npy: bool) -> _Request:
+    def answer(self, library: Library, inquiry: Inquiry) -> Response:
+        """The answer to any request, however long it takes."""
+        loaded = library.get(inquiry.robot)
+        return _response(self.run(loaded, self._parse(inquiry.query, inquiry.body, inquiry.npy)), inquiry.wanted)
+
+    def _parse(self, query: str, body: bytes, npy: bool) -> _Request:
         if not npy or self.options is None:
-            if request.scope["query_string"]:
+            if query:
                 raise InvalidField("query", "parameters go with an npy body; a JSON call has them as fields")
             return read_json(self.request, body)
-        options = read_query(self.options, request.query_params)
+        options = read_query(self.options, QueryParams(query))
         call = self.request.model_construct(**{**dict(options), self.array_field: read_npy(body)})
         return cast(_Request, call)
+
+
+@dataclass(frozen=True, slots=True)
+class OperationErrand:
+    """An operation on a robot, by its name."""
+
+    name: str
+
+    def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
+        """The answer."""
+        return desk.computations[self.name].answer(desk.library, inquiry)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,8 @@
 """The numeric workspace of a robot, as a job."""
 
+import asyncio
 import hashlib
 import math
-from concurrent.futures import Executor
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,8 @@ from app.api.jobs import job_response
 from app.api.openapi import RobotPath, json_example, problem_responses
 from app.api.payloads import JSON, BoundedRequest, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.routes import DocumentedRoute, in_thread
+from app.api.remote import Remote
+from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
 from app.jobs.runner import Runner
 from app.jobs.workspace import KIND, question, work_of
@@ -21,7 +22,6 @@ from app.kinematics.workspace import Plane, Wish
 from app.model.errors import InvalidField, TooLarge
 from app.schemas.jobs import JobInfo
 from app.schemas.workspace import SlicePlane, WorkspaceRequest
-from app.store.library import Library
 from app.store.records import LoadedRobot
 
 
@@ -38,9 +38,7 @@ class SampleLimits:
     numbers: int
 
 
-def workspace_route(
-    library: Library, runner: Runner, executor: Executor, limits: SampleLimits, max_body_bytes: int
-) -> DocumentedRoute:
+def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_body_bytes: int) -> DocumentedRoute:
     """POST /v1/robots/{robot}/workspace; what is asked is checked in a thread before there is a job."""
 
     def workspace(robot: RobotPath, call: WorkspaceRequest) -> JobInfo:
@@ -62,14 +60,14 @@ def workspace_route(
         if request.scope["query_string"]:
             raise InvalidField("query", "this call has its parameters as fields of the body")
         body = await request.body()
-        name: str = request.path_params["robot"]
+        robot = await remote.resident(request, request.path_params["robot"])
 
         def begin() -> Response:
             call = read_json(WorkspaceRequest, body)
-            job = _submitted(runner, library.get(name), call, limits)
+            job = _submitted(runner, robot, call, limits)
             return job_response(job, 202, {"Location": f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"})
 
-        return await in_thread(executor, begin)
+        return await asyncio.to_thread(begin)
 
     return DocumentedRoute(
         "/v1/robots/{robot}/workspace",

@@ -35,6 +35,11 @@
     ├── ServiceStopping              the service takes no more work
     ├── JobTookTooLong               a job that was ended
     ├── TooManyJobs                  so many wait that another one has to be asked for later
+    ├── ServiceBusy                  so many requests wait that another one has to be asked for later
+    ├── TooManyRequests              the same of a single client
+    ├── DeadlineExceeded             a request that was ended
+    ├── WorkerCrashed                the process that worked on a request has died
+    ├── WorkerOutOfMemory            a request that needs more memory than one may have
     ├── CertificationFailed          two computations of the same number disagree: never sent
     └── AuditFailed                  a motion breaks what was promised of it: never sent
 
@@ -559,6 +564,70 @@ class TooManyJobs(KinematicsError):
     def detail(self) -> str:
         """How many there are."""
         return f"{self.unfinished} jobs wait or run, of {self.allowed} allowed: ask again in {self.retry_after} s"
+
+
+@dataclass(eq=False)
+class ServiceBusy(KinematicsError):
+    """So many requests wait that another one has to be asked for later."""
+
+    retry_after: int
+
+    @property
+    def detail(self) -> str:
+        """When to come back."""
+        return f"the service has as many requests as it can work off: ask again in {self.retry_after} s"
+
+
+@dataclass(eq=False)
+class TooManyRequests(KinematicsError):
+    """A client has so many requests at work that another one has to be asked for later."""
+
+    allowed: int
+    retry_after: int
+
+    @property
+    def detail(self) -> str:
+        """How many it may have."""
+        return (
+            f"{self.allowed} requests of this client are being worked on, and it may have no more at a time: "
+            f"ask again in {self.retry_after} s"
+        )
+
+
+@dataclass(eq=False)
+class DeadlineExceeded(KinematicsError):
+    """A request was ended because it took longer than the service is set up to allow."""
+
+    allowed: float
+
+    @property
+    def detail(self) -> str:
+        """How long it may take."""
+        return f"the request took longer than the {self.allowed:g} s allowed and was ended: ask for less at once"
+
+
+@dataclass(eq=False)
+class WorkerCrashed(KinematicsError):
+    """The process that worked on a request has died; no other request is touched, and a new process is there."""
+
+    reason: str
+
+    @property
+    def detail(self) -> str:
+        """What it died of."""
+        return f"the process that worked on the request has died ({self.reason}); other requests are not touched by it"
+
+
+@dataclass(eq=False)
+class WorkerOutOfMemory(KinematicsError):
+    """A request needs more memory than the service is set up to give to one."""
+
+    allowed: int
+
+    @property
+    def detail(self) -> str:
+        """How much it may take."""
+        return f"the request needs more than the {self.allowed} bytes of memory that one may take: ask for less at once"
 
 
 @dataclass(eq=False)

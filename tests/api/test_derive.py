@@ -2,6 +2,7 @@
 
 import json
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -308,14 +309,28 @@ def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestC
 
 def test_no_process_is_left_behind(tmp_path: Path) -> None:
     before = workers()
-    with TestClient(create_app(Settings(data_dir=tmp_path))) as client:
-        assert workers() == before
+    with TestClient(create_app(Settings(data_dir=tmp_path, crew_processes=3))) as client:
         posted(client, EXAMPLE_ANTHROPOMORPHIC)
-        assert len(workers() - before) == 1
-    assert workers() == before
+        wait_for(lambda: len(workers() - before) == 1 + 3)
+    wait_for(lambda: workers() == before)
+
+
+def wait_for(condition: Callable[[], bool]) -> None:
+    until = time.monotonic() + 30
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.02)
 
 
 def workers() -> set[str]:
-    """Processes that this one has started, zombies too; but for the one that multiprocessing keeps for itself."""
-    children = {pid for task in Path("/proc/self/task").iterdir() for pid in (task / "children").read_text().split()}
-    return {pid for pid in children if b"resource_tracker" not in Path(f"/proc/{pid}/cmdline").read_bytes()}
+    """Processes that come from this one, zombies too; but for the two that multiprocessing keeps for itself."""
+    found = {pid for child in children("self") for pid in children(child)}
+    return found | {pid for pid in children("self") if b"multiprocessing." not in command(pid)}
+
+
+def children(pid: str) -> set[str]:
+    return {child for task in Path(f"/proc/{pid}/task").iterdir() for child in (task / "children").read_text().split()}
+
+
+def command(pid: str) -> bytes:
+    return Path(f"/proc/{pid}/cmdline").read_bytes()

@@ -1,17 +1,23 @@
 """Every error class of the core has a status, a kind of its own, and something that raises it."""
 
+import asyncio
 import errno
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 import pytest
+from starlette.requests import Request
 from starlette.testclient import TestClient
 
+from app.api.operations import Setup
 from app.api.payloads import read_npy
 from app.api.problems import kind_of, status_of
+from app.api.remote import Remote
+from app.crew.crew import Crew
 from app.jobs.job import Failure
 from app.jobs.runner import Runner
 from app.jobs.shelf import Limits, Shelf
@@ -28,9 +34,11 @@ from app.trajectory.audit import audit
 from app.trajectory.audit_demands import Demands
 from app.trajectory.plan import refuse_failed
 from app.trajectory.polynomial import PiecewisePolynomial
+from tests.crew import calls
 from tests.robots import robot
 
 CATALOGUE = Path("robots")
+LONG = 60.0
 SHIP = """<robot name="ship"><link name="sea"/><link name="hull"/><link name="crane"/>
 <joint name="waves" type="floating"><parent link="sea"/><child link="hull"/></joint>
 <joint name="slew" type="continuous"><parent link="hull"/><child link="crane"/><axis xyz="0 0 1"/></joint>
@@ -106,6 +114,11 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.ServiceStopping: lambda: on_a_shelf(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
     errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "") for _ in range(3)]),
+    errors.ServiceBusy: lambda: by_a_crew(calls.double, 1, LONG, waiting=0),
+    errors.TooManyRequests: lambda: of_a_client(share=0),
+    errors.DeadlineExceeded: lambda: by_a_crew(calls.sleep, 60.0, 0.1),
+    errors.WorkerCrashed: lambda: by_a_crew(calls.leave, 3, LONG),
+    errors.WorkerOutOfMemory: lambda: by_a_crew(calls.take, 200, LONG),
     errors.AuditFailed: lambda: refuse_failed(audit(PLANAR, PLANAR.chain(None, None), JUMP, Demands())),
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }
@@ -120,6 +133,26 @@ def on_a_shelf(do: Callable[[Shelf], object]) -> None:
             do(shelf)
         finally:
             shelf.close()
+
+
+def by_a_crew(function: Callable[[Any], object], argument: object, seconds: float, waiting: int = 1) -> None:
+    """What a single process is asked for, within 100 MB."""
+
+    async def run() -> None:
+        crew = Crew(1, waiting, 100 * 1024**2)
+        try:
+            await crew.run(function, argument, seconds)
+        finally:
+            crew.close()
+
+    asyncio.run(run())
+
+
+def of_a_client(share: int) -> None:
+    request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
+    setup = Setup(CATALOGUE, CATALOGUE / "none", 1, 1.0)
+    remote = Remote(Crew(1, 1, 1), setup, setup.library(), 1.0, share)
+    asyncio.run(remote.resident(request, "panda"))
 
 
 def result_of(state: dict[str, object]) -> None:

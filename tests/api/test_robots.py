@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import zipfile
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from app.crew.crew import Crew
 from app.schemas.robots import EXAMPLE_DH, RobotInfo, RobotList
 from tests.api.conftest import ready_client
 
@@ -318,6 +320,12 @@ def test_an_edit_by_hand_is_seen(own: TestClient, tmp_path: Path) -> None:
 def test_a_disk_that_refuses_is_said_and_leaves_nothing(
     own: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, status: int
 ) -> None:
+    """The crew's part is done in this process, where the disk can be made to refuse."""
+
+    async def here(_: Crew, function: Callable[[Any], Any], argument: Any, __: float) -> Any:
+        return function(argument)
+
+    monkeypatch.setattr(Crew, "run", here)
     own.post("/v1/robots", json={"name": "arm", "urdf": URDF})
     before = sorted(tmp_path.rglob("*"))
 

@@ -40,7 +40,7 @@ class KeyCheck:
             return _unauthorised(
                 exchange, "the key is none of this service's, or none any more", f'{_REALM}, error="invalid_token"'
             )
-        exchange.key = key.name
+        exchange.key = exchange.scope["gelenk.key"] = key.name
         if operation.scope is not None and operation.scope not in key.scopes:
             return _forbidden(exchange, operation.scope, key.scopes)
         return None

@@ -1,0 +1,57 @@
+"""All operations on a robot, and what a process of the crew sets its desk up from."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.api.dynamics import dynamics_operation
+from app.api.errand import Desk
+from app.api.inverse import inverse_operation
+from app.api.kinematics import kinematics_operations
+from app.api.manipulability import manipulability_operation
+from app.api.routes import Operation
+from app.api.singularity import singularity_operation
+from app.api.statics import statics_operation
+from app.api.trajectory import trajectory_operation
+from app.api.velocity import velocity_operation
+from app.store.library import Library
+
+
+@dataclass(frozen=True, slots=True)
+class Setup:
+    """What answers depend on beside the request.
+
+    Attributes:
+        catalogue: Folder of the robots that come with the project.
+        uploads: Folder of all others.
+        max_answer_numbers: Most numbers in one answer.
+        seconds: How long a request may take; what has a time limit of its own is to end before.
+    """
+
+    catalogue: Path
+    uploads: Path
+    max_answer_numbers: int
+    seconds: float
+
+    def operations(self) -> list[Operation]:
+        """All operations on a robot."""
+        most = self.max_answer_numbers
+        return [
+            *kinematics_operations(most),
+            inverse_operation(most, self.seconds),
+            statics_operation(most),
+            dynamics_operation(most),
+            manipulability_operation(most),
+            velocity_operation(most),
+            singularity_operation(most),
+            trajectory_operation(most),
+        ]
+
+    def library(self) -> Library:
+        """All robots."""
+        return Library(self.catalogue, self.uploads)
+
+    def desk(self) -> Desk:
+        """What a process needs to answer with."""
+        computations: dict[str, Any] = {operation.name: operation.computation for operation in self.operations()}
+        return Desk(self.library(), computations)

@@ -1,0 +1,163 @@
+"""The way from a request to the crew and back: with a deadline, and for as long as somebody waits for the answer."""
+
+import asyncio
+from collections import Counter
+from collections.abc import Callable, Coroutine
+from typing import Any, TypeVar
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
+
+from app.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered, buffers
+from app.api.payloads import JSON, BoundedRequest
+from app.api.problems import UnsupportedMediaType
+from app.crew.crew import Crew
+from app.model.errors import InvalidField, TooManyRequests
+from app.store.library import Library
+from app.store.records import LoadedRobot
+
+INLINE_BYTES = 4096
+"""A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms."""
+
+_OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
+
+_Result = TypeVar("_Result")
+
+
+class Remote:
+    """Has requests answered by the crew.
+
+    Args:
+        crew: The processes.
+        shop: What they set their desks up from.
+        library: The robots of this process.
+        seconds: How long a request may wait for its turn, and how long it may then take.
+        share: Requests of one client that may wait or be worked on.
+    """
+
+    def __init__(self, crew: Crew, shop: Shop, library: Library, seconds: float, share: int) -> None:
+        self.crew, self._shop, self._library, self._seconds = crew, shop, library, seconds
+        self._share = share
+        self._requests: Counter[str] = Counter()
+
+    async def answer(self, request: Request, errand: Errand, inquiry: Inquiry) -> Response:
+        """The answer of an errand.
+
+        Raises:
+            ClientDisconnect: The caller has left; the errand is broken off.
+            KinematicsError: As `Crew.run`, and whatever the errand raises.
+        """
+        return Passed(await self._reply(request, errand, inquiry))
+
+    async def resident(self, request: Request, name: str) -> LoadedRobot:
+        """A robot in this process, for quick calls; a process of the crew has loaded it before, and lived.
+
+        Raises:
+            KinematicsError: As `answer`, and as `Library.get`.
+        """
+        found = self._library.loaded(name)
+        if found is not None:
+            return found
+        await self._reply(request, load, Inquiry(robot=name))
+        return await asyncio.to_thread(self._library.get, name)
+
+    async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
+        client = client_of(request)
+        if client is not None and self._requests[client] >= self._share:
+            raise TooManyRequests(self._share, self.crew.retry_after)
+        work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds)
+        if client is None:
+            return await while_wanted(request.receive, work)
+        self._requests[client] += 1
+        try:
+            return await while_wanted(request.receive, work)
+        finally:
+            self._requests[client] -= 1
+            if not self._requests[client]:
+                del self._requests[client]
+
+
+def client_of(request: Request) -> str | None:
+    """Whom a request is from: the key that it came with, else its address.
+
+    Requests from this very machine are not told apart: what stands before the service may pass on those of others.
+    """
+    key: str | None = request.scope.get("gelenk.key")
+    if key is not None:
+        return f"key {key}"
+    address = request.client.host if request.client else ""
+    return address if address and address not in _OWN_ADDRESSES else None
+
+
+def load(desk: Desk, inquiry: Inquiry) -> Response:
+    """Load a robot, to see that it can be."""
+    desk.library.get(inquiry.robot)
+    return Response()
+
+
+def json_handler(
+    errand: Errand,
+    remote: Remote,
+    offered: tuple[str, ...] = (JSON,),
+    quick: Callable[[bytes], Response | None] = lambda _: None,
+) -> Callable[[BoundedRequest], Coroutine[Any, Any, Response]]:
+    """What answers a JSON request: on the event loop where that is quick, else by an errand.
+
+    Args:
+        errand: What gives any answer.
+        remote: Who runs it.
+        offered: Media types of the answer, the default one first.
+        quick: Gives the default answer to a small body where that takes less than about a millisecond, else None.
+    """
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        wanted, pieces = request.preferred(offered), await request.pieces()
+        found = quick(b"".join(pieces)) if wanted == offered[0] and request.length <= INLINE_BYTES else None
+        return found or await remote.answer(request, errand, Inquiry(buffers(pieces), wanted=wanted))
+
+    return handle
+
+
+async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
+    """The result of some work, which is broken off when the caller leaves.
+
+    Raises:
+        ClientDisconnect: The caller has left.
+        Exception: Whatever the work raises.
+    """
+    doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
+    try:
+        await asyncio.wait({doing, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if doing.done():
+            return doing.result()
+        raise ClientDisconnect
+    finally:
+        doing.cancel()
+        leaving.cancel()
+
+
+async def _left(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+class Passed(Response):
+    """An answer from the crew, passed on piece by piece as fast as the caller takes it."""
+
+    def __init__(self, reply: Reply) -> None:
+        self.status_code, self.raw_headers, pieces = reply
+        self.body, self.background = b"", None
+        self._pieces = [memoryview(piece) for piece in pieces] or [memoryview(b"")]
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002
+        """Send it."""
+        await send({"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers})
+        pieces = self._pieces[::-1]
+        self._pieces.clear()
+        while pieces:
+            await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})

@@ -1,0 +1,320 @@
+"""A number of processes that calls are handed to from an event loop: bounded, each with a deadline, none lost.
+
+A call that crashes its process, outlasts its deadline, or whose caller leaves takes its own process with it and no
+other; a new one is there within milliseconds, because it is a copy of one that has everything loaded already.
+"""
+
+import asyncio
+import contextlib
+import logging
+import math
+import os
+import signal
+import socket
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from functools import partial
+from multiprocessing.process import BaseProcess
+from typing import Any, TypeAlias, TypeVar
+
+from app.crew import wire
+from app.crew.process import serve
+from app.jobs.processes import ended, started
+from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+
+_Argument = TypeVar("_Argument")
+_Result = TypeVar("_Result")
+
+_END_SECONDS = 0.5
+"""How long is waited for the reason of a process's end."""
+_PATIENCE = 0.05
+"""A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""
+_RETRY_SECONDS = 0.5
+_SMOOTHING = 0.1
+
+Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
+"""A function, its argument, and how many seconds it may take."""
+
+logger = logging.getLogger("gelenk")
+
+
+class Crew:
+    """The processes; belongs to one event loop.
+
+    Args:
+        count: How many.
+        waiting: Calls that may wait for one.
+        memory_bytes: What each may take beside what it has at its start.
+
+    Attributes:
+        busy: Processes at work.
+        restarts: Processes that were replaced after a crash, a deadline, a lack of memory or a caller who left.
+        refused: Calls for which there was no room.
+    """
+
+    def __init__(self, count: int, waiting: int, memory_bytes: int) -> None:
+        self.size, self.waiting, self._memory_bytes = count, waiting, memory_bytes
+        self.busy = self.restarts = self.refused = 0
+        self._idle: list[_Seat] = []
+        self._turns: deque[asyncio.Future[_Seat]] = deque()
+        self._seats: list[_Seat] = []
+        self._renewals: set[asyncio.Task[None]] = set()
+        self._seconds_a_call = 0.0
+        self._closed = False
+
+    @property
+    def queue_length(self) -> int:
+        """Calls that wait."""
+        return len(self._turns)
+
+    @property
+    def pids(self) -> list[int]:
+        """The processes there are."""
+        return [pid for seat in self._seats if (pid := seat.pid) is not None]
+
+    @property
+    def retry_after(self) -> int:
+        """Seconds until the queue will have been worked off, as far as can be told."""
+        return max(1, math.ceil(self._seconds_a_call * (len(self._turns) + 1) / self.size))
+
+    async def start(self) -> None:
+        """Start all processes, and return when they are there."""
+        self._fill()
+        await asyncio.gather(*self._renewals)
+
+    async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
+        """The function's result; cancelling this ends the call.
+
+        Args:
+            function: Of a module, with an argument and a result that can be sent to another process.
+            argument: What it is called with.
+            seconds: How long it may wait for its turn, and how long it may then take.
+
+        Raises:
+            ServiceBusy: Too many calls wait, or its turn does not come in time.
+            DeadlineExceeded: It takes longer.
+            WorkerCrashed: Its process has died.
+            WorkerOutOfMemory: It needs more memory than it may have.
+            ServiceStopping: There is no crew any more.
+            Exception: Whatever the function raises.
+        """
+        seat = await self._turn(seconds)
+        work = asyncio.get_running_loop().create_task(self._worked(seat, (function, argument, seconds)))
+        try:
+            return await asyncio.shield(work)
+        except asyncio.CancelledError:
+            asyncio.get_running_loop().call_later(_PATIENCE, work.cancel)
+            work.add_done_callback(lambda task: task.cancelled() or task.exception())
+            raise
+
+    def close(self) -> None:
+        """End all processes, in the middle of a call if need be; later calls are refused."""
+        self._closed = True
+        for renewal in self._renewals:
+            renewal.cancel()
+        for turn in self._turns:
+            if not turn.done():
+                turn.set_exception(ServiceStopping())
+        for seat in self._seats:
+            seat.close()
+
+    def _fill(self) -> None:
+        if not self._seats and not self._closed:
+            self._seats = [_Seat(self._memory_bytes) for _ in range(self.size)]
+            for seat in self._seats:
+                self._renew(seat)
+
+    async def _turn(self, seconds: float) -> "_Seat":
+        self._fill()
+        while self._idle and not self._closed:
+            seat = self._idle.pop()
+            if seat.is_alive():
+                return seat
+            self._renew(seat)
+        if self._closed:
+            raise ServiceStopping
+        if len(self._turns) >= self.waiting:
+            self.refused += 1
+            raise ServiceBusy(self.retry_after)
+        turn: asyncio.Future[_Seat] = asyncio.get_running_loop().create_future()
+        self._turns.append(turn)
+        try:
+            async with asyncio.timeout(seconds):
+                return await turn
+        except BaseException as error:
+            if turn in self._turns:
+                self._turns.remove(turn)
+            elif turn.done() and not turn.cancelled() and turn.exception() is None:
+                self._give_back(turn.result())
+            if not isinstance(error, TimeoutError):
+                raise
+            self.refused += 1
+            raise ServiceBusy(self.retry_after) from None
+
+    async def _worked(self, seat: "_Seat", call: Call) -> Any:
+        self.busy += 1
+        began = time.monotonic()
+        try:
+            return await seat.asked(call)
+        finally:
+            self.busy -= 1
+            self._seconds_a_call += _SMOOTHING * (time.monotonic() - began - self._seconds_a_call)
+            self._give_back(seat)
+
+    def _give_back(self, seat: "_Seat") -> None:
+        """Hand a process to whoever waits longest; replace it first where it is not fit any more."""
+        if self._closed:
+            seat.close()
+            return
+        if seat.is_broken:
+            self.restarts += 1
+            self._renew(seat)
+            return
+        while self._turns:
+            turn = self._turns.popleft()
+            if not turn.done():
+                turn.set_result(seat)
+                return
+        self._idle.append(seat)
+
+    def _renew(self, seat: "_Seat") -> None:
+        renewal = asyncio.get_running_loop().create_task(self._renewed(seat))
+        self._renewals.add(renewal)
+        renewal.add_done_callback(self._renewals.discard)
+
+    async def _renewed(self, seat: "_Seat") -> None:
+        while not self._closed:
+            try:
+                await _beside(seat.start)
+            except ChildProcessError as error:
+                logger.error("%s; once more in %g s", error, _RETRY_SECONDS)
+                await asyncio.sleep(_RETRY_SECONDS)
+                continue
+            self._give_back(seat)
+            return
+
+
+class _Seat:
+    """A process and the way to it."""
+
+    def __init__(self, memory_bytes: int) -> None:
+        self._memory_bytes = memory_bytes
+        self._process: BaseProcess | None = None
+        self._stream: socket.socket | None = None
+        self._is_asked = self._is_closed = False
+        self.is_broken = True
+
+    @property
+    def pid(self) -> int | None:
+        process = self._process
+        return None if process is None else process.pid
+
+    def start(self) -> None:
+        """A new process in the place of the old one; blocks for some milliseconds, the first time for seconds.
+
+        Raises:
+            ChildProcessError: None could be started.
+        """
+        self._end_process()
+        self._close_stream()
+        self._process, connection = started(partial(serve, self._memory_bytes), "crew")
+        self._stream = socket.socket(fileno=os.dup(connection.fileno()))
+        self._stream.setblocking(False)
+        connection.close()
+        self.is_broken = False
+        if self._is_closed:
+            self.close()
+
+    def close(self) -> None:
+        """End the process for good; a call in flight sees it end, and closes the way to it afterwards."""
+        self._is_closed = True
+        self._end_process()
+        if not self._is_asked:
+            self._close_stream()
+
+    def is_alive(self) -> bool:
+        """Whether an idle process is still there: nothing comes from it, and no end either."""
+        if self._stream is None:
+            return False
+        try:
+            self._stream.recv(1, socket.MSG_PEEK)
+        except BlockingIOError:
+            return True
+        except OSError:
+            pass
+        return False
+
+    async def asked(self, call: Call) -> Any:
+        """What comes of a call.
+
+        Raises:
+            Exception: As `Crew.run`.
+        """
+        stream, seconds = self._stream, call[2]
+        if stream is None:
+            raise ServiceStopping
+        self._is_asked = self.is_broken = True
+        try:
+            async with asyncio.timeout(seconds):
+                await wire.send_soon(stream, call)
+                (kind, value), goes_on = await wire.receive_soon(stream)
+        except TimeoutError:
+            raise DeadlineExceeded(seconds) from None
+        except (EOFError, OSError):
+            raise await self._reason(seconds) from None
+        finally:
+            self._is_asked = False
+        self.is_broken = not goes_on
+        if kind == "result":
+            return value
+        raise value if kind == "error" else WorkerOutOfMemory(self._memory_bytes)
+
+    async def _reason(self, seconds: float) -> Exception:
+        """Why the process is gone, as far as it can be told."""
+        process = self._process
+        if self._is_closed or process is None:
+            return ServiceStopping()
+        await _beside(partial(process.join, _END_SECONDS))
+        code = process.exitcode
+        if code == -signal.SIGXCPU:
+            return DeadlineExceeded(seconds)
+        if code is not None and code < 0:
+            return WorkerCrashed(signal.Signals(-code).name)
+        return WorkerCrashed(f"exit code {code}")
+
+    def _end_process(self) -> None:
+        process, self._process = self._process, None
+        ended(process, None)
+
+    def _close_stream(self) -> None:
+        stream, self._stream = self._stream, None
+        if stream is not None:
+            stream.close()
+
+
+async def _beside(work: Callable[[], None]) -> None:
+    """Do something in a thread of its own; the end of the service does not wait for it.
+
+    Raises:
+        Exception: Whatever it raises.
+    """
+    loop = asyncio.get_running_loop()
+    done: asyncio.Future[None] = loop.create_future()
+
+    def tell(error: Exception | None) -> None:
+        if not done.done():
+            done.set_result(None) if error is None else done.set_exception(error)
+
+    def run() -> None:
+        error = None
+        try:
+            work()
+        except Exception as raised:
+            error = raised
+        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody waits any more
+            loop.call_soon_threadsafe(tell, error)
+
+    threading.Thread(target=run, name="crew", daemon=True).start()
+    await done

@@ -1,0 +1,73 @@
+"""Calls that do what real ones do not."""
+
+import os
+import signal
+import time
+from pathlib import Path
+from pickle import PickleBuffer
+
+import numpy as np
+
+from app.crew.wire import pieces_of
+
+
+def double(value: int) -> int:
+    return 2 * value
+
+
+def own_pid(_: object) -> int:
+    return os.getpid()
+
+
+def sleep(seconds: float) -> float:
+    time.sleep(seconds)
+    return seconds
+
+
+def mark_after(call: tuple[float, str]) -> None:
+    time.sleep(call[0])
+    Path(call[1]).touch()
+
+
+def die(how: signal.Signals) -> None:
+    os.kill(os.getpid(), how)
+    time.sleep(60)
+
+
+def leave(code: int) -> None:
+    os._exit(code)
+
+
+def fail(text: str) -> None:
+    raise ValueError(text)
+
+
+class Unsendable(Exception):
+    def __init__(self, one: int, two: int) -> None:
+        super().__init__(f"{one} and {two}")
+
+
+def fail_unsendably(_: object) -> None:
+    raise Unsendable(1, 2)
+
+
+def take(megabytes: int) -> int:
+    return int(np.ones(megabytes * 125_000).sum())
+
+
+def keep(megabytes: int) -> int:
+    KEPT.append(np.ones(megabytes * 125_000))
+    return os.getpid()
+
+
+KEPT: list[object] = []
+
+
+def reversed_bytes(pieces: list[PickleBuffer]) -> list[PickleBuffer]:
+    return pieces_of(b"".join(pieces)[::-1])
+
+
+def loaded_modules(_: object) -> set[str]:
+    import sys
+
+    return {"app.main", "numba", "pinocchio", "sympy", "matplotlib"} & set(sys.modules)

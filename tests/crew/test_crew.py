@@ -1,0 +1,290 @@
+"""The crew: calls that crash, hang, take too much or lose their caller fail alone, and the crew is whole again."""
+
+import asyncio
+import os
+import signal
+import time
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from pickle import PickleBuffer
+
+import pytest
+
+from app.crew.crew import Crew
+from app.crew.wire import PIECE
+from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from tests.crew import calls
+from tests.jobs.parts import gone
+
+LONG = 60.0
+MEMORY = 300 * 1024**2
+
+
+def with_crew(test: Callable[[Crew], Awaitable[None]], count: int = 2, waiting: int = 10, memory: int = MEMORY) -> None:
+    async def run() -> None:
+        crew = Crew(count, waiting, memory)
+        try:
+            await crew.start()
+            await test(crew)
+        finally:
+            pids = crew.pids
+            crew.close()
+        assert all(gone(pid) for pid in pids)
+
+    asyncio.run(run())
+
+
+async def at_work(crew: Crew, count: int) -> None:
+    async with asyncio.timeout(LONG):
+        while crew.busy < count:
+            await asyncio.sleep(0.005)
+
+
+async def seconds_to_whole(crew: Crew) -> float:
+    """How long it takes until every seat answers again, all of them at the same time."""
+    began = time.monotonic()
+    pids = await asyncio.gather(*(crew.run(calls.sleep, 0.05, LONG) for _ in range(crew.size)))
+    assert len(pids) == crew.size
+    return time.monotonic() - began
+
+
+def test_processes_have_everything_loaded_and_stay() -> None:
+    async def test(crew: Crew) -> None:
+        assert len(crew.pids) == 2
+        found = await crew.run(calls.loaded_modules, None, LONG)
+        assert found == {"app.main", "numba", "pinocchio", "sympy", "matplotlib"}
+        pids = {await crew.run(calls.own_pid, None, LONG) for _ in range(5)}
+        assert pids <= set(crew.pids)
+        assert os.getpid() not in pids
+        assert crew.restarts == 0
+
+    with_crew(test)
+
+
+@pytest.mark.parametrize("size", [0, 1, PIECE - 1, PIECE, 3 * PIECE + 5, 20_000_000])
+def test_large_bytes_come_through(size: int) -> None:
+    content = os.urandom(size)
+
+    async def test(crew: Crew) -> None:
+        pieces = [PickleBuffer(content[: size // 3]), PickleBuffer(content[size // 3 :])]
+        back = await crew.run(calls.reversed_bytes, pieces, LONG)
+        assert b"".join(back) == content[::-1]
+        assert all(len(memoryview(piece)) <= PIECE for piece in back)
+
+    with_crew(test, 1)
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
+def test_a_crash_fails_its_own_call_alone(how: signal.Signals) -> None:
+    async def test(crew: Crew) -> None:
+        other = asyncio.create_task(crew.run(calls.sleep, 1.0, LONG))
+        await at_work(crew, 1)
+        with pytest.raises(WorkerCrashed, match=how.name):
+            await crew.run(calls.die, how, LONG)
+        assert await crew.run(calls.double, 4, LONG) == 8
+        assert await other == 1.0
+        assert crew.restarts == 1
+
+    with_crew(test)
+
+
+def test_an_exit_is_a_crash() -> None:
+    async def test(crew: Crew) -> None:
+        with pytest.raises(WorkerCrashed, match="exit code 3"):
+            await crew.run(calls.leave, 3, LONG)
+
+    with_crew(test, 1)
+
+
+def test_capacity_is_whole_within_a_second_whatever_happened() -> None:
+    """The best of three of each: the machine that this runs on has other work too."""
+
+    async def crash(crew: Crew) -> None:
+        found = await asyncio.gather(
+            *(crew.run(calls.die, signal.SIGKILL, LONG) for _ in range(crew.size)), return_exceptions=True
+        )
+        assert all(isinstance(error, WorkerCrashed) for error in found)
+
+    async def hang(crew: Crew) -> None:
+        found = await asyncio.gather(
+            *(crew.run(calls.sleep, 60.0, 0.2) for _ in range(crew.size)), return_exceptions=True
+        )
+        assert all(isinstance(error, DeadlineExceeded) for error in found)
+
+    async def exhaust(crew: Crew) -> None:
+        found = await asyncio.gather(
+            *(crew.run(calls.take, 400, LONG) for _ in range(crew.size)), return_exceptions=True
+        )
+        assert all(isinstance(error, WorkerOutOfMemory) for error in found)
+
+    async def test(crew: Crew) -> None:
+        for fault in (crash, hang, exhaust):
+            seconds = []
+            for _ in range(3):
+                before = set(crew.pids)
+                await fault(crew)
+                seconds.append(await seconds_to_whole(crew))
+                assert not before & set(crew.pids)
+            assert min(seconds) < 1.0, (fault.__name__, seconds)
+
+    with_crew(test)
+
+
+def test_a_hang_is_ended_at_its_deadline() -> None:
+    async def test(crew: Crew) -> None:
+        (pid,) = crew.pids
+        began = time.monotonic()
+        with pytest.raises(DeadlineExceeded):
+            await crew.run(calls.sleep, 60.0, 0.3)
+        assert 0.3 <= time.monotonic() - began < 5.0
+        assert await crew.run(calls.double, 1, LONG) == 2
+        assert gone(pid)
+
+    with_crew(test, 1)
+
+
+def test_a_stopped_process_is_ended_too() -> None:
+    async def test(crew: Crew) -> None:
+        (pid,) = crew.pids
+        os.kill(pid, signal.SIGSTOP)
+        with pytest.raises(DeadlineExceeded):
+            await crew.run(calls.double, 1, 0.3)
+        assert await crew.run(calls.double, 1, LONG) == 2
+
+    with_crew(test, 1)
+
+
+def test_memory_is_bounded_and_what_fits_is_computed() -> None:
+    async def test(crew: Crew) -> None:
+        assert await crew.run(calls.take, 100, LONG) == 100 * 125_000
+        with pytest.raises(WorkerOutOfMemory):
+            await crew.run(calls.take, 400, LONG)
+        assert await crew.run(calls.take, 100, LONG) == 100 * 125_000
+
+    with_crew(test, 1)
+
+
+def test_a_process_that_has_grown_makes_room_for_a_fresh_one() -> None:
+    async def test(crew: Crew) -> None:
+        first = await crew.run(calls.keep, 100, LONG)
+        assert await crew.run(calls.keep, 100, LONG) == first
+        assert await crew.run(calls.keep, 1, LONG) != first
+
+    with_crew(test, 1)
+
+
+def test_a_process_killed_between_calls_costs_no_call() -> None:
+    async def test(crew: Crew) -> None:
+        for pid in crew.pids:
+            os.kill(pid, signal.SIGKILL)
+        while not all(gone(pid) for pid in crew.pids):
+            await asyncio.sleep(0.005)
+        assert await crew.run(calls.double, 1, LONG) == 2
+
+    with_crew(test)
+
+
+def test_who_leaves_takes_the_work_along(tmp_path: Path) -> None:
+    mark = tmp_path / "done"
+
+    async def test(crew: Crew) -> None:
+        (pid,) = crew.pids
+        call = asyncio.create_task(crew.run(calls.mark_after, (1.0, str(mark)), LONG))
+        await at_work(crew, 1)
+        call.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await call
+        assert await crew.run(calls.own_pid, None, LONG) != pid
+        await asyncio.sleep(1.2)
+        assert not mark.exists()
+
+    with_crew(test, 1)
+
+
+def test_who_leaves_the_queue_costs_nothing() -> None:
+    async def test(crew: Crew) -> None:
+        first = asyncio.create_task(crew.run(calls.sleep, 0.5, LONG))
+        await at_work(crew, 1)
+        second = asyncio.create_task(crew.run(calls.sleep, 60.0, LONG))
+        third = asyncio.create_task(crew.run(calls.double, 3, LONG))
+        await asyncio.sleep(0.05)
+        assert crew.queue_length == 2
+        second.cancel()
+        assert await third == 6
+        assert await first == 0.5
+        assert (crew.queue_length, crew.restarts) == (0, 0)
+
+    with_crew(test, 1)
+
+
+def test_a_full_queue_refuses_at_once_and_says_when() -> None:
+    async def test(crew: Crew) -> None:
+        running = [asyncio.create_task(crew.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        await at_work(crew, 1)
+        began = time.monotonic()
+        with pytest.raises(ServiceBusy) as refused:
+            await crew.run(calls.double, 1, LONG)
+        assert time.monotonic() - began < 0.2
+        assert refused.value.retry_after >= 1
+        assert crew.refused == 1
+        assert await asyncio.gather(*running) == [0.5] * 3
+
+    with_crew(test, 1, waiting=2)
+
+
+def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
+    async def test(crew: Crew) -> None:
+        running = asyncio.create_task(crew.run(calls.sleep, 0.5, LONG))
+        await at_work(crew, 1)
+        with pytest.raises(ServiceBusy):
+            await crew.run(calls.double, 1, 0.1)
+        assert await running == 0.5
+        assert (crew.queue_length, crew.restarts) == (0, 0)
+
+    with_crew(test, 1)
+
+
+def test_calls_get_their_turn_in_order() -> None:
+    async def test(crew: Crew) -> None:
+        order: list[int] = []
+
+        async def one(number: int) -> None:
+            await crew.run(calls.double, number, LONG)
+            order.append(number)
+
+        await asyncio.gather(*(one(number) for number in range(8)))
+        assert order == list(range(8))
+
+    with_crew(test, 1)
+
+
+def test_an_error_comes_back_with_its_trace() -> None:
+    async def test(crew: Crew) -> None:
+        with pytest.raises(ValueError, match="no such thing") as raised:
+            await crew.run(calls.fail, "no such thing", LONG)
+        assert "in fail" in raised.value.__notes__[0]
+        with pytest.raises(RuntimeError, match="Unsendable: 1 and 2"):
+            await crew.run(calls.fail_unsendably, None, LONG)
+        assert crew.restarts == 0
+
+    with_crew(test, 1)
+
+
+def test_the_end_breaks_off_what_runs_and_what_waits() -> None:
+    async def test(crew: Crew) -> None:
+        (pid,) = crew.pids
+        running = asyncio.create_task(crew.run(calls.sleep, 60.0, LONG))
+        await at_work(crew, 1)
+        waiting = asyncio.create_task(crew.run(calls.double, 1, LONG))
+        await asyncio.sleep(0.05)
+        began = time.monotonic()
+        crew.close()
+        for task in (running, waiting):
+            with pytest.raises(ServiceStopping):
+                await task
+        assert time.monotonic() - began < 2.0
+        assert gone(pid)
+        with pytest.raises(ServiceStopping):
+            await crew.run(calls.double, 1, LONG)
+
+    with_crew(test, 1)
