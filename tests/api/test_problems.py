@@ -141,6 +141,8 @@ def by_a_crew(function: Callable[[Any], object], argument: object, seconds: floa
     async def run() -> None:
         crew = Crew(1, waiting, 100 * 1024**2)
         try:
+            if waiting:
+                await crew.start()
             await crew.run(function, argument, seconds)
         finally:
             crew.close()

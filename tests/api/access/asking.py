@@ -19,6 +19,8 @@ from app.settings import Settings
 
 _FOLDER = tempfile.TemporaryDirectory()
 atexit.register(_FOLDER.cleanup)
+_LOOP = asyncio.new_event_loop()
+"""One for all: the processes of an application belong to its loop."""
 HOST = (b"host", b"127.0.0.1:8000")
 
 
@@ -62,8 +64,8 @@ def ask(
     headers: Sequence[tuple[bytes, bytes]] = (HOST,),
     body: bytes = b"",
 ) -> Answer:
-    """One request, with exactly these headers."""
-    return asyncio.run(_asked(app, path, method, headers, body))
+    """One request, with exactly these headers; its caller stays for the answer."""
+    return _LOOP.run_until_complete(_asked(app, path, method, headers, body))
 
 
 async def _asked(app: FastAPI, path: str, method: str, headers: Sequence[tuple[bytes, bytes]], body: bytes) -> Answer:
@@ -81,11 +83,13 @@ async def _asked(app: FastAPI, path: str, method: str, headers: Sequence[tuple[b
         "client": ("192.0.2.7", 4711),
         "server": ("192.0.2.1", 8000),
     }
-    requests: list[Message] = [{"type": "http.request", "body": body}, {"type": "http.disconnect"}]
+    requests: list[Message] = [{"type": "http.request", "body": body}]
     sent = Sent()
 
     async def receive() -> Message:
-        return requests.pop(0) if len(requests) > 1 else requests[0]
+        if not requests:
+            await asyncio.Event().wait()
+        return requests.pop()
 
     async def send(message: Message) -> None:
         sent.append(message)

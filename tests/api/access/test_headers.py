@@ -66,7 +66,7 @@ def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.Mo
     def fail(*_: object) -> None:
         raise RuntimeError("boom")
 
-    monkeypatch.setattr("app.store.library.Library.records", fail)
+    monkeypatch.setattr("app.api.remote.Remote.answer", fail)
     with TestClient(application(data_dir=tmp_path), raise_server_exceptions=False) as client:
         answer = client.get("/v1/robots")
     assert answer.status_code == 500
