@@ -68,10 +68,15 @@ def test_matrix_measures_and_picture_are_the_services(studio: Studio) -> None:
         axes = body(studio, name)
         drawn = axes @ axes.T
         assert np.abs(drawn / np.trace(drawn) - shape / np.trace(shape)).max() < 1e-6, name
-    # Live: another configuration by a slider.
+    # Live: another configuration by a slider, at the scale of the picture before where that is held.
+    studio.button("Hold scale").click()
+    before = body(studio, "velocity ellipsoid")
     studio.field("panda_joint4").fill("-1.2")
     moved = [*SOMEWHERE[:3], float(studio.field("panda_joint4").input_value()), *SOMEWHERE[4:]]
-    wait_for_matrix(studio, np.array(answer(studio, "jacobian", "panda", joint_positions=[moved])["jacobians"][0]))
+    J_moved = np.array(answer(studio, "jacobian", "panda", joint_positions=[moved])["jacobians"][0])
+    wait_for_matrix(studio, J_moved)
+    longest = [np.linalg.norm(axes, axis=0).max() for axes in (before, body(studio, "velocity ellipsoid"))]
+    assert longest[1] / longest[0] == pytest.approx(np.linalg.svd(J_moved[:3])[1][0] / sigmas[0], rel=1e-6)
 
 
 def test_a_column_belongs_to_its_joint(studio: Studio) -> None:

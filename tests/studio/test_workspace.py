@@ -95,7 +95,7 @@ def test_the_cloud_of_the_panda(studio: Studio) -> None:
     distances = np.linalg.norm(positions, axis=1)
     assert facts(studio)["Reach"] == f"{distances.min():.3f} to {distances.max():.3f} m"
     assert facts(studio)["z"] == f"{positions[:, 2].min():.3f} to {positions[:, 2].max():.3f} m"
-    ticks = studio.page.locator(".legend-ticks span").all_text_contents()
+    ticks = studio.page.locator(".scale-ticks span").all_text_contents()
     assert float(ticks[-1]) == pytest.approx(table[:, 3].max(), rel=5e-3)
     # A plane across x, moved: what lies behind it stays.
     studio.button("x").click()
@@ -147,7 +147,7 @@ def test_the_colours_are_even(studio: Studio) -> None:
     """Along the scale each step is as large as any other in OKLab, and lighter."""
     studio.open("workspace", robot="planar_2r")
     pixels = studio.run(
-        "(() => { const scale = document.querySelector('.legend-scale');"
+        "(() => { const scale = document.querySelector('.scale-colours');"
         "return [...scale.getContext('2d').getImageData(0, 0, scale.width, 1).data]; })()"
     )
     srgb = np.array(pixels).reshape(-1, 4)[::15, :3] / 255
@@ -188,7 +188,7 @@ def test_the_grid_of_a_typed_arm(studio: Studio, refusals: set[int]) -> None:
     # Its determinant is a₂ a₃ sin q₃ (a₂ cos q₂ + a₃ cos(q₂ + q₃)): no configuration is better than its maximum.
     q2, q3 = np.meshgrid(np.linspace(-np.pi, np.pi, 721), np.linspace(-np.pi, np.pi, 721))
     most = np.abs(0.5 * 0.4 * np.sin(q3) * (0.5 * np.cos(q2) + 0.4 * np.cos(q2 + q3))).max()
-    best = float(studio.page.locator(".legend-ticks span").last.text_content() or "nan")
+    best = float(studio.page.locator(".scale-ticks span").last.text_content() or "nan")
     assert 0.98 * most < best < 1.005 * most
 
 

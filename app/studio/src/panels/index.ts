@@ -1,8 +1,8 @@
 /** The panels, in the order of their tabs. */
 
+import { inversePanel } from "./ik/index.ts";
 import { jacobianPanel } from "./jacobian/index.ts";
 import type { Panel } from "./panel.ts";
-import { inversePanel } from "./ik/index.ts";
 import { posePanel } from "./pose/index.ts";
 import { robotPanel } from "./robot/index.ts";
 import { trajectoryPanel } from "./trajectory/index.ts";

@@ -12,6 +12,7 @@ import {
   type Object3D,
   PerspectiveCamera,
   Scene,
+  Sphere,
   type Texture,
   Vector3,
   WebGLRenderer,
@@ -35,7 +36,7 @@ export class View {
   #renderer: WebGLRenderer;
   #labels = new CSS2DRenderer();
   #model: RobotModel | null = null;
-  #around: Box3 | null = null;
+  #around: Sphere | null = null;
   #grid = new Group();
   #floor = { level: 0, cell: 0.1 };
   #asked = false;
@@ -84,8 +85,8 @@ export class View {
   }
 
   /** What is to be seen besides the robot, in the world; null for nothing. */
-  surround(box: Box3 | null): void {
-    this.#around = box;
+  surround(sphere: Sphere | null): void {
+    this.#around = sphere;
     this.settle();
   }
 
@@ -93,22 +94,21 @@ export class View {
   fit(): void {
     if (!this.#model) return;
     this.#isMoved = false;
-    const robot = extent(this.#model);
-    const box = robot.clone();
-    const size = Math.max(robot.getSize(new Vector3()).length(), 0.05);
+    const box = extent(this.#model);
+    const size = Math.max(box.getSize(new Vector3()).length(), 0.05);
     // Meshes that arrive change the size a little; marks stay as they are until it has changed much.
     if (Math.abs(size * 0.09 - this.unit) > 0.15 * this.unit) this.unit = size * 0.09;
-    if (this.#around) box.union(this.#around);
-    const seen = Math.max(box.getSize(new Vector3()).length(), size);
-    const centre = box.getCenter(new Vector3());
-    const distance = (seen * 0.62) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    const seen = new Sphere(box.getCenter(new Vector3()), size / 2);
+    if (this.#around) seen.union(this.#around);
+    const { center: centre, radius } = seen;
+    const distance = (radius * 1.24) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.near = size / 200;
     this.camera.far = size * 60;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(DIRECTION, distance);
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.#lay(robot, size);
+    this.#lay(box, size);
   }
 
   /** Take the colours of the page's theme. */

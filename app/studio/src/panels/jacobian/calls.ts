@@ -1,12 +1,14 @@
 /** What the service says of one configuration: the matrix, the ellipsoids, and what is singular. */
 
-import { type Api, Problem } from "../../api.ts";
+import { type Api, Latest, Problem } from "../../api.ts";
 import type { ShownChain } from "../../robot/chain.ts";
 import type { JacobianAnswer, ManipulabilityAnswer, SingularityAnswer, SingularityReport } from "../../types.ts";
 import { FORMS, type Form, type PartChoice } from "./choices.ts";
 
 /** What makes metres of radians where both count, [m]. */
-export const LENGTH = 1;
+const LENGTH = 1;
+/** The nearest singularity takes longer to find than a slider's next step: it is looked for after a rest, [ms]. */
+const REST = 250;
 
 /** Where each call goes through, so that it is shown as a request. */
 export interface Apis {
@@ -29,13 +31,7 @@ export interface Answers {
   report: SingularityReport;
 }
 
-export async function ask(
-  apis: Apis,
-  chain: ShownChain,
-  form: Form,
-  part: PartChoice,
-  signal: AbortSignal,
-): Promise<Answers> {
+async function ask(apis: Apis, chain: ShownChain, form: Form, part: PartChoice, signal: AbortSignal): Promise<Answers> {
   const call = { joint_positions: [chain.configuration], ...chain.ends };
   const jacobian = (api: Api, { reference, representation }: Form) =>
     api.post<JacobianAnswer>(`${chain.path}/jacobian`, { ...call, reference, representation }, signal);
@@ -56,7 +52,7 @@ export async function ask(
 }
 
 /** The report again, with the nearest singularity. */
-export async function askNearest(
+async function askNearest(
   api: Api,
   chain: ShownChain,
   part: PartChoice,
@@ -70,6 +66,48 @@ export async function askNearest(
     nearest: true,
   };
   return (await api.post<SingularityAnswer>(`${chain.path}/singularities`, call, signal)).singularities[0]!;
+}
+
+/** What the one who asks is told. */
+export interface Listener {
+  answered(answers: Answers): void;
+  /** The report with the nearest singularity; null while that is being looked for. */
+  nearest(report: SingularityReport | null, chain: ShownChain): void;
+  failed(error: unknown): void;
+}
+
+/** Asks about one configuration after the other: what is overtaken by the next one is dropped. */
+export class Inquiry {
+  #answers = new Latest();
+  #nearest = new Latest();
+  #rest = 0;
+
+  constructor(
+    private readonly apis: Apis,
+    private readonly listener: Listener,
+  ) {}
+
+  about(chain: ShownChain, form: Form, part: PartChoice): void {
+    this.stop();
+    const { apis, listener } = this;
+    this.#answers
+      .run((signal) => ask(apis, chain, form, part, signal))
+      .then((answers) => answers && listener.answered(answers))
+      .catch((error: unknown) => listener.failed(error));
+    listener.nearest(null, chain);
+    this.#rest = window.setTimeout(() => {
+      this.#nearest
+        .run((signal) => askNearest(apis.singularity, chain, part, signal))
+        .then((report) => report && listener.nearest(report, chain))
+        .catch((error: unknown) => listener.failed(error));
+    }, REST);
+  }
+
+  stop(): void {
+    clearTimeout(this.#rest);
+    this.#answers.cancel();
+    this.#nearest.cancel();
+  }
 }
 
 function asAnswer(error: unknown): Problem {

@@ -2,10 +2,11 @@
 
 import "../../styles/jacobian.css";
 
-import { Latest, Problem } from "../../api.ts";
+import { type Api, Problem } from "../../api.ts";
 import { type ShownChain, shownChain } from "../../robot/chain.ts";
 import { asProblem } from "../../robot/load.ts";
 import { choosing } from "../../state.ts";
+import type { Part, SingularityReport } from "../../types.ts";
 import { Choice, section, titled } from "../../ui/dom.ts";
 import { ProblemView } from "../../ui/problem.ts";
 import { RequestView } from "../../ui/request.ts";
@@ -14,8 +15,8 @@ import type { Panel, Studio } from "../panel.ts";
 import { presets } from "../pose/index.ts";
 import { JointList } from "../pose/joints.ts";
 import { AxesView } from "./axes.ts";
-import { type Answers, ask, askNearest } from "./calls.ts";
-import { FORMS, formOf, PARTS, partOf } from "./choices.ts";
+import { type Answers, type Apis, Inquiry, type Listener } from "./calls.ts";
+import { type Form, FORMS, formOf, type PartChoice, PARTS, partOf } from "./choices.ts";
 import { MatrixView } from "./matrix.ts";
 import { EllipsoidControls } from "./drawing.ts";
 import { SingularityView } from "./singularity.ts";
@@ -26,89 +27,90 @@ export const jacobianPanel: Panel = {
   open: (host, studio) => whileKept(host, studio, () => open(host, studio)),
 };
 
-/** The nearest singularity takes longer to find than a slider's next step: it is looked for after a rest, [ms]. */
-const REST = 250;
-
 function open(host: HTMLElement, studio: Studio): () => void {
-  const { store, api } = studio;
-  const requests = {
-    matrix: new RequestView(api, "the matrix"),
-    axes: new RequestView(api, "the ellipsoids"),
-    singularity: new RequestView(api, "the singularity"),
-  };
-  const problems = { matrix: new ProblemView(), all: new ProblemView() };
-  const joints = new JointList(store);
-  joints.host.classList.add("compact");
-  const matrix = new MatrixView(store, (joint) => visit(joints.host, joint));
-  const axes = new AxesView();
-  const drawing = new EllipsoidControls(studio);
-  const singularity = new SingularityView((configuration) => move(studio, configuration));
-  const choose = (option: string, usual: string) => (value: string) =>
-    store.set(choosing(store.value, option, value === usual ? null : value));
-  const forms = new Choice("Axes and rates of the matrix", FORMS, choose("jacobian.form", FORMS[0]!.value));
-  const parts = new Choice("What counts", PARTS, choose("jacobian.part", PARTS[0]!.value));
-  host.append(
-    titled("Joints", presets(studio), joints.host),
-    titled("Jacobian", [forms.host], problems.matrix.host, matrix.host),
-    titled("Ellipsoids at the tip", [parts.host], drawing.host, axes.host, drawing.words),
-    section("Singularity", singularity.host, problems.all.host),
-    ...Object.values(requests).map((request) => request.host),
-  );
-
-  const show = (answers: Answers) => {
-    problems.all.show(null);
-    problems.matrix.show(answers.matrix instanceof Problem ? answers.matrix : null);
-    if (answers.matrix instanceof Problem) matrix.clear();
-    else matrix.show(answers.matrix, answers.form);
-    axes.show(answers.axes, answers.part.value);
-    singularity.show(answers.report, answers.axes.results[0]![answers.part.value]);
-    drawing.show(answers);
-  };
-  const fail = (error: unknown) => problems.all.show(asProblem(error));
-
-  const apis = {
-    matrix: requests.matrix.api,
-    axes: requests.axes.api,
-    singularity: requests.singularity.api,
-    other: api,
-  };
-  const [latest, seeking] = [new Latest(), new Latest()];
-  let timer = 0;
-  const refresh = () => {
-    const [form, counted] = [formOf(store.value), partOf(store.value)];
-    forms.show(form.value);
-    parts.show(counted.value);
-    joints.update();
-    const chain = shownChain(store.value);
-    clearTimeout(timer);
-    seeking.cancel();
-    if (!chain?.path) return;
-    latest
-      .run((signal) => ask(apis, chain, form, counted, signal))
-      .then((answers) => answers && show(answers))
-      .catch(fail);
-    singularity.nearest(null);
-    timer = window.setTimeout(() => {
-      seeking
-        .run((signal) => askNearest(apis.singularity, chain, counted, signal))
-        .then((report) => report && singularity.nearest(report, chain.joints))
-        .catch(fail);
-    }, REST);
-  };
+  const { store } = studio;
+  const views = new Views(studio);
+  const inquiry = new Inquiry(views.apis, views);
+  host.append(...views.hosts);
   const stops = [
-    store.watch(["model", "base", "tip", "degrees"], () => joints.build()),
-    store.watch(["model", "base", "tip", "positions", "options"], refresh),
-    store.watch(["joint"], () => matrix.mark()),
-    store.watch(["joint", "dark", "unit", "options"], () => drawing.draw()),
-    () => latest.cancel(),
-    () => seeking.cancel(),
-    () => clearTimeout(timer),
-    () => drawing.close(),
+    store.watch(["model", "base", "tip", "degrees"], () => views.joints.build()),
+    store.watch(["model", "base", "tip", "positions", "options"], (state) => {
+      const [form, part] = [formOf(state), partOf(state)];
+      views.choose(form, part);
+      const chain = shownChain(state);
+      if (chain?.path) inquiry.about(chain, form, part);
+    }),
+    store.watch(["joint"], () => views.matrix.mark()),
+    store.watch(["joint", "dark", "unit", "options"], () => views.drawing.draw()),
+    () => inquiry.stop(),
+    () => views.drawing.close(),
     () => store.set({ joint: null }),
   ];
   return () => {
     for (const stop of stops) stop();
   };
+}
+
+/** What the panel consists of. */
+class Views implements Listener {
+  readonly hosts: readonly HTMLElement[];
+  readonly apis: Apis;
+  readonly joints: JointList;
+  readonly matrix: MatrixView;
+  readonly drawing: EllipsoidControls;
+  #axes = new AxesView();
+  #singularity: SingularityView;
+  #forms: Choice<string>;
+  #parts: Choice<Part>;
+  #problems = { matrix: new ProblemView(), all: new ProblemView() };
+
+  constructor(studio: Studio) {
+    const { store, api } = studio;
+    const set = (option: string, usual: string) => (value: string) =>
+      store.set(choosing(store.value, option, value === usual ? null : value));
+    const requests = ["the matrix", "the ellipsoids", "the singularity"].map((what) => new RequestView(api, what));
+    const [matrix, axes, singularity] = requests.map((request) => request.api) as [Api, Api, Api];
+    this.apis = { matrix, axes, singularity, other: api };
+    this.joints = new JointList(store);
+    this.joints.host.classList.add("compact");
+    this.matrix = new MatrixView(store, (joint) => visit(this.joints.host, joint));
+    this.drawing = new EllipsoidControls(studio);
+    this.#singularity = new SingularityView((configuration) => move(studio, configuration));
+    this.#forms = new Choice("Axes and rates of the matrix", FORMS, set("jacobian.form", FORMS[0]!.value));
+    this.#parts = new Choice("What counts", PARTS, set("jacobian.part", PARTS[0]!.value));
+    this.hosts = [
+      titled("Joints", presets(studio), this.joints.host),
+      titled("Jacobian", [this.#forms.host], this.#problems.matrix.host, this.matrix.host),
+      titled("Ellipsoids at the tip", [this.#parts.host], this.drawing.host, this.#axes.host, this.drawing.words),
+      section("Singularity", this.#singularity.host, this.#problems.all.host),
+      ...requests.map((request) => request.host),
+    ];
+  }
+
+  choose(form: Form, part: PartChoice): void {
+    this.#forms.show(form.value);
+    this.#parts.show(part.value);
+    this.joints.update();
+  }
+
+  answered(answers: Answers): void {
+    const { matrix, axes, report, form, part } = answers;
+    this.#problems.all.show(null);
+    this.#problems.matrix.show(matrix instanceof Problem ? matrix : null);
+    if (matrix instanceof Problem) this.matrix.clear();
+    else this.matrix.show(matrix, form);
+    this.#axes.show(axes, part.value);
+    this.#singularity.show(report, axes.results[0]![part.value]);
+    this.drawing.show(answers);
+  }
+
+  nearest(report: SingularityReport | null, { joints }: ShownChain): void {
+    this.#singularity.nearest(report, joints);
+  }
+
+  failed(error: unknown): void {
+    this.#problems.all.show(asProblem(error));
+  }
 }
 
 /** To the slider of a joint. */

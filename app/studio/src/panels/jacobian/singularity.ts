@@ -97,9 +97,7 @@ function joints({ dependent_joints, internal_motions, exit, singular }: Singular
   const redundant = internal_motions.filter(({ only_here }) => !only_here).length;
   return [
     ...(dependent_joints.length ? [[`Joints that undo each other here: ${dependent_joints.join(", ")}.`]] : []),
-    ...(redundant
-      ? [[`The joints also have ${count(redundant)} of which none of these directions notices anything.`]]
-      : []),
+    ...(redundant ? [[`${count(redundant)} the tip at rest in these directions.`]] : []),
     ...(exit ? [[`${singular ? "The way out" : "Away from singularities"}: above all ${exit.joint}.`]] : []),
   ];
 }
@@ -137,8 +135,8 @@ function size(numbers: number[]): number {
   return Math.hypot(...numbers);
 }
 
-function count(number: number): string {
-  return number === 1 ? "one motion" : `${number} independent motions`;
+function count(motions: number): string {
+  return motions === 1 ? "One motion of the joints leaves" : `${motions} independent motions of the joints leave`;
 }
 
 function sentence(text: string): string {

@@ -11,6 +11,7 @@ import {
   Plane,
   Points,
   PointsMaterial,
+  Sphere,
   Vector3,
 } from "three";
 
@@ -46,6 +47,7 @@ const MANY = 50_000;
 export class Cloud {
   #group = new Group();
   #box: Box3 | null = null;
+  #ball: Sphere | null = null;
   #base: Matrix4 | null = null;
   #section: Section | null = null;
   #geometry: BufferGeometry | null = null;
@@ -81,6 +83,8 @@ export class Cloud {
     });
     this.#group.add(new Points(this.#geometry, material));
     const bounds = summary.bounding_box;
+    this.#geometry.computeBoundingSphere();
+    this.#ball = rows ? this.#geometry.boundingSphere : null;
     this.#box = bounds && new Box3(new Vector3(...bounds.lower), new Vector3(...bounds.upper));
   }
 
@@ -91,7 +95,7 @@ export class Cloud {
     this.#section = section;
     put(this.#group, base);
     this.#cut();
-    if (isNew) this.view.surround(this.#box?.clone().applyMatrix4(base) ?? null);
+    if (isNew) this.view.surround(this.#ball?.clone().applyMatrix4(base) ?? null);
     this.view.draw();
   }
 
@@ -100,7 +104,7 @@ export class Cloud {
     this.#geometry?.dispose();
     this.#geometry = null;
     this.#base = null;
-    this.#box = null;
+    this.#box = this.#ball = null;
     this.view.surround(null);
   }
 

@@ -13,11 +13,11 @@ const TICKS = [0, 0.25, 0.5, 0.75, 1];
 export class Legend {
   readonly host: HTMLElement;
   #title = element("p", { class: "small" });
-  #scale = element("canvas", { class: "legend-scale", width: STEPS, height: 1, role: "img" });
-  #ticks = element("div", { class: "legend-ticks" });
+  #scale = element("canvas", { class: "scale-colours", width: STEPS, height: 1, role: "img" });
+  #ticks = element("div", { class: "scale-ticks" });
 
   constructor() {
-    this.host = element("div", { class: "legend" }, this.#title, this.#scale, this.#ticks);
+    this.host = element("div", { class: "scale" }, this.#title, this.#scale, this.#ticks);
     const context = this.#scale.getContext("2d")!;
     for (let k = 0; k < STEPS; k += 1) {
       context.fillStyle = `#${new Color().setRGB(...shade(k / (STEPS - 1))).getHexString()}`;
