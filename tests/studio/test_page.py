@@ -47,6 +47,21 @@ def test_axe_finds_nothing_serious_in_the_table(another: Callable[..., Studio]) 
         assert serious == []
 
 
+def test_axe_finds_nothing_serious_in_a_comparison(another: Callable[..., Studio]) -> None:
+    if not AXE.exists():
+        pytest.skip("axe-core is not there: ./dev studio installs it")
+    studio = another(width=1024, height=768)
+    studio.open("ik", robot="puma560", target='{"position": [0.4, 0.1, 0.3], "quaternion_xyzw": [1, 0, 0, 0]}')
+    studio.button("Compare").click()
+    studio.until("document.querySelectorAll('.solution, .way').length > 2")
+    findings: list[Any] = studio.run(AXE.read_text() + "; axe.run().then(({violations}) => violations)")
+    serious = [
+        (found["id"], found["nodes"][0]["html"]) for found in findings if found["impact"] in {"serious", "critical"}
+    ]
+    assert serious == []
+    assert studio.run(CUT_OFF) == []
+
+
 CUT_OFF = """[...document.querySelectorAll("#panel, #panel *")].filter((e) =>
   e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX === "visible" &&
   !e.closest(".katex")

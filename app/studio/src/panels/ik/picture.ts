@@ -36,9 +36,13 @@ export class Picture {
   ) {
     view.scene.add(this.#group, this.#target);
     this.#stops = [
-      store.watch(["model", "base", "target", "unit", "dark"], (state) => this.#drawTarget(state)),
+      store.watch(["unit", "dark"], ({ unit }) => {
+        clear(this.#target);
+        this.#target.add(triad(unit * 0.8));
+      }),
+      store.watch(["model", "base", "tip", "target", "positions", "unit", "dark"], (state) => this.#placeTarget(state)),
       store.watch(["model", "meshes", "dark"], () => this.#draw()),
-      outcome.watch(["result", "isFollowing"], () => this.#draw()),
+      outcome.watch(["result", "isFollowing", "isWalking"], () => this.#draw()),
       outcome.watch(["pointed"], () => this.#paint()),
       store.watch(["positions"], () => this.#paint()),
     ];
@@ -52,21 +56,19 @@ export class Picture {
     this.view.draw();
   }
 
-  #drawTarget(state: Readonly<State>): void {
-    clear(this.#target);
+  #placeTarget(state: Readonly<State>): void {
     const chain = shownChain(state);
-    if (chain && state.target) {
-      this.#target.add(triad(state.unit * 0.8));
+    this.#target.visible = chain !== null && state.target !== null;
+    if (chain && state.target)
       put(this.#target, chain.model.link(chain.base).matrixWorld.clone().multiply(asMatrix(state.target)));
-    }
     this.view.draw();
   }
 
   #draw(): void {
     this.#clear();
-    const { result, isFollowing } = this.outcome.value;
+    const { result, isFollowing, isWalking } = this.outcome.value;
     const chain = this.#chain();
-    if (chain && result) {
+    if (chain && result && !isWalking) {
       if (!isFollowing) for (const i of result.solutions.slice(0, MOST_GHOSTS).keys()) this.#add(chain, i);
       if (result.nearest) {
         this.#nearest = new Ghost(chain.model, chain.joints, "bad", NEAREST);
@@ -99,15 +101,16 @@ export class Picture {
 
   /** Bring out the one that is pointed at; hide those that are where the robot is. */
   #paint(): void {
-    const { pointed, result } = this.outcome.value;
+    const { pointed, result, isFollowing, isWalking } = this.outcome.value;
     const chain = this.#chain();
     if (chain && result) {
       if (pointed !== null && result.solutions[pointed] && !this.#ghosts.has(pointed)) this.#add(chain, pointed);
+      const isShown = !isFollowing && !isWalking;
       for (const [index, ghost] of this.#ghosts) {
         const isPointed = index === pointed;
         ghost.paint("accent", isPointed ? POINTED : pointed === null ? USUAL : FAINT);
         const isHere = distance(chain, result.solutions[index]!.joint_positions) < SAME;
-        ghost.group.visible = !isHere && (isPointed || index < MOST_GHOSTS);
+        ghost.group.visible = !isHere && (isPointed || (isShown && index < MOST_GHOSTS));
       }
       if (this.#nearest && result.nearest)
         this.#nearest.group.visible = distance(chain, result.nearest.joint_positions) > SAME;

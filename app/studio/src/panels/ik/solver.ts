@@ -18,6 +18,8 @@ export interface Outcome {
   isCancelled: boolean;
   /** Whether the target is being moved, and the robot with it. */
   isFollowing: boolean;
+  /** Whether the ways of the course's methods are in the picture, in the place of the solutions. */
+  isWalking: boolean;
   /** The solution that the pointer or the focus is on. */
   pointed: number | null;
 }
@@ -29,6 +31,7 @@ const NOTHING: Outcome = {
   isBusy: false,
   isCancelled: false,
   isFollowing: false,
+  isWalking: false,
   pointed: null,
 };
 

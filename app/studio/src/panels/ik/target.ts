@@ -1,135 +1,135 @@
-/** The pose that the tip is to reach, as fields in the notation of the API that one likes best. */
+/** The part of the panel that says where the tip is to be: typed, dragged, moved by keys, or taken from a posture. */
 
-import { asMatrix, asPose, FORMATS, formatOf, IN_RADIANS } from "../../robot/pose.ts";
-import type { Pose, PoseFormat } from "../../types.ts";
-import { element } from "../../ui/dom.ts";
-import { NumberField } from "../../ui/number.ts";
-import { type Kind, unitOf } from "../../ui/quantity.ts";
+import type { Matrix4 } from "three";
 
-const NAMES: Record<PoseFormat | "position", readonly string[]> = {
-  position: ["x", "y", "z"],
-  quaternion_xyzw: ["qx", "qy", "qz", "qw"],
-  quaternion_wxyz: ["qw", "qx", "qy", "qz"],
-  rpy: ["roll", "pitch", "yaw"],
-  zyz: ["φ", "θ", "ψ"],
-  rotation_vector: ["rx", "ry", "rz"],
-  rotation: [],
-  matrix: [],
-};
-const LENGTH_STEP = 0.01;
-const ANGLE_STEP = Math.PI / 180;
-const PLAIN_STEP = 0.01;
+import { shownChain } from "../../robot/chain.ts";
+import { asPose, formatOf, straightened } from "../../robot/pose.ts";
+import type { State } from "../../state.ts";
+import type { Store } from "../../store.ts";
+import type { Pose } from "../../types.ts";
+import { button, Choice, element, section } from "../../ui/dom.ts";
+import type { Studio } from "../panel.ts";
+import { TargetFields } from "./fields.ts";
+import { type DragMode, Gizmo } from "./gizmo.ts";
+import type { Part } from "./index.ts";
+import type { Solver } from "./solver.ts";
 
-export interface TargetEvents {
-  /** A pose has been typed. */
-  typed: (pose: Pose) => void;
-  /** The arrow keys have moved it a little. */
-  nudged: (pose: Pose) => void;
-  degrees: () => boolean;
-}
+const REST = 350; // ms after the last key that moved the target
 
-export class TargetFields {
-  readonly host = element("div", { class: "target" });
-  #pose: Pose | null = null;
-  #format: PoseFormat | null = null;
-  #fields: { field: NumberField; read: (pose: Pose) => number }[] = [];
-  #select: HTMLSelectElement;
-  #body = element("div", { class: "target-rows" });
-  #isInDegrees = false;
-
-  constructor(private readonly events: TargetEvents) {
-    this.#select = element(
-      "select",
-      {
-        class: "select",
-        "aria-label": "Notation of the orientation",
-        onchange: () => this.#pose && events.typed(asPose(asMatrix(this.#pose), this.#select.value as PoseFormat)),
-      },
-      ...FORMATS.map(({ format, title }) => element("option", { value: format }, title)),
-    );
-    this.host.append(this.#body);
-  }
-
-  /** The notation of the pose that is shown: what else makes a target keeps to it. */
-  get format(): PoseFormat {
-    return this.#format ?? "rpy";
-  }
-
-  show(pose: Pose): void {
-    this.#pose = pose;
-    const format = formatOf(pose) ?? "rpy";
-    if (format !== this.#format || this.events.degrees() !== this.#isInDegrees) this.#build(format);
-    for (const { field, read } of this.#fields) field.set(read(pose));
-  }
-
-  #build(format: PoseFormat): void {
-    const hadFocus = document.activeElement === this.#select;
-    this.#format = format;
-    this.#isInDegrees = this.events.degrees();
-    this.#select.value = format;
-    this.#fields = [];
-    const rows: HTMLElement[] = [];
-    if (format !== "matrix") rows.push(this.#row(element("span", {}, "Position"), "position", "length", "m"));
-    if (format === "rotation" || format === "matrix") {
-      const columns = format === "matrix" ? 4 : 3;
-      for (const i of [0, 1, 2]) {
-        const fields = Array.from({ length: columns }, (_, j) => this.#entry(format, i, j));
-        rows.push(line(i === 0 ? this.#select : null, fields, format === "matrix" ? "m" : ""));
-      }
-    } else {
-      const isAngle = IN_RADIANS.has(format);
-      const kind: Kind = isAngle ? "angle" : "length";
-      rows.push(this.#row(this.#select, format, kind, isAngle ? unitOf(kind, this.#isInDegrees) : ""));
-    }
-    this.#body.replaceChildren(...rows);
-    if (hadFocus) this.#select.focus();
-  }
-
-  #row(title: HTMLElement, key: Exclude<PoseFormat, "rotation" | "matrix"> | "position", kind: Kind, unit: string) {
-    const fields = NAMES[key].map((name, i) =>
-      this.#field(`Target ${name}`, kind, unit ? (kind === "angle" ? ANGLE_STEP : LENGTH_STEP) : PLAIN_STEP, {
-        read: (pose) => pose[key]![i]!,
-        write: (pose, value) => ({ ...pose, [key]: pose[key]!.with(i, value) }),
-      }),
-    );
-    return line(title, fields, unit);
-  }
-
-  #entry(format: "rotation" | "matrix", i: number, j: number): NumberField {
-    return this.#field(`Target row ${i + 1}, column ${j + 1}`, "length", PLAIN_STEP, {
-      read: (pose) => pose[format]![i]![j]!,
-      write: (pose, value) => ({ ...pose, [format]: pose[format]!.with(i, pose[format]![i]!.with(j, value)) }),
-    });
-  }
-
-  #field(
-    label: string,
-    kind: Kind,
-    by: number,
-    { read, write }: { read: (pose: Pose) => number; write: (pose: Pose, value: number) => Pose },
-  ): NumberField {
-    const changed = (tell: (pose: Pose) => void) => (value: number | null) => {
-      if (value !== null && this.#pose && read(this.#pose) !== value) tell(write(this.#pose, value));
-    };
-    const field = new NumberField({
-      label,
-      kind,
-      degrees: this.events.degrees,
-      decimals: 4,
-      change: changed(this.events.typed),
-      step: { by, take: changed(this.events.nudged) },
-    });
-    this.#fields.push({ field, read });
-    return field;
-  }
-}
-
-function line(title: HTMLElement | null, fields: readonly NumberField[], unit: string): HTMLElement {
-  return element(
-    "div",
-    { class: "target-row" },
-    element("span", { class: "target-title" }, title),
-    element("span", { class: "target-fields" }, ...fields.map((field) => field.input)),
-    element("span", { class: "unit" }, unit),
+export function targetPart(studio: Studio, solver: Solver): Part {
+  const { store, view } = studio;
+  const fields = new TargetFields({
+    typed: (target) => store.set({ target }),
+    nudged: (target) => {
+      solver.follow(target);
+      solver.rest(REST);
+    },
+    degrees: () => store.value.degrees,
+  });
+  const drag = { dragged: (target: Pose) => solver.follow(target), dropped: () => solver.rest() };
+  const gizmo = view && new Gizmo(view, store, drag);
+  const unit = new Choice(
+    "Unit of angles",
+    [
+      { value: "rad", text: "rad" },
+      { value: "deg", text: "deg" },
+    ],
+    (chosen) => store.set({ degrees: chosen === "deg" }),
   );
+  const modes = gizmo && dragModes(gizmo);
+  const spring = element("span", { class: "spring" });
+  const hint = element(
+    "p",
+    { class: "muted small", title: "1 cm or 1° at a time, ten times as much with Shift" },
+    `${gizmo ? "Drag it in the picture, or press" : "Press"} ↑ or ↓ in a field: the robot follows.`,
+  );
+  const stops = [
+    followChain(store, solver),
+    store.watch(["target", "degrees"], ({ target }) => target && fields.show(target)),
+    store.watch(["model", "base", "tip", "inverse"], () => modes?.show()),
+    store.watch(["degrees"], ({ degrees }) => unit.show(degrees ? "deg" : "rad")),
+    () => gizmo?.close(),
+  ];
+  return {
+    host: section(
+      "Target",
+      element("div", { class: "bar" }, modes && modes.host, ...presets(store), spring, unit.host),
+      fields.host,
+      hint,
+    ),
+    close: () => stops.forEach((stop) => stop()),
+  };
+}
+
+/** Turn what is typed, which is no rotation, into one. */
+export function straighten(store: Store<State>): void {
+  const { target } = store.value;
+  if (target) aim(store, straightened(target));
+}
+
+/** A target in the notation of the one before. */
+function aim(store: Store<State>, T_base_tip: Matrix4): void {
+  const { target } = store.value;
+  store.set({ target: asPose(T_base_tip, (target && formatOf(target)) ?? "rpy") });
+}
+
+/** Whether dragging moves or turns. */
+function dragModes(gizmo: Gizmo): { host: HTMLElement; show: () => void } {
+  const choose = (wanted: DragMode) => {
+    choice.show(gizmo.turnTo(wanted));
+    for (const mode of ["translate", "rotate"] as const) {
+      choice.allow(mode, gizmo.allows(mode) ? null : "None of its directions counts");
+    }
+  };
+  const choice = new Choice<DragMode>(
+    "Dragging in the picture",
+    [
+      { value: "translate", text: "Move" },
+      { value: "rotate", text: "Turn" },
+    ],
+    choose,
+  );
+  return { host: choice.host, show: () => choose(gizmo.mode) };
+}
+
+/** A target where there is none, and a new one where the chain has become another: where the tip is. */
+function followChain(store: Store<State>, solver: Solver): () => void {
+  let ends = "";
+  let before: Pose | null = null;
+  return store.watch(["model", "base", "tip", "target"], (state) => {
+    const chain = shownChain(state);
+    if (!chain) return;
+    const now = `${chain.model.name} ${chain.base} ${chain.tip}`;
+    const isStale = ends !== "" && now !== ends && before === state.target;
+    if (now !== ends) solver.forget();
+    ends = now;
+    before = state.target;
+    if (!state.target || isStale) aim(store, poseAt(state, state.positions)!);
+  });
+}
+
+function presets(store: Store<State>): HTMLElement[] {
+  const go = (state: Readonly<State>, positions: State["positions"]) => {
+    const T = poseAt(state, positions);
+    if (T) aim(store, T);
+  };
+  const here = () => go(store.value, store.value.positions);
+  const somewhere = () => {
+    const chain = shownChain(store.value);
+    if (chain) go(store.value, chain.model.random(chain.base, chain.tip, store.value.positions));
+  };
+  return [
+    button("Here", here, { title: "Where the tip is now" }),
+    button("Random", somewhere, { title: "Where a random configuration within the limits brings the tip" }),
+  ];
+}
+
+/** T_base_tip at a configuration; the robot on the screen stays where it is. */
+function poseAt(state: Readonly<State>, positions: State["positions"]): Matrix4 | null {
+  const chain = shownChain(state);
+  if (!chain) return null;
+  chain.model.place(positions);
+  const T_base_tip = chain.model.pose(chain.base, chain.tip);
+  chain.model.place(state.positions);
+  return T_base_tip;
 }

@@ -1,0 +1,130 @@
+/** The pose that the tip is to reach, as fields in the notation of the API that one likes best. */
+
+import { asMatrix, asPose, FORMATS, formatOf, IN_RADIANS } from "../../robot/pose.ts";
+import type { Pose, PoseFormat } from "../../types.ts";
+import { element } from "../../ui/dom.ts";
+import { NumberField } from "../../ui/number.ts";
+import { type Kind, unitOf } from "../../ui/quantity.ts";
+
+const NAMES: Record<PoseFormat | "position", readonly string[]> = {
+  position: ["x", "y", "z"],
+  quaternion_xyzw: ["qx", "qy", "qz", "qw"],
+  quaternion_wxyz: ["qw", "qx", "qy", "qz"],
+  rpy: ["roll", "pitch", "yaw"],
+  zyz: ["φ", "θ", "ψ"],
+  rotation_vector: ["rx", "ry", "rz"],
+  rotation: [],
+  matrix: [],
+};
+const LENGTH_STEP = 0.01;
+const ANGLE_STEP = Math.PI / 180;
+const PLAIN_STEP = 0.01;
+
+export interface TargetEvents {
+  /** A pose has been typed. */
+  typed: (pose: Pose) => void;
+  /** The arrow keys have moved it a little. */
+  nudged: (pose: Pose) => void;
+  degrees: () => boolean;
+}
+
+export class TargetFields {
+  readonly host = element("div", { class: "target" });
+  #pose: Pose | null = null;
+  #format: PoseFormat | null = null;
+  #fields: { field: NumberField; read: (pose: Pose) => number }[] = [];
+  #select: HTMLSelectElement;
+  #body = element("div", { class: "target-rows" });
+  #isInDegrees = false;
+
+  constructor(private readonly events: TargetEvents) {
+    this.#select = element(
+      "select",
+      {
+        class: "select",
+        "aria-label": "Notation of the orientation",
+        onchange: () => this.#pose && events.typed(asPose(asMatrix(this.#pose), this.#select.value as PoseFormat)),
+      },
+      ...FORMATS.map(({ format, title }) => element("option", { value: format }, title)),
+    );
+    this.host.append(this.#body);
+  }
+
+  show(pose: Pose): void {
+    this.#pose = pose;
+    const format = formatOf(pose) ?? "rpy";
+    if (format !== this.#format || this.events.degrees() !== this.#isInDegrees) this.#build(format);
+    for (const { field, read } of this.#fields) field.set(read(pose));
+  }
+
+  #build(format: PoseFormat): void {
+    const hadFocus = document.activeElement === this.#select;
+    this.#format = format;
+    this.#isInDegrees = this.events.degrees();
+    this.#select.value = format;
+    this.#fields = [];
+    const rows: HTMLElement[] = [];
+    if (format !== "matrix") rows.push(this.#row(element("span", {}, "Position"), "position", "length", "m"));
+    if (format === "rotation" || format === "matrix") {
+      const columns = format === "matrix" ? 4 : 3;
+      for (const i of [0, 1, 2]) {
+        const fields = Array.from({ length: columns }, (_, j) => this.#entry(format, i, j));
+        rows.push(line(i === 0 ? this.#select : null, fields, format === "matrix" ? "m" : ""));
+      }
+    } else {
+      const isAngle = IN_RADIANS.has(format);
+      const kind: Kind = isAngle ? "angle" : "length";
+      rows.push(this.#row(this.#select, format, kind, isAngle ? unitOf(kind, this.#isInDegrees) : ""));
+    }
+    this.#body.replaceChildren(...rows);
+    if (hadFocus) this.#select.focus();
+  }
+
+  #row(title: HTMLElement, key: Exclude<PoseFormat, "rotation" | "matrix"> | "position", kind: Kind, unit: string) {
+    const fields = NAMES[key].map((name, i) =>
+      this.#field(`Target ${name}`, kind, unit ? (kind === "angle" ? ANGLE_STEP : LENGTH_STEP) : PLAIN_STEP, {
+        read: (pose) => pose[key]![i]!,
+        write: (pose, value) => ({ ...pose, [key]: pose[key]!.with(i, value) }),
+      }),
+    );
+    return line(title, fields, unit);
+  }
+
+  #entry(format: "rotation" | "matrix", i: number, j: number): NumberField {
+    return this.#field(`Target row ${i + 1}, column ${j + 1}`, "length", PLAIN_STEP, {
+      read: (pose) => pose[format]![i]![j]!,
+      write: (pose, value) => ({ ...pose, [format]: pose[format]!.with(i, pose[format]![i]!.with(j, value)) }),
+    });
+  }
+
+  #field(
+    label: string,
+    kind: Kind,
+    by: number,
+    { read, write }: { read: (pose: Pose) => number; write: (pose: Pose, value: number) => Pose },
+  ): NumberField {
+    const changed = (tell: (pose: Pose) => void) => (value: number | null) => {
+      if (value !== null && this.#pose && read(this.#pose) !== value) tell(write(this.#pose, value));
+    };
+    const field = new NumberField({
+      label,
+      kind,
+      degrees: this.events.degrees,
+      decimals: 4,
+      change: changed(this.events.typed),
+      step: { by, take: changed(this.events.nudged) },
+    });
+    this.#fields.push({ field, read });
+    return field;
+  }
+}
+
+function line(title: HTMLElement | null, fields: readonly NumberField[], unit: string): HTMLElement {
+  return element(
+    "div",
+    { class: "target-row" },
+    element("span", { class: "target-title" }, title),
+    element("span", { class: "target-fields" }, ...fields.map((field) => field.input)),
+    element("span", { class: "unit" }, unit),
+  );
+}
