@@ -119,6 +119,14 @@ def test_a_motion_of_the_panda(studio: Studio) -> None:
     speed = np.abs(answer["joint_velocities"]).max()
     assert np.abs(np.array(shown(studio)) - positions[at]).max() <= speed * abs(times[at] - worst["time"]) + TOLERANCE
 
+    with studio.page.expect_download() as download:
+        studio.button("CSV").click()
+    assert download.value.suggested_filename == "panda.csv"
+    table = np.genfromtxt(download.value.path(), delimiter=",", names=True)
+    assert (table.dtype.names or ())[:2] == ("time", "q_panda_joint1")
+    assert np.array_equal(table["time"], times)
+    assert np.array_equal(table["qdd_panda_joint7"], np.array(answer["joint_accelerations"])[:, 6])
+
     points = np.array(studio.run(WAY)).reshape(-1, 3)
     tips = np.array([pose["position"] for pose in answer["tip_poses"]])
     step = np.linalg.norm(np.diff(tips, axis=0), axis=1).max()
@@ -318,6 +326,11 @@ def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
     studio.until("studio.store.value.plan", COLD)  # a link plans what it holds
     assert studio.state("motion") == motion
     assert studio.run("studio.store.value.plan.answer.duration") == planned["answer"]["duration"]
+    # Another chain has a motion of its own; this one comes back with its chain.
+    studio.field("Tip frame").select_option("link_4")
+    assert segments(studio) == []
+    studio.field("Tip frame").select_option("tool")
+    assert studio.state("motion") == motion
     studio.button("Remove segment 1").click()
     assert "changed since" in (studio.page.locator(".plan-status").text_content() or "")
     assert [segment["type"] for segment in segments(studio)] == ["line"]
@@ -348,7 +361,7 @@ def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[in
     text = box.text_content() or ""
     assert f"{100 * answer['completed_fraction']:.1f} %" in text
     assert "out of reach" in text
-    assert "segment 1" in text
+    assert "Segment 1" in text
     mark = studio.run(
         "studio.view.scene.getObjectByName('failure').getWorldPosition(studio.view.camera.position.clone()).toArray()"
     )

@@ -56,8 +56,12 @@ export class Api {
     return this.call<T>({ method: "POST", path, body }, signal);
   }
 
-  async text(path: string, signal?: AbortSignal): Promise<string> {
-    return (await this.answer({ method: "GET", path }, signal)).text();
+  text(path: string, signal?: AbortSignal): Promise<string> {
+    return this.textOf({ method: "GET", path }, signal);
+  }
+
+  async textOf(call: Call, signal?: AbortSignal): Promise<string> {
+    return (await this.answer(call, signal)).text();
   }
 
   /** An answer in another form than JSON. */
@@ -85,15 +89,15 @@ export class Api {
 }
 
 function content(call: Call): RequestInit {
-  if (call.accept !== undefined) return { headers: { Accept: call.accept } };
+  const accept: Record<string, string> = call.accept === undefined ? {} : { Accept: call.accept };
   if (call.form) {
     const body = new FormData();
     for (const [name, value] of Object.entries(call.form.fields)) body.set(name, value);
     body.set("archive", call.form.archive);
-    return { body };
+    return { body, headers: accept };
   }
-  if (call.body === undefined) return {};
-  return { body: JSON.stringify(call.body), headers: { "Content-Type": "application/json" } };
+  if (call.body === undefined) return { headers: accept };
+  return { body: JSON.stringify(call.body), headers: { "Content-Type": "application/json", ...accept } };
 }
 
 async function problem(answer: Response): Promise<Problem> {

@@ -72,7 +72,9 @@ function curl(url: string, call: Call): string {
     for (const [name, value] of Object.entries(call.form.fields)) parts.push(`-F ${quoted(`${name}=${value}`)}`);
     parts.push(`-F ${quoted(`archive=@${call.form.archive.name}`)}`);
   } else if (call.body !== undefined) {
-    parts.push(`-H 'Content-Type: application/json'`, `-d ${quoted(flat(call.body, JSON.stringify))}`);
+    parts.push(`-H 'Content-Type: application/json'`);
+    if (call.accept) parts.push(`-H ${quoted(`Accept: ${call.accept}`)}`);
+    parts.push(`-d ${quoted(flat(call.body, JSON.stringify))}`);
   }
   return parts.join(" \\\n  ");
 }
@@ -102,12 +104,14 @@ function python(url: string, call: Call): string {
   if (open.includes("request)")) {
     lines.push("request = Request(", `    ${literal(url)},`);
     if (call.body !== undefined) {
-      lines.push("    data=json.dumps(call).encode(),", `    headers={"Content-Type": "application/json"},`);
+      const headers = { "Content-Type": "application/json", ...(call.accept ? { Accept: call.accept } : {}) };
+      lines.push("    data=json.dumps(call).encode(),", `    headers=${literal(headers)},`);
     }
     if (call.method !== "POST" || call.body === undefined) lines.push(`    method=${literal(call.method)},`);
     lines.push(")");
   }
-  const shown = call.path.endsWith("/urdf") ? "answer.read().decode()" : "json.dumps(json.load(answer), indent=2)";
+  const shown =
+    call.accept || call.path.endsWith("/urdf") ? "answer.read().decode()" : "json.dumps(json.load(answer), indent=2)";
   return [...lines, `with ${open} as answer:`, `    print(${shown})`].join("\n");
 }
 

@@ -6,6 +6,9 @@ import type { Store } from "../../store.ts";
 import { moved } from "./configurations.ts";
 import { belongs, defined, fresh, type Motion, type Segment } from "./motion.ts";
 
+/** Motions of other chains, to come back to. */
+const LEFT = new Map<string, Motion>();
+
 export class Draft {
   constructor(readonly store: Store<State>) {}
 
@@ -23,9 +26,14 @@ export class Draft {
     return this.store.value.degrees;
   }
 
-  /** Begin where the robot is, unless there is a motion of this chain already. */
+  /** Unless there is a motion of this chain already: go on with the one that was left, or begin where the robot is. */
   begin(): void {
-    if (!belongs(this.store.value.motion, this.chain)) this.set({});
+    const { motion } = this.store.value;
+    if (belongs(motion, this.chain)) return;
+    if (motion) LEFT.set(keyOf(motion), motion);
+    const own = fresh(this.chain);
+    const left = LEFT.get(keyOf(own)) ?? null;
+    this.store.set({ motion: belongs(left, this.chain) ? left : own });
   }
 
   /** Move the robot to a configuration of the chain. */
@@ -42,4 +50,8 @@ export class Draft {
     const segments = this.motion.segments.map((segment, i) => (i === index ? defined(change(segment)) : segment));
     this.set({ segments });
   }
+}
+
+function keyOf({ robot, base_frame, tip_frame }: Motion): string {
+  return JSON.stringify([robot, base_frame, tip_frame]);
 }

@@ -147,11 +147,11 @@ export class Editor {
       button(text, press, { class: "button small", "aria-label": `${text}: ${label}` });
     const head = element(
       "div",
-      { class: "bar" },
+      { class: "bar place-head" },
       element("h3", {}, title),
       element("span", { class: "unit" }, isTip ? "tip in base" : "joints"),
       element("span", { class: "spring" }),
-      small("Set to the present pose", set),
+      small("Set to present", set),
       place && !isTip && small("Go there", go),
       ...tools,
     );

@@ -29,7 +29,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const list = new SegmentList(draft);
   const settings = new Settings(draft);
   const arm = new Arm(studio);
-  const result = new Result(draft, marks);
+  const result = new Result(draft, asked.api, marks);
   const planner = new Planner(draft, asked, list, () => result.begin());
   host.append(section("Motion", list.host, arm.host, settings.host, planner.host), result.host, asked.host);
   const stops = [

@@ -155,10 +155,10 @@ export function missing({ segments }: Motion): string | null {
   return open < 0 ? null : `Segment ${open + 1} lacks its target: move the arm, then press “Circle target”.`;
 }
 
-/** The body of the call; with the polynomials, which are exact between the samples too. */
+/** The body of the call. */
 export function request(motion: Motion): object {
   const { robot: _, ...call } = motion;
-  return { ...call, coefficients: true };
+  return call;
 }
 
 /** Without the fields that are undefined or null. */

@@ -62,9 +62,11 @@ export class Planner {
     this.#begun = performance.now();
     this.#timer = window.setInterval(() => this.update(), 1000);
     this.update();
+    // The polynomials are exact between the samples too.
+    const call = { ...request(motion), coefficients: true };
     try {
       const answer = await this.#latest.run((signal) =>
-        this.asked.api.post<TrajectoryAnswer>(`${chain.path}/trajectory`, request(motion), signal),
+        this.asked.api.post<TrajectoryAnswer>(`${chain.path}/trajectory`, call, signal),
       );
       if (!answer) return false;
       this.#problem.show(null);

@@ -1,14 +1,18 @@
 /** What came of a plan: the player, the profiles, the audit, and the motion in the picture. */
 
-import { element } from "../../ui/dom.ts";
+import type { Api, Call } from "../../api.ts";
+import { asProblem } from "../../robot/load.ts";
+import { button, element } from "../../ui/dom.ts";
+import { save } from "../../ui/files.ts";
+import { ProblemView } from "../../ui/problem.ts";
 import type { Plan } from "./answer.ts";
 import { Curve } from "./curve.ts";
 import type { Draft } from "./draft.ts";
-import { belongs } from "./motion.ts";
+import { belongs, request } from "./motion.ts";
 import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
-import { auditTable, failureBox, percent } from "./verdict.ts";
+import { auditTable, failureBox } from "./verdict.ts";
 
 export class Result {
   readonly host: HTMLElement;
@@ -18,18 +22,25 @@ export class Result {
   #player = new Player((time) => this.#move(time));
   #profiles: Profiles;
   #title = element("h2");
+  #csv = button("CSV", () => void this.#download(), {
+    class: "button small",
+    title: "Times, positions, velocities and accelerations as a table, a row every sample period",
+  });
+  #problem = new ProblemView();
   #ended = element("div");
   #body = element("div", { class: "part" });
 
   constructor(
     private readonly draft: Draft,
+    private readonly api: Api,
     private readonly marks: MotionMarks | null,
   ) {
     this.#profiles = new Profiles(draft.store, (time) => this.#player.seek(time));
     this.host = element(
       "section",
       { class: "section", hidden: true },
-      this.#title,
+      element("div", { class: "bar" }, this.#title, element("span", { class: "spring" }), this.#csv),
+      this.#problem.host,
       this.#ended,
       this.#player.host,
       this.#profiles.host,
@@ -81,14 +92,28 @@ export class Result {
     this.marks?.showWay(this.#curve && tipPath(chain, this.#curve), failure, store.value.unit);
   }
 
+  async #download(): Promise<void> {
+    const { motion } = this.#plan!;
+    const path = `${this.draft.chain.path}/trajectory`;
+    this.#csv.disabled = true;
+    try {
+      const call: Call = { method: "POST", path, body: request(motion), accept: "text/csv" };
+      save(`${motion.robot}.csv`, "text/csv", await this.api.textOf(call));
+      this.#problem.show(null);
+    } catch (error) {
+      this.#problem.show(asProblem(error));
+    } finally {
+      this.#csv.disabled = false;
+    }
+  }
+
   #tell(): void {
     if (!this.#plan || !this.#curve) return this.#profiles.show(null, 0);
     const { answer } = this.#plan;
     const { chain, degrees } = this.draft;
     this.#profiles.show({ curve: this.#curve, answer, joints: chain.joints }, this.#player.time);
     const go = (time: number) => this.#player.seek(time);
-    const done = answer.completed_fraction < 1 ? `, ${percent(answer.completed_fraction)} of it` : "";
-    this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s${done}`;
+    this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
     const failure = failureBox(answer, go);
     const notes = [
       ...answer.notes,

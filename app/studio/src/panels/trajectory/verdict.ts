@@ -106,8 +106,8 @@ export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void)
   return element(
     "div",
     { class: "problem ended", role: "alert" },
-    element("strong", {}, `Ends after ${percent(completed_fraction)} of the way: ${REASONS[reason]}`),
-    element("p", {}, `In segment ${segment + 1}, the tip at (${where}) m. ${capital(detail)}.`),
+    element("strong", {}, `Done to ${percent(completed_fraction)}, then ${REASONS[reason]}`),
+    element("p", {}, `Segment ${segment + 1} cannot go on with the tip at (${where}) m: ${detail}.`),
     button(`Go to ${fixed(at, 3)} s`, () => go(at), { class: "button small" }),
   );
 }
@@ -182,7 +182,7 @@ function short(value: number): string {
   return size !== 0 && size < 1e-3 ? scientific(value) : fixed(value, size < 10 ? 3 : 2);
 }
 
-export function percent(share: number): string {
+function percent(share: number): string {
   return `${fixed(100 * share, 1)} %`;
 }
 
