@@ -278,10 +278,13 @@ def test_it_is_played(studio: Studio) -> None:
     paused = shown(studio)
     studio.page.wait_for_timeout(100)
     assert shown(studio) == paused
-    # The keyboard scrubs by a hundredth.
+    # The keyboard scrubs by a hundredth, and plays.
     seek(studio, 0.0)
     studio.field("Time in the motion").press("ArrowRight")
     assert float(studio.field("Time in the motion").input_value()) == pytest.approx(answer["duration"] / 100)
+    studio.field("Time in the motion").press("Space")
+    studio.button("Pause").click()
+    assert float(studio.field("Time in the motion").input_value()) != pytest.approx(answer["duration"] / 100)
 
 
 def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
@@ -339,6 +342,33 @@ def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
 def segments(studio: Studio) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = studio.state("motion")["segments"]
     return found
+
+
+def test_a_spline_is_passed_at_given_times(studio: Studio) -> None:
+    """Through the waypoints at their times; of the tip, once it is one of poses."""
+    start, first, second = [0.0, 0.5], [0.4, 0.7], [0.9, 0.2]
+    studio.open("trajectory", robot="planar_2r", q="0,0.5")
+    add(studio, "Spline", first)
+    studio.page.locator(".segment-head").nth(1).click()
+    studio.field("Segment 1, waypoints are passed").select_option("At given times")
+    add(studio, "Waypoint", second)
+    studio.type("Segment 1, waypoint 1, time", "1.5")
+    studio.type("Segment 1, waypoint 2, time", "3.25")
+    assert segments(studio) == [{"type": "spline", "waypoints": [first, second], "times": [1.5, 3.25]}]
+    assert studio.run(CUT_OFF) == []
+    answer = plan(studio)
+    assert answer["duration"] == pytest.approx(3.25)
+    for time, place in ((0.0, start), (1.5, first), (3.25, second)):
+        assert seek(studio, time) == pytest.approx(place, abs=1e-9)
+    studio.button("Segment 1, remove waypoint 2").click()
+    assert segments(studio) == [{"type": "spline", "waypoints": [first], "times": [1.5]}]
+    studio.button("Tip").click()
+    [pose] = segments(studio)[0]["waypoints"]
+    expected = studio.fk("planar_2r", {"joint_positions": [first], "pose_format": "rpy"})["poses"][0]
+    assert pose["position"] == pytest.approx(expected["position"], abs=1e-12)
+    assert studio.button("Joints").is_disabled()
+    studio.field("Segment 1, waypoints are passed").select_option("As soon as limits allow")
+    assert "changed since" in (studio.page.locator(".plan-status").text_content() or "")
 
 
 def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[int]) -> None:

@@ -3,6 +3,7 @@
 import { isPose } from "../../robot/pose.ts";
 import { Choice, button, element } from "../../ui/dom.ts";
 import type { Draft } from "./draft.ts";
+import { NumberField } from "../../ui/number.ts";
 import { choice, type Field, icon, optional, placeFields } from "./fields.ts";
 import {
   asPoseOf,
@@ -17,6 +18,11 @@ import {
   type SegmentType,
   TYPES,
 } from "./motion.ts";
+
+const PASSED = [
+  { value: "soon", text: "As soon as limits allow" },
+  { value: "timed", text: "At given times" },
+] as const;
 
 type Blend = "blend_radius" | "blend_time" | "blend_acceleration";
 
@@ -51,8 +57,9 @@ export class Editor {
       element("div", { class: "settings" }, this.#type(), this.#law()),
       ...this.#places(),
       ...(type === "line" ? [this.#line()] : []),
-      ...(type === "spline" ? [this.#spline()] : []),
-      element("div", { class: "settings thirds" }, ...this.#pace()),
+      type === "spline"
+        ? element("div", { class: "settings" }, ...this.#spline(), ...this.#pace())
+        : element("div", { class: "settings thirds" }, ...this.#pace()),
     );
   }
 
@@ -91,9 +98,9 @@ export class Editor {
 
   #pace(): HTMLElement[] {
     const fields = [
+      { name: "duration", title: "Duration", unit: "s", left: "shortest" },
       { name: "velocity_scale", title: "Velocity scale", unit: "", left: "1" },
       { name: "acceleration_scale", title: "Acceleration scale", unit: "", left: "1" },
-      { name: "duration", title: "Duration", unit: "s", left: "shortest" },
     ] as const;
     return fields.map(({ name, title, unit, left }) => {
       const label = `${this.#name}, ${title.toLowerCase()}`;
@@ -120,12 +127,35 @@ export class Editor {
   }
 
   #waypoint(i: number, count: number): HTMLElement {
-    const remove = () => this.#edit({ waypoints: this.#segment.waypoints!.filter((_, other) => other !== i) });
+    const remove = () => {
+      const { waypoints, times } = this.#segment;
+      const others = <T>(list: T[]) => list.filter((_, other) => other !== i);
+      this.#edit({ waypoints: others(waypoints!), times: times && others(times) });
+    };
     return this.#place(
       `Waypoint ${i + 1}`,
       (segment) => segment.waypoints?.[i],
       (place) => this.#edit({ waypoints: this.#segment.waypoints!.map((old, other) => (other === i ? place : old)) }),
+      this.#segment.times !== undefined && this.#time(i),
       count > 1 && icon("×", `${this.#name}, remove waypoint ${i + 1}`, remove),
+    );
+  }
+
+  /** When a waypoint is passed. */
+  #time(i: number): HTMLElement {
+    const field = new NumberField({
+      label: `${this.#name}, waypoint ${i + 1}, time`,
+      kind: "length",
+      degrees: () => false,
+      change: (value) => this.#edit({ times: this.#segment.times!.map((old, other) => (other === i ? value! : old)) }),
+    });
+    this.#shows.push(({ times }) => field.set(times?.[i] ?? null));
+    return element(
+      "label",
+      { class: "passed" },
+      element("span", { class: "unit" }, "at"),
+      field.input,
+      element("span", { class: "unit" }, "s"),
     );
   }
 
@@ -143,16 +173,16 @@ export class Editor {
     const isTip = place ? isPose(place) : wantsPose;
     const set = () => write(isTip ? presentPose(draft.chain) : draft.chain.configuration);
     const go = () => draft.goTo(read(this.#segment) as number[]);
-    const small = (text: string, press: () => void) =>
-      button(text, press, { class: "button small", "aria-label": `${text}: ${label}` });
+    const small = (text: string, explained: string, press: () => void) =>
+      button(text, press, { class: "button small", title: explained, "aria-label": `${text}: ${label}` });
     const head = element(
       "div",
       { class: "bar place-head" },
       element("h3", {}, title),
-      element("span", { class: "unit" }, isTip ? "tip in base" : "joints"),
+      this.#segment.times === undefined && element("span", { class: "unit" }, isTip ? "tip in base" : "joints"),
       element("span", { class: "spring" }),
-      small("Set to present", set),
-      place && !isTip && small("Go there", go),
+      small("Set here", "Set it to the present pose", set),
+      place && !isTip && small("Go", "Move the arm there", go),
       ...tools,
     );
     if (!place) return element("div", { class: "part" }, head);
@@ -193,7 +223,8 @@ export class Editor {
     return element("div", { class: "settings thirds" }, size.host, by.host, orientation);
   }
 
-  #spline(): HTMLElement {
+  /** Of what, how it ends, and when its waypoints are passed. */
+  #spline(): HTMLElement[] {
     const through = new Choice<"joints" | "tip">(
       `${this.#name}, through`,
       [
@@ -216,12 +247,14 @@ export class Editor {
       this.#edit({ boundary }),
     );
     const boundary = this.#follow(ends, (segment) => segment.boundary ?? "clamped");
-    return element(
-      "div",
-      { class: "settings" },
+    const passed = choice("Waypoints are passed", `${this.#name}, waypoints are passed`, PASSED, (when) =>
+      this.#edit({ times: when === "timed" ? this.#segment.waypoints!.map((_, i) => i + 1) : undefined }),
+    );
+    return [
       element("div", { class: "setting" }, element("span", { class: "field" }, "A spline of"), through.host),
       boundary,
-    );
+      this.#follow(passed, ({ times }) => (times ? "timed" : "soon")),
+    ];
   }
 }
 

@@ -26,7 +26,8 @@ function open(host: HTMLElement, studio: Studio): () => void {
   const draft = new Draft(store);
   const asked = new RequestView(studio.api);
   const marks = view && new MotionMarks(view);
-  const list = new SegmentList(draft);
+  const showPlaces = () => marks?.showPlaces(draft.chain, draft.motion, store.value.unit, list.open);
+  const list = new SegmentList(draft, showPlaces);
   const settings = new Settings(draft);
   const arm = new Arm(studio);
   const result = new Result(draft, asked.api, marks);
@@ -40,9 +41,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
       planner.update();
       result.update();
     }),
-    store.watch(["model", "base", "tip", "motion", "unit", "dark"], ({ unit }) => {
-      marks?.showPlaces(draft.chain, draft.motion, unit);
-    }),
+    store.watch(["model", "base", "tip", "motion", "unit", "dark"], showPlaces),
     store.watch(["unit", "dark"], () => result.draw()),
     store.watch(["joint"], ({ joint }) => result.point(joint)),
     store.watch(["positions"], () => marks?.follow(draft.chain)),
@@ -51,7 +50,8 @@ function open(host: HTMLElement, studio: Studio): () => void {
     () => result.stop(),
     () => marks?.remove(),
   ];
-  if (!store.value.plan && missing(draft.motion) === null) void planner.plan();
+  const { plan } = store.value;
+  if (!(plan && belongs(plan.motion, draft.chain)) && missing(draft.motion) === null) void planner.plan();
   return () => {
     for (const stop of stops) stop();
   };

@@ -4,6 +4,8 @@ import { isPose } from "../../robot/pose.ts";
 import { type Motion, type Place, type Segment, TYPES } from "./motion.ts";
 
 const NUMBERS = ["duration", "velocity_scale", "acceleration_scale"] as const;
+const TOLERANCES = ["path_tolerance", "orientation_tolerance", "min_singular_value"] as const;
+const OF_THE_WHOLE = [...NUMBERS, ...TOLERANCES, "sample_period"] as const;
 const OF_A_SEGMENT = [...NUMBERS, "blend_radius", "blend_time", "blend_acceleration"] as const;
 
 /** The motion, where it is one that the panel can show; whether it can be done the service knows. */
@@ -15,14 +17,14 @@ export function asMotion(value: unknown): Motion | null {
     areNumbers(motion.start) &&
     Array.isArray(motion.segments) &&
     motion.segments.every((segment) => isSegment(segment, motion.start.length)) &&
-    hasNumbers(motion, [...NUMBERS, "sample_period"]) &&
+    hasNumbers(motion, OF_THE_WHOLE) &&
     areLimits(motion.limits);
   return isMotion ? motion : null;
 }
 
 function isSegment(value: unknown, joints: number): value is Segment {
   if (!isObject(value) || !hasNumbers(value, OF_A_SEGMENT)) return false;
-  const { type, via, target, waypoints } = value as Partial<Segment>;
+  const { type, via, target, waypoints, times } = value as Partial<Segment>;
   const isThere = (place: unknown) => isPlace(place, joints);
   const isTip = (place: unknown) => isThere(place) && !Array.isArray(place);
   switch (TYPES.find((known) => known.value === type)?.value) {
@@ -33,7 +35,12 @@ function isSegment(value: unknown, joints: number): value is Segment {
     case "circle":
       return isTip(via) && (target === undefined || isTip(target));
     case "spline":
-      return Array.isArray(waypoints) && waypoints.length > 0 && waypoints.every(isThere);
+      return (
+        Array.isArray(waypoints) &&
+        waypoints.length > 0 &&
+        waypoints.every(isThere) &&
+        (times === undefined || (areNumbers(times) && times.length === waypoints.length))
+      );
     default:
       return false;
   }

@@ -40,6 +40,8 @@ export interface Segment extends Pace {
   target?: Place;
   /** Of a spline: configurations or poses, never both. */
   waypoints?: Place[];
+  /** When each of them is passed, after the segment's start, [s]. */
+  times?: number[];
   /** Of a line, at most one of the three. */
   blend_radius?: number;
   blend_time?: number;
@@ -56,6 +58,9 @@ export interface Motion extends Pace {
   segments: Segment[];
   limits?: Limits;
   sample_period?: number;
+  path_tolerance?: number;
+  orientation_tolerance?: number;
+  min_singular_value?: number;
   near_singularity?: NearSingularity;
 }
 
@@ -108,7 +113,7 @@ export function added(segments: readonly Segment[], type: SegmentType, chain: Sh
   if (last && type === "circle" && isOpen(last)) return [...segments.slice(0, -1), { ...last, target: pose() }];
   if (last?.waypoints && type === "spline") {
     const waypoint = last.waypoints.some(isPose) ? pose() : chain.configuration;
-    return [...segments.slice(0, -1), { ...last, waypoints: [...last.waypoints, waypoint] }];
+    return [...segments.slice(0, -1), withWaypoints(last, [...last.waypoints, waypoint])];
   }
   const made: Record<SegmentType, () => Segment> = {
     joint: () => ({ type, target: chain.configuration }),
@@ -117,6 +122,14 @@ export function added(segments: readonly Segment[], type: SegmentType, chain: Sh
     spline: () => ({ type, waypoints: [chain.configuration] }),
   };
   return [...segments, made[type]()];
+}
+
+/** A spline through other waypoints; where it has times, a second for each that is new. */
+export function withWaypoints(segment: Segment, waypoints: Place[]): Segment {
+  const { times } = segment;
+  if (!times) return { ...segment, waypoints };
+  const more = waypoints.slice(times.length).map((_, i) => (times.at(-1) ?? 0) + i + 1);
+  return { ...segment, waypoints, times: [...times, ...more].slice(0, waypoints.length) };
 }
 
 /** Where a segment leads through, in order, its end last. */

@@ -52,7 +52,8 @@ export class Planner {
       const seconds = Math.floor((performance.now() - this.#begun) / 1000);
       this.#status.textContent = seconds < 1 ? "Planning …" : `Planning … ${seconds} s`;
     } else if (lacks) this.#status.textContent = lacks;
-    else if (plan && plan.motion !== motion) this.#status.textContent = "The motion has changed since it was planned.";
+    else if (plan && JSON.stringify(plan.motion) !== JSON.stringify(motion))
+      this.#status.textContent = "The motion has changed since it was planned.";
     else this.#status.textContent = "";
   }
 

@@ -96,8 +96,13 @@ export class Player {
     this.#clock.textContent = `${fixed(time, 2)} / ${fixed(this.#duration, 2)} s`;
   }
 
-  /** By a hundredth: a slider without steps would leave the keys to the browser. */
+  /** By a hundredth, and the space bar plays: a slider without steps would leave the keys to the browser. */
   #key(event: KeyboardEvent): void {
+    if (event.key === " ") {
+      event.preventDefault();
+      this.#play.click();
+      return;
+    }
     const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[event.key];
     if (by === undefined) return;
     event.preventDefault();

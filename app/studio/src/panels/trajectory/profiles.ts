@@ -152,7 +152,7 @@ export class Profiles {
     return {
       width: Math.max(this.#canvas.clientWidth, 200),
       height: HEIGHT,
-      padding: [8, 4, 0, 0],
+      padding: [8, 14, 0, 0],
       scales: { x: { time: false, range: (_, from, to) => [from, to] }, y: { range: (plot) => extent(plot) } },
       axes: [
         { ...axis, size: 24, values: (_, splits) => splits.map((value) => `${value} s`) },

@@ -17,6 +17,8 @@ import { type Motion, type Place, places } from "./motion.ts";
 
 const BALL = new SphereGeometry(1, 20, 14);
 const POINTS = 300;
+/** How many times larger the marks of the open segment are. */
+const OPEN = 1.5;
 
 /** Where the tip is during a motion, in the chain's base: as many points and one more, [m]. */
 export function tipPath(chain: ShownChain, curve: Curve, count = POINTS): number[][] {
@@ -44,15 +46,15 @@ export class MotionMarks {
     this.view.draw();
   }
 
-  /** The start and the places of each segment; what is at a segment's end has its number. */
-  showPlaces(chain: ShownChain, motion: Motion, unit: number): void {
+  /** The start and the places of each segment; a segment's end has its number. What is open stands out; −1 the start. */
+  showPlaces(chain: ShownChain, motion: Motion, unit: number, open: number | null): void {
     clear(this.#places);
-    this.#place(chain, motion.start, unit, "start");
+    this.#place(chain, motion.start, unit * (open === -1 ? OPEN : 1), "start");
     for (const [index, segment] of motion.segments.entries()) {
       const all = places(segment);
       for (const [i, place] of all.entries()) {
         const isEnd = i === all.length - 1 && (segment.type !== "circle" || segment.target !== undefined);
-        this.#place(chain, place, unit, isEnd ? String(index + 1) : null);
+        this.#place(chain, place, unit * (open === index ? OPEN : 1), isEnd ? String(index + 1) : null);
       }
     }
     this.follow(chain);

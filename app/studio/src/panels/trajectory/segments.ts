@@ -24,7 +24,11 @@ export class SegmentList {
   #open: number | null = null;
   #shape = "";
 
-  constructor(private readonly draft: Draft) {
+  /** @param opened is told that another segment is open. */
+  constructor(
+    private readonly draft: Draft,
+    private readonly opened: () => void,
+  ) {
     for (const { value } of TYPES) {
       this.#add.set(
         value,
@@ -44,11 +48,20 @@ export class SegmentList {
     );
   }
 
+  /** Which segment is open, −1 for the start, null for none. */
+  get open(): number | null {
+    return this.#open;
+  }
+
   /** As the motion is now; lines that stay are not built anew, so that the focus stays too. */
   update(): void {
     const { motion, chain, degrees } = this.draft;
     const shape = JSON.stringify([
-      motion.segments.map((segment) => [segment.type, places(segment).map((place) => Array.isArray(place))]),
+      motion.segments.map((segment) => [
+        segment.type,
+        places(segment).map((place) => Array.isArray(place)),
+        segment.times !== undefined,
+      ]),
       [motion.robot, motion.base_frame, motion.tip_frame, this.#open, degrees],
     ]);
     if (shape !== this.#shape) {
@@ -91,6 +104,7 @@ export class SegmentList {
   #toggle(index: number): void {
     this.#open = this.#open === index ? null : index;
     this.update();
+    this.opened();
     this.#focus(index);
   }
 

@@ -18,6 +18,9 @@ const NUMBERS = [
   { name: "velocity_scale", title: "Velocity scale", unit: "", left: "1" },
   { name: "acceleration_scale", title: "Acceleration scale", unit: "", left: "1" },
   { name: "sample_period", title: "Sample period", unit: "s", left: "0.01" },
+  { name: "path_tolerance", title: "Path tolerance", unit: "m", left: "0.0001" },
+  { name: "orientation_tolerance", title: "Turn tolerance", unit: "rad", left: "0.001" },
+  { name: "min_singular_value", title: "Singular below σ", unit: "", left: "0.01" },
 ] as const;
 const OF_THE_TIP = [
   { name: "tip_velocity", title: "Tip velocity", unit: "m/s" },
