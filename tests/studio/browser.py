@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import quote
 
-from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, Request, Response
+from playwright.sync_api import Browser, ConsoleMessage, Error, Locator, Page, Request, Response
 
 from tests.test_serve import get
 
@@ -24,6 +24,33 @@ addEventListener("securitypolicyviolation", ({violatedDirective, blockedURI}) =>
 """
 
 
+class Pages:
+    """Pages of one browser profile, each used by a test after the other: a new one costs several times its studio.
+
+    The studio keeps nothing in the browser, and a test begins at an empty page.
+    """
+
+    def __init__(self, browser: Browser) -> None:
+        self._context = browser.new_context()
+        self._context.add_init_script(_WATCH_POLICY)
+        self._context.set_default_timeout(90_000)  # a busy machine draws slowly
+        self._free: list[Page] = []
+
+    def take(self) -> Page:
+        """A page that shows nothing."""
+        return self._free.pop() if self._free else self._context.new_page()
+
+    def give_back(self, page: Page) -> None:
+        """A page that a test has left, as it left it; one that no longer answers is not used again."""
+        try:
+            page.unroute_all(behavior="ignoreErrors")
+            page.goto("about:blank")
+        except Error:
+            page.close()
+        else:
+            self._free.append(page)
+
+
 @dataclass
 class Studio:
     """The studio of one test.
@@ -33,32 +60,32 @@ class Studio:
         url: Where the service is.
         complaints: Errors and warnings of the console, exceptions, requests to another host.
         refused: Statuses of the service's refusals, which the console reports by itself.
+        expected: The statuses that it is to refuse something with.
     """
 
     page: Page
     url: str
     complaints: list[str] = field(default_factory=list)
     refused: list[int] = field(default_factory=list)
+    expected: set[int] = field(default_factory=set)
 
-    @classmethod
-    def new(cls, browser: Browser, url: str, width: int = 1024, height: int = 640, scheme: Any = "light") -> "Studio":
-        """A page with nothing opened yet, in a profile of its own."""
-        context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme)
-        context.add_init_script(_WATCH_POLICY)
-        context.set_default_timeout(90_000)  # a busy machine draws slowly
-        studio = cls(context.new_page(), url)
-        studio.page.on("console", studio._hear)
-        studio.page.on("pageerror", lambda error: studio.complaints.append(str(error)))
-        studio.page.on("request", studio._see)
-        studio.page.on("response", studio._note)
-        return studio
+    def begin(self, width: int = 1024, height: int = 640, scheme: Any = "light") -> None:
+        """Listen, with nothing opened yet."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.emulate_media(color_scheme=scheme)
+        for event, listen in self._listeners():
+            self.page.on(event, listen)
 
-    def close(self, expected: set[int]) -> None:
-        """End the page; it may have complained of nothing, and been refused nothing but with these statuses."""
+    def end(self) -> None:
+        """Listen no more; the page may have complained of nothing, and been refused nothing but what was expected."""
         complaints = [*self.complaints, *self.run("globalThis.violations ?? []")]
-        self.page.context.close()
+        for event, listen in self._listeners():
+            self.page.remove_listener(event, listen)
         assert complaints == []
-        assert set(self.refused) == expected, self.refused
+        assert set(self.refused) == self.expected
+
+    def _listeners(self) -> list[tuple[Any, Any]]:
+        return [("console", self._hear), ("pageerror", self._catch), ("request", self._see), ("response", self._note)]
 
     def open(self, panel: str = "pose", **address: str) -> None:
         """Open the page at a state, and wait for its robot."""
@@ -131,6 +158,9 @@ class Studio:
             return
         if not message.text.startswith("Failed to load resource: the server responded"):
             self.complaints.append(message.text)
+
+    def _catch(self, error: Error) -> None:
+        self.complaints.append(str(error))
 
     def _see(self, request: Request) -> None:
         if not request.url.startswith((f"{self.url}/", "about:", "blob:", "data:")):

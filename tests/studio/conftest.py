@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
-from tests.studio.browser import ARGUMENTS, Studio
+from tests.studio.browser import ARGUMENTS, Pages, Studio
 from tests.test_serve import service
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -41,23 +41,34 @@ def refusals() -> set[int]:
     return set()
 
 
-@pytest.fixture
-def studio(browser: Browser, url: str, refusals: set[int]) -> Iterator[Studio]:
-    """A page; at the end it must have complained of nothing."""
-    made = Studio.new(browser, url)
-    yield made
-    made.close(refusals)
+@pytest.fixture(scope="session")
+def pages(browser: Browser) -> Pages:
+    """The pages of this process."""
+    return Pages(browser)
 
 
 @pytest.fixture
-def another(browser: Browser, url: str) -> Iterator[Callable[..., Studio]]:
-    """Further pages, of another size or colour scheme."""
+def another(pages: Pages, url: str) -> Iterator[Callable[..., Studio]]:
+    """Pages of another size, colour scheme or service; at the end they must have complained of nothing."""
     made: list[Studio] = []
 
-    def make(**options: object) -> Studio:
-        made.append(Studio.new(browser, url, **options))  # type: ignore[arg-type]
+    def make(at: str = url, **options: object) -> Studio:
+        made.append(Studio(pages.take(), at))
+        made[-1].begin(**options)  # type: ignore[arg-type]
         return made[-1]
 
     yield make
-    for page in made:
-        page.close(set())
+    try:
+        for studio in made:
+            studio.end()
+    finally:
+        for studio in made:
+            pages.give_back(studio.page)
+
+
+@pytest.fixture
+def studio(another: Callable[..., Studio], refusals: set[int]) -> Studio:
+    """A page of the usual size."""
+    made = another()
+    made.expected = refusals
+    return made

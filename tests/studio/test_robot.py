@@ -118,25 +118,22 @@ def choose(studio: Studio, urdf: str) -> None:
     studio.field("File").set_input_files(file)
 
 
-@pytest.mark.parametrize(
-    ("urdf", "reason"),
-    [
+def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int]) -> None:
+    refusals.add(422)
+    studio.open("robot", robot="planar_2r")
+    studio.button("Upload").click()
+    problem = studio.page.locator(".problem:visible")
+    for urdf, reason in (
         (URDF.replace("revolute", "revolut"), "revolut"),
         (URDF.replace('<child link="hand"/>', '<child link="nothing"/>'), "nothing"),
         (URDF.replace("</robot>", ""), "line"),
         ("<html></html>", "robot"),
-    ],
-)
-def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int], urdf: str, reason: str) -> None:
-    refusals.add(422)
-    studio.open("robot", robot="planar_2r")
-    studio.button("Upload").click()
-    choose(studio, urdf)
-    problem = studio.page.locator(".problem:visible")
-    problem.wait_for()
-    assert reason in (problem.text_content() or "")
-    assert studio.state("model") is not None
-    assert studio.page.get_by_role("heading", level=1).text_content() == "planar_2r"
+    ):
+        choose(studio, urdf)  # what was said before goes with it
+        problem.wait_for()
+        assert reason in (problem.text_content() or "")
+        assert studio.state("robot") == "planar_2r"
+        assert studio.page.get_by_role("heading", level=1).text_content() == "planar_2r"
 
 
 def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
@@ -186,30 +183,23 @@ def test_rows_are_added_and_removed(studio: Studio) -> None:
     studio.until("studio.store.value.model.joints[2].type === 'prismatic'")
 
 
-@pytest.mark.parametrize(
-    ("cell", "text", "reason"),
-    [
-        ("a", "abc", "Write a number"),
-        ("α", "pi/x", "Write a number"),
-        ("d", "1e9", "d:"),
-        ("lower limit", "4", "upper"),
-    ],
-)
-def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int], cell: str, text: str, reason: str) -> None:
+def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int]) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.type("Row 2, upper limit", "3")
     studio.until("!studio.store.value.loading")
-    studio.type(f"Row 2, {cell}", text)
     error = studio.page.locator("tr.cell-error:visible")
-    error.wait_for()
-    assert reason in (error.text_content() or "")
-    assert studio.field(f"Row 2, {cell}").get_attribute("aria-invalid") == "true"
-    assert studio.page.locator("[aria-invalid=true]").count() == 1
-    if "Write" not in reason:
-        refusals.add(422)  # the service says it
-    studio.type(f"Row 2, {cell}", "0.2")
-    error.wait_for(state="hidden")
-    studio.until("!studio.store.value.loading && !studio.store.value.failure")
+    wrong = [("a", "abc", "Write a number"), ("α", "pi/x", "Write a number"), ("d", "1e9", "d:")]
+    for cell, text, reason in [*wrong, ("lower limit", "4", "upper")]:
+        studio.type(f"Row 2, {cell}", text)
+        error.wait_for()
+        assert reason in (error.text_content() or "")
+        assert studio.field(f"Row 2, {cell}").get_attribute("aria-invalid") == "true"
+        assert studio.page.locator("[aria-invalid=true]").count() == 1
+        assert set(studio.refused) == (set() if "Write" in reason else {422}), "the page says it, or the service"
+        studio.type(f"Row 2, {cell}", "0.2")
+        error.wait_for(state="hidden")
+        studio.until("!studio.store.value.loading && !studio.store.value.failure")
+    refusals.add(422)
 
 
 def test_base_tool_names_and_limits_are_typed(studio: Studio) -> None:
@@ -278,12 +268,17 @@ def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     ][0] == pytest.approx(1.3)
 
 
-@pytest.mark.parametrize("preset", range(9))
-def test_a_table_of_the_course_is_started_from(studio: Studio, preset: int) -> None:
+def test_a_table_of_the_course_is_started_from(studio: Studio) -> None:
     open_editor(studio)
-    studio.field("Start from a table of the course").select_option(str(preset))
-    studio.until("studio.store.value.draft.joints.length > 1 && !studio.store.value.loading")
-    assert studio.state("failure") is None
-    rows = studio.state("draft")["joints"]
-    assert rows in [catalogue.dh_table(name)["joints"] for name in catalogue.TABLES]
-    assert studio.page.locator("table.dh tbody tr:not(.cell-error, .row-details)").count() == len(rows)
+    tables = [catalogue.dh_table(name)["joints"] for name in catalogue.TABLES]
+    presets = studio.field("Start from a table of the course")
+    titles = presets.locator("option").all_text_contents()[2:]
+    found = []
+    for preset in range(len(titles)):
+        presets.select_option(str(preset))
+        studio.until("studio.store.value.draft.joints.length > 1 && !studio.store.value.loading")
+        assert studio.state("failure") is None
+        rows = studio.state("draft")["joints"]
+        found.append(tables.index(rows))
+        assert studio.page.locator("table.dh tbody tr:has(> th)").count() == len(rows)
+    assert len(set(found)) == len(titles) == 9
