@@ -12,13 +12,16 @@ import { RobotModel } from "./model.ts";
 import { chainTable, draftTable, TABLE_CHAIN } from "./table.ts";
 
 const DRAFT_NAME = "draft";
+/** How long a mesh waits for the next ones, [ms]. */
+const TOGETHER = 150;
 
 export class Loader {
   #latest = new Latest();
   #tables = new Latest();
   #restored: number[] | null = null;
+  #arrival = 0;
 
-  /** @param shown is told when the scene of the model has changed: a mesh has arrived. */
+  /** @param shown is told when the scene of the model has changed: meshes have arrived. */
   constructor(
     private readonly api: Api,
     private readonly store: Store<State>,
@@ -118,7 +121,21 @@ export class Loader {
     } catch {
       model.meshes.failed.push(reference);
     }
-    this.shown(model);
+    this.#tell(model);
+  }
+
+  /** Meshes that arrive one after the other are shown together: each picture of a large robot takes its time. */
+  #tell(model: RobotModel): void {
+    const { wanted, shown, failed } = model.meshes;
+    const isComplete = shown + failed.length >= wanted;
+    if (this.#arrival && !isComplete) return;
+    clearTimeout(this.#arrival);
+    const tell = () => {
+      this.#arrival = 0;
+      this.shown(model);
+    };
+    if (isComplete) tell();
+    else this.#arrival = window.setTimeout(tell, TOGETHER);
   }
 
   #show(model: RobotModel): void {

@@ -44,7 +44,7 @@ export class View {
 
   /** Throws where the browser has no WebGL. */
   constructor(host: HTMLElement) {
-    this.#renderer = new WebGLRenderer({ antialias: true });
+    this.#renderer = makeRenderer();
     this.#renderer.localClippingEnabled = true;
     this.#renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.canvas = this.#renderer.domElement;
@@ -201,6 +201,17 @@ export class View {
     this.controls.update();
     this.draw();
   }
+}
+
+/** With smooth edges where a graphics card draws them: without one they would cost a fifth of the time of a picture. */
+function makeRenderer(): WebGLRenderer {
+  const canvas = document.createElement("canvas");
+  const usual = { alpha: true, depth: true, stencil: false, powerPreference: "default" } as const;
+  const context =
+    canvas.getContext("webgl2", { ...usual, antialias: true, failIfMajorPerformanceCaveat: true }) ??
+    canvas.getContext("webgl2", { ...usual, antialias: false });
+  if (!context) throw new Error("no WebGL");
+  return new WebGLRenderer({ canvas, context });
 }
 
 /** What the robot takes up: its links' origins, and the meshes that have arrived. */
