@@ -1,6 +1,8 @@
 """A page of the studio under test: what it does is asked of the page itself, and whatever it complains of is kept."""
 
 import json
+import os
+import shutil
 import time
 from dataclasses import dataclass, field
 from typing import Any
@@ -16,12 +18,19 @@ ARGUMENTS = [
 ]
 """Chromium speaks to nobody else, and draws without a graphics card."""
 
+_NAMES = ("chromium", "chromium-browser", "google-chrome")
+
 _WATCH_POLICY = """
 globalThis.violations = [];
 addEventListener("securitypolicyviolation", ({violatedDirective, blockedURI}) => {
   violations.push(`${violatedDirective} ${blockedURI}`);
 });
 """
+
+
+def chromium() -> str | None:
+    """That of the variable CHROMIUM, which must be there, or one that is installed."""
+    return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, _NAMES)), None)
 
 
 class Pages:

@@ -1,24 +1,19 @@
 """One service and one browser for all tests of a process; every test has a page of its own."""
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, sync_playwright
 
-from tests.studio.browser import ARGUMENTS, Pages, Studio
+from tests.studio.browser import ARGUMENTS, Pages, Studio, chromium
 from tests.test_serve import service
-
-_NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Chromium: that of the variable CHROMIUM, which must be there, or one that is installed."""
-    given = os.environ.get("CHROMIUM")
-    found = given or next(filter(None, map(shutil.which, _NAMES)), None)
+    found = chromium()
     if found is None:
         pytest.skip("there is no Chromium to show the studio in: apt-get install chromium")
     with sync_playwright() as playwright:
