@@ -13,10 +13,12 @@ from app.api import documentation, openapi, problems, studio
 from app.api.access.directory import Directory
 from app.api.access.door import Check, Door
 from app.api.access.hosts import TrustedHosts
-from app.api.access.journal import Audit, log_request
+from app.api.access.journal import Audit
 from app.api.access.keyring import Keyring
 from app.api.access.keys import KeyCheck
+from app.api.access.metrics import Metrics
 from app.api.access.origins import Origins
+from app.api.access.tracing import TracedId, exporter_variables, telemetry
 from app.api.compare import compare_route
 from app.api.course_components import component_routes
 from app.api.course_fly_over import fly_over_route
@@ -68,7 +70,7 @@ def create_app(settings: Settings) -> FastAPI:
     kept = Limits(settings.kept_jobs, settings.kept_job_bytes, settings.unfinished_jobs)
     shelf = Shelf(settings.data_dir / "jobs", kept)
     runner = Runner(shelf, settings.job_processes, settings.running_jobs, settings.job_seconds)
-    readiness = Readiness()
+    readiness, metrics = Readiness(), Metrics(library.catalogue_names, crew, shelf.states)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -76,7 +78,8 @@ def create_app(settings: Settings) -> FastAPI:
         shelf.prepare()
         readiness.begin()
         starting = asyncio.create_task(_start(readiness, crew))
-        yield
+        async with metrics.publishing():
+            yield
         starting.cancel()
         crew.close()
         runner.close()
@@ -85,6 +88,8 @@ def create_app(settings: Settings) -> FastAPI:
 
     app = Application(
         settings.max_body_bytes,
+        is_traced=bool(settings.otlp_endpoint),
+        telemetry=telemetry(bool(settings.otlp_endpoint)),
         title="Gelenk",
         version="0.1.0",
         summary="Robot kinematics over HTTP, every answer certified",
@@ -104,6 +109,8 @@ def create_app(settings: Settings) -> FastAPI:
     )
     app.root_path = settings.root_path
     app.state.crew = crew
+    if settings.otlp_endpoint:
+        app.add_middleware(TracedId)
     problems.install(app)
     size = settings.max_body_bytes
     app.include_router(robots_router(library, remote))
@@ -124,16 +131,21 @@ def create_app(settings: Settings) -> FastAPI:
     samples = SampleLimits(settings.max_job_samples, most)
     app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
-    app.include_router(service_router(readiness))
+    app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
     openapi.describe(app, has_keys=bool(settings.api_keys))
+    app.door = _door(app, settings, metrics)
+    return app
+
+
+def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:
+    """The way in: what a request must pass before the application answers it."""
     checks: list[Check] = [TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
     directory, audit = Directory(iter_route_contexts(app.routes)), Audit(settings.data_dir / "audit")
-    app.door = Door(app.answer, directory, settings.root_path, checks, [log_request], audit)
-    return app
+    return Door(app.answer, directory, settings.root_path, checks, metrics, audit)
 
 
 async def _start(readiness: Readiness, crew: Crew) -> None:
@@ -145,4 +157,7 @@ async def _start(readiness: Readiness, crew: Crew) -> None:
 
 def from_environment() -> FastAPI:
     """The application as the environment sets it; what each worker process starts from."""
-    return create_app(Settings.from_environment(os.environ))
+    settings = Settings.from_environment(os.environ)
+    if settings.otlp_endpoint:
+        os.environ.update(exporter_variables(settings.otlp_endpoint, os.environ))
+    return create_app(settings)

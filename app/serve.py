@@ -1,9 +1,13 @@
 """Run the service: `python -m app.serve`, or `./dev serve`."""
 
 import argparse
+import contextlib
 import ipaddress
 import os
 import sys
+import tempfile
+from collections.abc import Iterator
+from importlib.util import find_spec
 
 import uvicorn
 
@@ -36,25 +40,41 @@ def main() -> None:
         sys.exit(str(error))
     except InvalidKeys as error:
         sys.exit(f"GELENK_API_KEYS: {error}")
+    if settings.otlp_endpoint and find_spec("opentelemetry.sdk") is None:
+        sys.exit(
+            "GELENK_OTLP_ENDPOINT needs the extra `tracing`: install requirements-tracing.lock, as ./dev serve does"
+        )
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
     print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
-    uvicorn.run(
-        "app.main:from_environment",
-        factory=True,
-        host=arguments.host,
-        port=arguments.port,
-        workers=arguments.workers,
-        loop="uvloop",
-        http="httptools",
-        access_log=False,
-        log_config=configuration(settings.log_level),
-        server_header=False,
-        proxy_headers=bool(settings.trusted_proxies),
-        forwarded_allow_ips=list(settings.trusted_proxies),
-        timeout_graceful_shutdown=SHUTDOWN_SECONDS,
-        timeout_worker_healthcheck=60,
-    )
+    with metrics_folder(arguments.workers):
+        uvicorn.run(
+            "app.main:from_environment",
+            factory=True,
+            host=arguments.host,
+            port=arguments.port,
+            workers=arguments.workers,
+            loop="uvloop",
+            http="httptools",
+            access_log=False,
+            log_config=configuration(settings.log_level),
+            server_header=False,
+            proxy_headers=bool(settings.trusted_proxies),
+            forwarded_allow_ips=list(settings.trusted_proxies),
+            timeout_graceful_shutdown=SHUTDOWN_SECONDS,
+            timeout_worker_healthcheck=60,
+        )
+
+
+@contextlib.contextmanager
+def metrics_folder(workers: int) -> Iterator[None]:
+    """Where several worker processes keep what each has counted, as long as the service runs."""
+    if workers == 1:
+        yield
+        return
+    with tempfile.TemporaryDirectory(prefix="gelenk-metrics-") as folder:
+        os.environ["PROMETHEUS_MULTIPROC_DIR"] = folder
+        yield
 
 
 def is_loopback(host: str) -> bool:

@@ -48,6 +48,7 @@ class Settings:
         open_access: Whether the service may listen beyond this machine without keys (`GELENK_OPEN_ACCESS`).
         log_level: The least that is logged: `debug`, `info` (each request), `warning` (refusals) or `error`
             (`GELENK_LOG_LEVEL`).
+        otlp_endpoint: Where traces are sent by OpenTelemetry's protocol; empty for nowhere (`GELENK_OTLP_ENDPOINT`).
         trusted_hosts: Names that it answers for beside this machine's own (`GELENK_TRUSTED_HOSTS`).
         allowed_origins: Origins whose pages may call it (`GELENK_ALLOWED_ORIGINS`).
         trusted_proxies: Addresses whose word is taken for where a request comes from (`GELENK_TRUSTED_PROXIES`).
@@ -73,6 +74,7 @@ class Settings:
     api_keys: str = ""
     open_access: bool = False
     log_level: str = "warning"
+    otlp_endpoint: str = ""
     trusted_hosts: tuple[str, ...] = ()
     allowed_origins: tuple[str, ...] = ()
     trusted_proxies: tuple[str, ...] = ()
@@ -98,6 +100,7 @@ class Settings:
 _Value: TypeAlias = Path | str | int | tuple[str, ...]
 _HOST = re.compile(r"\*|(\*\.)?[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
 _ORIGIN = re.compile(r"\*|https?://([a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\])(:\d{1,5})?")
+_ENDPOINT = re.compile(r"https?://[A-Za-z0-9.\[\]:-]+(/[\x21-\x7e]*)?")
 _LISTS = {
     "trusted_hosts": (_HOST, "lab.example.org or *.example.org, without a port"),
     "allowed_origins": (_ORIGIN, "https://lab.example.org, without a path"),
@@ -124,7 +127,9 @@ def _parse(variable: str, name: str, text: str) -> _Value:
         return _ANSWERS[text]
     if name == "log_level" and text not in LEVELS:
         raise InvalidSetting(f"{variable} must be one of {', '.join(LEVELS)}")
-    if name in {"api_keys", "log_level"}:
+    if name == "otlp_endpoint" and not _ENDPOINT.fullmatch(text):
+        raise InvalidSetting(f"{variable} must be a URL such as http://127.0.0.1:4318")
+    if name in {"api_keys", "log_level", "otlp_endpoint"}:
         return text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")

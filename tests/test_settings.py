@@ -49,6 +49,7 @@ def test_settings_of_several_values() -> None:
         ("GELENK_ALLOWED_ORIGINS", "https://lab.example.org/"),
         ("GELENK_TRUSTED_PROXIES", "proxy"),
         ("GELENK_LOG_LEVEL", "loud"),
+        ("GELENK_OTLP_ENDPOINT", "collector:4318"),
         ("GELENK_MAX_BODY_BYTES", "0"),
         ("GELENK_MAX_BODY_BYTES", "-1"),
         ("GELENK_MAX_BODY_BYTES", "64M"),

@@ -5,6 +5,7 @@
 - `routes`: a route that FastAPI documents and that runs without its overhead.
 - `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
+- `tally`: what an answer says of itself to the metrics.
 - `isolated`: a process of its own, with a deadline, for work that holds the GIL.
 - `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 from starlette.responses import Response
 
 from app.api.payloads import JSON, SVG, json_response, read_json
+from app.api.tally import TALLY, Tally
 from app.crew.wire import pieces_of
 from app.schemas.common import Payload
 from app.store.library import Library
@@ -71,15 +72,16 @@ class Shop(Hashable, Protocol):
 
 
 Errand: TypeAlias = Callable[[Desk, Inquiry], Response]
-Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer]]
-"""Status, headers, and the body in pieces."""
+Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], Tally | None]
+"""Status, headers, the body in pieces, and what the metrics count."""
 
 
 def answered(order: tuple[Shop, Errand, Inquiry]) -> Reply:
     """Go on an errand; what a process of the crew is asked to do."""
     shop, errand, inquiry = order
+    TALLY.set(None)
     response = errand(_desk(shop), inquiry)
-    return response.status_code, response.raw_headers, pieces_of(bytes(response.body))
+    return response.status_code, response.raw_headers, pieces_of(bytes(response.body)), TALLY.get()
 
 
 @lru_cache(maxsize=1)

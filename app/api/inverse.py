@@ -1,11 +1,13 @@
 """Inverse kinematics of a robot."""
 
+from collections import Counter
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from app.api.routes import Computation, Operation, Outcome
+from app.api.tally import Tally
 from app.kinematics.configuration import configurations, one_configuration
 from app.kinematics.ik.descent import Rule
 from app.kinematics.ik.null_space import Objective
@@ -207,7 +209,11 @@ def _check_size(call: InverseRequest, targets: int, joints: int, allowed: int) -
 
 def _outcome(chain: Chain, call: InverseRequest, result: InverseKinematics) -> Outcome:
     fits = call.solutions == "one" and not call.trace
-    return Outcome(lambda: _content(chain, call, result), (lambda: _table(chain, result)) if fits else None)
+    return Outcome(
+        lambda: _content(chain, call, result),
+        (lambda: _table(chain, result)) if fits else None,
+        solved=lambda targets: Tally(targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())),
+    )
 
 
 def _table(chain: Chain, result: InverseKinematics) -> tuple[Array, dict[str, str]]:

@@ -14,6 +14,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 from starlette.routing import compile_path
 
@@ -250,6 +251,11 @@ def _shortened(value: Any) -> Any:
     return value
 
 
+def _left(_: Request, error: Exception) -> Response:
+    assert isinstance(error, ClientDisconnect)  # noqa: S101
+    return Response(status_code=499)  # nobody waits for it
+
+
 _HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (
     (errors.KinematicsError, _kinematics),
     (InvalidPayload, _payload),
@@ -257,5 +263,6 @@ _HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]
     (RequestValidationError, _validation),
     (UnsupportedMediaType, _media_type),
     (HTTPException, _http),
+    (ClientDisconnect, _left),
     (Exception, _unexpected),
 )

@@ -12,6 +12,7 @@ from starlette.types import Receive, Scope, Send
 from app.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered, buffers
 from app.api.payloads import JSON, BoundedRequest
 from app.api.problems import UnsupportedMediaType
+from app.api.tally import TALLY
 from app.crew.crew import Crew
 from app.model.errors import InvalidField, TooManyRequests
 from app.store.library import Library
@@ -48,7 +49,9 @@ class Remote:
             ClientDisconnect: The caller has left; the errand is broken off.
             KinematicsError: As `Crew.run`, and whatever the errand raises.
         """
-        return Passed(await self._reply(request, errand, inquiry))
+        reply = await self._reply(request, errand, inquiry)
+        TALLY.set(reply[3])
+        return Passed(reply)
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
         """A robot in this process, for quick calls; a process of the crew has loaded it before, and lived.
@@ -150,7 +153,7 @@ class Passed(Response):
     """An answer from the crew, passed on piece by piece as fast as the caller takes it."""
 
     def __init__(self, reply: Reply) -> None:
-        self.status_code, self.raw_headers, pieces = reply
+        self.status_code, self.raw_headers, pieces, _ = reply
         self.body, self.background = b"", None
         self._pieces = [memoryview(piece) for piece in pieces] or [memoryview(b"")]
 

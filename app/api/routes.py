@@ -48,6 +48,7 @@ from app.api.payloads import (
 )
 from app.api.problems import UnsupportedMediaType
 from app.api.remote import INLINE_BYTES, Remote
+from app.api.tally import TALLY, Tally
 from app.model.arrays import Array
 from app.model.errors import InvalidArray, InvalidField
 from app.schemas.common import Answer, Payload
@@ -90,12 +91,13 @@ class Application(FastAPI):
     """FastAPI, with the operations on a robot answered before anything else is asked.
 
     `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
-    an unknown operation, takes FastAPI's way. `door` is where requests come in, and leads to `answer`.
+    an unknown operation, takes FastAPI's way; and so do all where that way is traced (`is_traced`). `door` is where
+    requests come in, and leads to `answer`.
     """
 
-    def __init__(self, max_body_bytes: int, **description: Any) -> None:
+    def __init__(self, max_body_bytes: int, is_traced: bool = False, **description: Any) -> None:
         super().__init__(**description)
-        self._max_body_bytes = max_body_bytes
+        self._max_body_bytes, self._is_traced = max_body_bytes, is_traced
         self.operations: dict[str, Handler] = {}
         self.door: ASGIApp = self.answer
 
@@ -112,7 +114,7 @@ class Application(FastAPI):
             scope = prefixed(scope, self.root_path)
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
-        if scope["type"] == "http" and scope["method"] == "POST":
+        if scope["type"] == "http" and scope["method"] == "POST" and not self._is_traced:
             scope["root_path"] = self.root_path
             match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))
             handler = self.operations.get(match["operation"]) if match else None
@@ -151,12 +153,14 @@ class Outcome:
             array cannot hold.
         picture: For an image, as `svg` or `png`.
         columns: Names of the array's columns, for CSV.
+        solved: What the metrics count of inverse kinematics, by the number of targets.
     """
 
     content: Callable[[], Any]
     array: Callable[[], tuple[Array, dict[str, str]]] | None
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
+    solved: Callable[[int], Tally] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,15 +207,21 @@ class Computation(Generic[_Request]):
                 if wanted not in _PICTURES and not self.is_heavy(call):
                     outcome = (self.attempt or self.run)(await remote.resident(request, robot), call)
                     if outcome is not None:
-                        return _response(outcome, wanted)
+                        return self._told(call, outcome, wanted)
             return await remote.answer(request, errand, Inquiry(buffers(pieces), robot, query, npy_in, wanted))
 
         return handle
 
     def answer(self, library: Library, inquiry: Inquiry) -> Response:
         """The answer to any request, however long it takes."""
-        loaded = library.get(inquiry.robot)
-        return _response(self.run(loaded, self._parse(inquiry.query, inquiry.body, inquiry.npy)), inquiry.wanted)
+        loaded, call = library.get(inquiry.robot), self._parse(inquiry.query, inquiry.body, inquiry.npy)
+        return self._told(call, self.run(loaded, call), inquiry.wanted)
+
+    def _told(self, call: _Request, outcome: Outcome, wanted: str) -> Response:
+        """The answer; what the metrics count of it is left behind."""
+        batch = len(getattr(call, self.array_field)) if self.array_field else 0
+        TALLY.set(Tally(batch) if outcome.solved is None else outcome.solved(batch))
+        return _response(outcome, wanted)
 
     def _parse(self, query: str, body: bytes, npy: bool) -> _Request:
         if not npy or self.options is None:

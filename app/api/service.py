@@ -1,13 +1,15 @@
 """About the service itself: whether it lives, and whether it is ready."""
 
+import asyncio
 import gc
 import threading
 from http import HTTPStatus
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
-from starlette.responses import Response
+from starlette.responses import PlainTextResponse, Response
 
+from app.api.access.metrics import Metrics
 from app.api.openapi import problem_responses
 from app.api.payloads import json_response
 from app.api.problems import problem
@@ -43,8 +45,8 @@ class Readiness:
             raise
 
 
-def service_router(readiness: Readiness) -> APIRouter:
-    """Health and readiness."""
+def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
+    """Health, readiness and metrics."""
     router = APIRouter(tags=["Service"])
 
     @router.get("/healthz", operation_id="health", summary="Does the process live?", response_model=Health)
@@ -70,5 +72,20 @@ def service_router(readiness: Readiness) -> APIRouter:
         if readiness.failure is None:
             response.headers["Retry-After"] = "1"
         return response
+
+    @router.get(
+        "/metrics",
+        operation_id="metrics",
+        summary="What it does, in numbers",
+        response_class=PlainTextResponse,
+        responses={200: {"description": "Prometheus's text format"}},
+    )
+    async def tell_metrics() -> Response:
+        """Latencies and batch sizes by operation and robot, verdicts and iterations of inverse kinematics, queues.
+
+        Of all worker processes together, in the text format of Prometheus.
+        """
+        metrics.publish()
+        return Response(await asyncio.to_thread(metrics.text), media_type="text/plain; version=0.0.4; charset=utf-8")
 
     return router

@@ -11,6 +11,7 @@ import os
 import re
 import time
 import uuid
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -182,6 +183,13 @@ class Shelf:
     def file(self, job_id: str, name: str) -> Path:
         """Where a result of a job is, or will be."""
         return self._root / job_id / name
+
+    def states(self) -> Counter[str]:
+        """How many jobs there are, by state."""
+        try:
+            return Counter(job.state for job in self._jobs())
+        except FileNotFoundError:
+            return Counter()
 
     def _read(self, job_id: str) -> Job | None:
         if not _NAME.fullmatch(job_id):

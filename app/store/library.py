@@ -94,6 +94,11 @@ class Library:
         except StorageFailed as error:
             logger.warning("uploaded robots cannot be written: %s", error.reason)
 
+    @property
+    def catalogue_names(self) -> list[str]:
+        """Names of the robots that come with the project."""
+        return list(self._catalogue)
+
     def records(self) -> list[Record]:
         """All robots, the catalogue's first, each part by name; folders that are no robots are left out."""
         uploaded = []

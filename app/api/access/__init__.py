@@ -4,4 +4,5 @@
 - `scopes`: which operation needs which scope. `directory`: which operation a path is.
 - `hosts`, `origins`, `keys`: the checks; `keyring` holds the keys.
 - `headers`: what every answer carries. `journal`: what is told of each request, and kept of each write.
+- `metrics`: what is counted, for Prometheus. `tracing`: OpenTelemetry, where it is asked for.
 """

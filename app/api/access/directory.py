@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from fastapi.routing import RouteContext
 
-from app.api.access.scopes import Scope, scope_of_route
+from app.api.access.scopes import Scope, scope_of
 
 _MOST_REMEMBERED = 1024
 _LONGEST_REMEMBERED = 128
@@ -50,7 +50,7 @@ class Directory:
         self._operations: dict[str, dict[str, Operation]] = {}
         for route in routes:
             methods = self._operations.setdefault(route.path_regex.pattern, {})
-            operation = Operation(getattr(route, "operation_id", None) or route.path or "", scope_of_route(route))
+            operation = _operation(route)
             for method in route.methods or ("GET", "HEAD"):
                 methods.setdefault(method, operation)
         self._methods = list(self._operations.values())
@@ -68,6 +68,12 @@ class Directory:
         number = match.lastgroup[1:]
         operation = self._methods[int(number)].get("GET" if method == "HEAD" else method, UNKNOWN)
         return operation, match.groupdict().get(f"robot{number}")
+
+
+def _operation(route: RouteContext) -> Operation:
+    operation_id, tags = getattr(route, "operation_id", None), getattr(route, "tags", None)
+    path, methods = route.path or "", frozenset(route.methods or ("GET",))
+    return Operation(operation_id or path, scope_of(operation_id, path, methods, frozenset(tags or ())))
 
 
 def _numbered(number: int, pattern: str) -> str:

@@ -1,6 +1,7 @@
 """Where every request comes in and every answer goes out."""
 
 import asyncio
+import time
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
@@ -10,13 +11,13 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.api.access.directory import Directory
 from app.api.access.exchange import Exchange
 from app.api.access.headers import completed
-from app.api.access.journal import Audit
+from app.api.access.journal import Audit, log_request
+from app.api.access.metrics import Metrics
+from app.api.tally import TALLY
 from app.logs import REQUEST_ID
 
 Check: TypeAlias = Callable[[Exchange], Response | None]
 """Looks at a request; what it returns is the answer, and None lets the request pass."""
-Observer: TypeAlias = Callable[[Exchange], None]
-"""Is told of each request when it is over."""
 
 
 class Door:
@@ -27,7 +28,7 @@ class Door:
         directory: Its operations.
         root_path: Path prefix under which a proxy serves it.
         checks: The first refusal counts.
-        observers: Told of every request, the refused ones included.
+        metrics: Where all requests are counted, the refused ones included.
         audit: Where writes are kept.
     """
 
@@ -37,11 +38,11 @@ class Door:
         directory: Directory,
         root_path: str,
         checks: Sequence[Check],
-        observers: Sequence[Observer],
+        metrics: Metrics,
         audit: Audit,
     ) -> None:
         self._app, self._directory, self._root_path = app, directory, root_path
-        self._checks, self._observers, self._audit = tuple(checks), tuple(observers), audit
+        self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a connection."""
@@ -54,8 +55,11 @@ class Door:
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
         path: str = scope["path"].removeprefix(self._root_path)
+        if self._root_path and not path:
+            path = "/"  # leads there
         exchange = Exchange.begun(scope, *self._directory.find(path, scope["method"]))
         REQUEST_ID.set(exchange.request_id)
+        TALLY.set(None)
 
         async def answer(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -66,6 +70,7 @@ class Door:
                     await asyncio.to_thread(self._audit.write, exchange, _location(message["headers"]))
             await send(message)
 
+        self._metrics.begin()
         try:
             refusal = self._refusal(exchange)
             await (refusal or self._app)(scope, receive, answer)
@@ -73,8 +78,10 @@ class Door:
             if exchange.is_audited and not exchange.status:
                 # Its client has left, or it broke off: what was written may stand.
                 await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
-            for observer in self._observers:
-                observer(exchange)
+            exchange.seconds = time.perf_counter() - exchange.started
+            exchange.tally = TALLY.get()
+            self._metrics.end(exchange)
+            log_request(exchange)
 
     def _refusal(self, exchange: Exchange) -> Response | None:
         """The answer of the first check that has one."""

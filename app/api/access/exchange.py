@@ -1,15 +1,16 @@
 """A request and its answer, as far as they have got: what the checks look at, and what is told of it afterwards."""
 
-import os
 import re
 import time
 from dataclasses import dataclass, field
+from random import getrandbits
 
 from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
 from app.api.access.directory import Operation
 from app.api.access.scopes import Scope
+from app.api.tally import Tally
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 
@@ -29,6 +30,8 @@ class Exchange:
         answer_headers: What its answer carries beside the headers that all have.
         status: Of the answer; 0 until there is one.
         was_let_in: Whether it has passed all checks.
+        seconds: How long it took, once it is over.
+        tally: What else is counted of it.
     """
 
     scope: AsgiScope
@@ -41,17 +44,17 @@ class Exchange:
     answer_headers: list[tuple[bytes, bytes]] = field(default_factory=list)
     status: int = 0
     was_let_in: bool = False
+    seconds: float = 0.0
+    tally: Tally | None = None
 
     @classmethod
     def begun(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "Exchange":
         """A request that has just come in; problems find its id in the scope."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id", b"")
-        request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else os.urandom(16).hex()
-        scope["request_id"], scope["exchange"] = request_id, None
-        exchange = cls(scope, operation, robot, headers, request_id, time.perf_counter())
-        scope["exchange"] = exchange
-        return exchange
+        request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
+        scope["request_id"] = request_id
+        return cls(scope, operation, robot, headers, request_id, time.perf_counter())
 
     @property
     def request(self) -> Request:

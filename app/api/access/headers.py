@@ -1,6 +1,7 @@
 """What every answer carries. A header that an answer has of its own stands: pages have policies of their own."""
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 Headers = list[tuple[bytes, bytes]]
 
@@ -14,9 +15,12 @@ COMMON: Headers = [
 
 
 def completed(own: Iterable[tuple[bytes, bytes]], further: Headers) -> Headers:
-    """An answer's own headers, and those of the common and further ones that it lacks."""
+    """An answer's own headers, further ones, and those of the common ones that it lacks."""
     headers = list(own)
-    names = {name.lower() for name, _ in headers}
-    headers += [header for header in further if header[0] not in names]
-    headers += [header for header in COMMON if header[0] not in names]
-    return headers
+    return [*headers, *further, *_lacking(tuple([name for name, _ in headers]))]
+
+
+@lru_cache(256)
+def _lacking(names: tuple[bytes, ...]) -> Headers:
+    """The common headers that are not among these names; the answers of the service have few sets of names."""
+    return [header for header in COMMON if header[0] not in {name.lower() for name in names}]

@@ -30,7 +30,7 @@ def log_request(exchange: Exchange) -> None:
     else:
         level = logging.INFO if exchange.was_let_in else logging.WARNING
     if requests.isEnabledFor(level):
-        facts = _facts(exchange) | {"seconds": round(time.perf_counter() - exchange.started, 6)}
+        facts = _facts(exchange) | {"seconds": round(exchange.seconds, 6)}
         requests.log(level, "request", extra={"facts": facts})
 
 

@@ -6,8 +6,6 @@ No scope includes another one: what scrapes the metrics needs `admin` and can ne
 from enum import StrEnum
 from typing import Any
 
-from fastapi.routing import RouteContext
-
 
 class Scope(StrEnum):
     """What a key is good for."""
@@ -47,12 +45,6 @@ def scope_of(operation_id: str | None, path: str, methods: frozenset[str], tags:
     if operation_id in WRITING:
         return Scope.WRITE
     return Scope.READ if methods <= {"GET", "HEAD"} or tags & QUESTIONS else Scope.WRITE
-
-
-def scope_of_route(route: RouteContext) -> Scope | None:
-    """The scope that a route of the application needs."""
-    operation_id, tags = getattr(route, "operation_id", None), getattr(route, "tags", None)
-    return scope_of(operation_id, route.path or "", frozenset(route.methods or ()), frozenset(tags or ()))
 
 
 def security_of(path: str, method: str, operation: dict[str, Any]) -> list[dict[str, list[str]]]:

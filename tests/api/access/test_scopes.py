@@ -17,7 +17,7 @@ WRITING = {
     ("POST", "/v1/robots/{robot}/workspace"),
     ("DELETE", "/v1/jobs/{job}"),
 }
-ADMINISTERING: set[tuple[str, str]] = set()
+ADMINISTERING = {("GET", "/metrics")}
 
 ENTRIES, KEYS = keys_for("read", "write", "admin", "read+write", "write+admin", "read+admin", "read+write+admin")
 OTHERS = {"read": "write+admin", "write": "read+admin", "admin": "read+write"}
@@ -65,7 +65,7 @@ def test_each_route_has_its_scope(method: str, route: RouteContext) -> None:
 
 def test_there_is_something_to_walk() -> None:
     assert len(ROUTES) > 45
-    assert {expected(method, route.path or "") for method, route in ROUTES} >= {None, "read", "write"}
+    assert {expected(method, route.path or "") for method, route in ROUTES} == {None, "read", "write", "admin"}
 
 
 @pytest.mark.parametrize(
@@ -91,6 +91,7 @@ def test_there_is_something_to_walk() -> None:
         "/openapi.json/",
         "/nothing",
         "/metrics/",
+        "/metrics2",
     ],
 )
 @pytest.mark.parametrize("method", ["GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "BREW"])
@@ -125,6 +126,8 @@ def test_the_prefix_of_a_proxy_opens_nothing() -> None:
     assert asked(app, "GET", "/gelenk/v1/robots", KEYS["write"]).status == 403
     assert asked(app, "GET", "/gelenk/v1/robots", KEYS["read"]).status == 200
     assert asked(app, "GET", "/gelenk/healthz", None).status == 200
+    assert (asked(app, "GET", "/gelenk", None).status, asked(app, "GET", "/gelenk/", None).status) == (307, 200)
+    assert asked(app, "GET", "/gelenkish", None).status == 401
 
 
 def test_without_keys_nothing_needs_one() -> None:
