@@ -107,6 +107,62 @@ def test_a_call_that_is_none(client: TestClient, operation: str, body: bytes) ->
     assert len(answer.content) < MAX_PROBLEM_BYTES
 
 
+BOTH = b'{"joint_1": 0, "joint_2": 0},'
+FK = b'{"joint_positions": [%s], "tip_frame": "tool"%s}'
+
+
+@pytest.mark.parametrize(
+    ("body", "name"),
+    [
+        (FK % (b"[0, 0]", b', "tip_frame": "base"'), "tip_frame"),
+        (FK % (b"[0, 0]", b', "tip_\\u0066rame": "tool"'), "tip_frame"),
+        (FK % (b"[0, 0]", b', "joint_positions" \n : []'), "joint_positions"),
+        (FK % (b'{"joint_1": 0, "joint_2": 0, "joint_1": 1}', b""), "joint_1"),
+        (FK % (b"[0, 0]," * 9000 + b'{"joint_1": 0, "joint_2": 0, "joint_2": 1}', b""), "joint_2"),
+        (FK % (BOTH * 9000 + b'{"joint_1": 0, "joint_2": 0, "joint_2": 1}', b""), "joint_2"),
+    ],
+)
+def test_two_members_of_one_name_are_refused(client: TestClient, body: bytes, name: str) -> None:
+    answer = client.post("/v1/robots/planar_2r/fk", content=body, headers=JSON)
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:gelenk:invalid-payload"), answer.text
+    assert f"two members of the name '{name}'" in answer.json()["detail"]
+    assert len(answer.content) < MAX_PROBLEM_BYTES
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        FK % (b'{"joint_1": 0, "joint_2": 0}, {"joint_2": 0, "joint_1": 0}', b""),
+        FK % (b'{"joint_1": 0, "joint_2": 0}', b', "pose_format" : "rpy"'),
+        FK % (b'{"joint_\\u0031": 0, "joint_2": 0}', b""),
+        FK % (BOTH * 9000 + b"[0, 0]", b""),
+    ],
+)
+def test_names_may_come_again_in_another_object(client: TestClient, body: bytes) -> None:
+    assert client.post("/v1/robots/planar_2r/fk", content=body, headers=JSON).status_code == 200
+
+
+def test_names_in_strings_are_no_names(client: TestClient) -> None:
+    """Quotes and colons in a string are text, and of two robots with such a text both are added."""
+    texts = '", "urdf": "', '\\": "', '": ": ":', '"\\', "\\u0022name\\u0022:"
+    for text in texts:
+        body = {
+            "name": "quoting",
+            "urdf": '<robot name="r"><link name="l"/></robot>',
+            "description": f'"name": "{text}',
+        }
+        answer = client.post("/v1/robots", json=body)
+        assert answer.status_code == 201, answer.text
+        assert answer.json()["description"] == body["description"]
+        assert client.delete("/v1/robots/quoting").status_code == 204
+
+
+def test_a_parameter_given_twice_is_refused(client: TestClient) -> None:
+    answer = client.get("/v1/robots/planar_2r/dh?tip_frame=tool&tip_frame=base")
+    assert (answer.status_code, answer.json()["type"]) == (422, "urn:gelenk:invalid-payload")
+    assert "twice" in answer.json()["detail"]
+
+
 def test_a_hundred_thousand_unknown_keys_are_a_small_answer(client: TestClient) -> None:
     body = "{" + ",".join(f'"key{i}":{i}' for i in range(100_000)) + "}"
     answer = client.post("/v1/robots/panda/fk", content=body, headers=JSON)
