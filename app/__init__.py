@@ -1,6 +1,7 @@
 """Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
 
 - `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there. `keys`: makes API keys.
+- `connections`: HTTP connections with bounds on time, size and number.
 - `preload`: what is loaded before any process of the crew or of a job is started.
 - `logs`: the log, as lines of JSON.
 - `prune`: takes from a container image what the service never opens.

@@ -1,21 +1,26 @@
 """Run the service: `python -m app.serve`, or `./dev serve`."""
 
 import argparse
+import asyncio
 import contextlib
 import ipaddress
 import os
+import resource
 import sys
 import tempfile
 from collections.abc import Iterator
+from functools import partial
 from importlib.util import find_spec
+from typing import cast
 
 import uvicorn
 
 from app.api.access.keyring import InvalidKeys, Keyring
+from app.connections import BoundedProtocol, Bounds, Gate
 from app.logs import configuration
 from app.settings import InvalidSetting, Settings
 
-SHUTDOWN_SECONDS = 7
+SHUTDOWN_SECONDS = 6
 """How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
 
 OPEN_TO_ALL = (
@@ -46,7 +51,9 @@ def main() -> None:
         )
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
+    _open_as_many_files_as_allowed()
     print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
+    bounds = Bounds(connections=settings.connections, waiting=settings.requests_waiting)
     with metrics_folder(arguments.workers):
         uvicorn.run(
             "app.main:from_environment",
@@ -55,7 +62,8 @@ def main() -> None:
             port=arguments.port,
             workers=arguments.workers,
             loop="uvloop",
-            http="httptools",
+            http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=Gate(bounds))),
+            ws="none",
             access_log=False,
             log_config=configuration(settings.log_level),
             server_header=False,
@@ -83,6 +91,12 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
         return host == "localhost"
+
+
+def _open_as_many_files_as_allowed() -> None:
+    """Each connection is one; the usual limit is for programs that count them otherwise."""
+    hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
 
 
 if __name__ == "__main__":

@@ -30,6 +30,9 @@ class Settings:
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
         crew_processes: Processes of each worker process for what may take long (`GELENK_CREW_PROCESSES`).
         crew_waiting: Requests that may wait for one of these; more are refused (`GELENK_CREW_WAITING`).
+        connections: Open connections of each worker process; where there are more, those are closed that wait longest
+            for their client (`GELENK_CONNECTIONS`).
+        requests_waiting: Requests of each worker process that may wait to be begun (`GELENK_REQUESTS_WAITING`).
         client_requests: Requests of one client, told by its key or else by its address, that may wait for one of these
             or be worked on (`GELENK_CLIENT_REQUESTS`).
         crew_memory_bytes: What each of these may take beside the program itself (`GELENK_CREW_MEMORY_BYTES`).
@@ -61,6 +64,8 @@ class Settings:
     max_answer_numbers: int = 20_000_000
     crew_processes: int = field(default_factory=lambda: max(2, min(8, os.cpu_count() or 1)))
     crew_waiting: int = 200
+    connections: int = 2000
+    requests_waiting: int = 200
     client_requests: int = 16
     crew_memory_bytes: int = 4 * 1024**3
     request_seconds: int = 60

@@ -5,7 +5,6 @@ may or when it dies. One call runs at a time; the others wait, each within its o
 """
 
 import contextlib
-import signal
 import threading
 import time
 from collections.abc import Callable
@@ -13,7 +12,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
-from app.jobs.processes import ended, started
+from app.jobs.processes import ended, settle, started
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -115,7 +114,7 @@ class Isolated:
 
 def serve(connection: Connection) -> None:
     """Answer calls until the other side is gone; what the process runs."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the service ends this process
+    settle()
     connection.send(True)
     while True:
         try:

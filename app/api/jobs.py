@@ -1,7 +1,7 @@
 """Jobs: how far they are, what came out, and the end of them."""
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from datetime import UTC, datetime
 from typing import Annotated, Any, Literal
 
@@ -71,7 +71,7 @@ def jobs_router(runner: Runner) -> APIRouter:
             **problem_responses(404, 422),
         },
     )
-    async def watch_job(job: JobPath, last_event_id: LastEvent = None) -> Response:
+    async def watch_job(job: JobPath, request: Request, last_event_id: LastEvent = None) -> Response:
         """Server-sent events until the job comes to its end.
 
         `event: progress` whenever it is further on, and at the end `event: finished`; the data of both is the job as
@@ -80,7 +80,9 @@ def jobs_router(runner: Runner) -> APIRouter:
         first = await asyncio.to_thread(runner.shelf.get, job)
         if first.is_final and last_event_id == _event_id(first):
             return Response(status_code=204)
-        return StreamingResponse(_events(runner, first), media_type=EVENT_STREAM, headers=_NO_STORE)
+        return StreamingResponse(
+            _events(runner, first, request.scope.get("state", {})), media_type=EVENT_STREAM, headers=_NO_STORE
+        )
 
     @router.get(
         "/{job}/result",
@@ -164,8 +166,14 @@ def _event_id(job: Job) -> str:
     return job.state if job.is_final else f"{job.progress:.6f}"
 
 
-async def _events(runner: Runner, job: Job) -> AsyncIterator[str]:
-    """The events of a job from now on; when its client has left, the server ends the iteration."""
+async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIterator[str]:
+    """The events of a job from now on; when its client has left, the server ends the iteration.
+
+    Args:
+        runner: Who knows the job.
+        job: As it is now.
+        state: Of the connection, which tells when the service is to stop: the stream ends, and a browser asks again.
+    """
     told, quiet = "", 0.0
     while True:
         if (event_id := f"{job.state} {job.progress}") != told:
@@ -175,7 +183,7 @@ async def _events(runner: Runner, job: Job) -> AsyncIterator[str]:
         elif quiet >= HEARTBEAT_SECONDS:
             quiet = 0.0
             yield ": still there\n\n"
-        if job.is_final:
+        if job.is_final or state.get("stopping"):
             return
         await asyncio.sleep(LOOK_SECONDS)
         quiet += LOOK_SECONDS

@@ -14,7 +14,7 @@ from app.api.payloads import JSON, BoundedRequest
 from app.api.problems import UnsupportedMediaType
 from app.api.tally import TALLY
 from app.crew.crew import Crew
-from app.model.errors import InvalidField, TooManyRequests
+from app.model.errors import InvalidField, ServiceStopping, TooManyRequests
 from app.store.library import Library
 from app.store.records import LoadedRobot
 
@@ -54,7 +54,7 @@ class Remote:
         return Passed(reply)
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """A robot in this process, for quick calls; a process of the crew has loaded it before, and lived.
+        """A robot in this process, for quick calls; one from outside has been loaded by the crew before, which lived.
 
         Raises:
             KinematicsError: As `answer`, and as `Library.get`.
@@ -62,7 +62,8 @@ class Remote:
         found = self._library.loaded(name)
         if found is not None:
             return found
-        await self._reply(request, load, Inquiry(robot=name))
+        if not self._library.is_ours(name):
+            await self._reply(request, load, Inquiry(robot=name))
         return await asyncio.to_thread(self._library.get, name)
 
     async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
@@ -131,6 +132,7 @@ async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> 
 
     Raises:
         ClientDisconnect: The caller has left.
+        ServiceStopping: The server has cancelled it, which it does when it can wait no longer to shut down.
         Exception: Whatever the work raises.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
@@ -139,6 +141,8 @@ async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> 
         if doing.done():
             return doing.result()
         raise ClientDisconnect
+    except asyncio.CancelledError:
+        raise ServiceStopping from None
     finally:
         doing.cancel()
         leaving.cancel()

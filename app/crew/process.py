@@ -1,12 +1,9 @@
 """What a process of the crew runs: one call after the other, within limits of memory and of processor time."""
 
-import ctypes
 import os
 import pickle
 import resource
-import signal
 import socket
-import sys
 import traceback
 from collections.abc import Callable
 from multiprocessing.connection import Connection
@@ -14,6 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from app.crew import wire
+from app.jobs.processes import settle
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """What came of a call: its result, what it has raised, or that there was not enough memory."""
@@ -25,7 +23,6 @@ _NICENESS = 5
 _SPARE_SECONDS = 2
 _TIRED = 0.5
 """A process that has come to hold this share of what it may makes room for a fresh one."""
-_PR_SET_PDEATHSIG = 1
 
 
 def serve(memory_bytes: int, connection: Connection) -> None:
@@ -37,7 +34,9 @@ def serve(memory_bytes: int, connection: Connection) -> None:
     """
     stream = socket.socket(fileno=os.dup(connection.fileno()))
     connection.close()
-    _settle()
+    settle()
+    os.nice(_NICENESS)
+    _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
     _limit(resource.RLIMIT_DATA, at_start + memory_bytes)
     while True:
@@ -59,16 +58,6 @@ def serve(memory_bytes: int, connection: Connection) -> None:
         del outcome
         if not goes_on:
             return
-
-
-def _settle() -> None:
-    """Leave the end to the service: it lets requests finish first, and where it is killed nothing of it is left."""
-    for stop in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(stop, signal.SIG_IGN)
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    os.nice(_NICENESS)
-    _limit(resource.RLIMIT_CORE, 0)
 
 
 def _outcome(function: Callable[[Any], Any], argument: Any) -> Outcome:

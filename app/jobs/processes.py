@@ -5,15 +5,22 @@ shares the memory of what it never changes.
 """
 
 import contextlib
+import ctypes
 import multiprocessing
+import os
+import signal
+import sys
 from collections.abc import Callable
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
+from typing import Any
 
 LOADED = "app.preload"
 """The module that the process which is copied imports first."""
 GOODBYE_SECONDS = 1.0
 """How long the end of a killed process is waited for."""
+_PR_SET_PDEATHSIG = 1
 
 
 def started(target: Callable[[Connection], None], name: str) -> tuple[BaseProcess, Connection]:
@@ -38,6 +45,22 @@ def started(target: Callable[[Connection], None], name: str) -> tuple[BaseProces
     finally:
         theirs.close()
     return process, ours
+
+
+def settle() -> None:
+    """Leave the end to the service, which lets requests finish first; to be called in a process that was started.
+
+    Where the service itself is killed, nothing of its processes is left, whatever they are at: the one that they are
+    copies of ends when nobody holds the other end of its pipe any more, and with it they do.
+    """
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, signal.SIG_IGN)
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    copied: Any = forkserver._forkserver
+    held, copied._forkserver_alive_fd = copied._forkserver_alive_fd, None
+    if held is not None:
+        os.close(held)
 
 
 def ended(process: BaseProcess | None, connection: Connection | None) -> None:

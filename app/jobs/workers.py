@@ -7,7 +7,6 @@ killed. Nothing of them is left when the service ends.
 
 import pickle
 import queue
-import signal
 import threading
 import time
 from collections.abc import Callable
@@ -17,7 +16,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeAlias
 
-from app.jobs.processes import GOODBYE_SECONDS, ended, started
+from app.jobs.processes import GOODBYE_SECONDS, ended, settle, started
 
 _LOOK = 0.05
 """How often a thread that waits for a result looks whether it is still wanted, [s]."""
@@ -197,7 +196,7 @@ class _Seat(threading.Thread):
 
 def serve(connection: Connection) -> None:
     """Do parts until the other side is gone; what a process runs."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group: the service ends this process
+    settle()
     while True:
         try:
             function, argument = connection.recv()

@@ -121,6 +121,10 @@ class Library:
                 self._loaded.move_to_end(name)
         return found
 
+    def is_ours(self, name: str) -> bool:
+        """Whether a robot comes with the project."""
+        return name in self._catalogue
+
     def get(self, name: str) -> LoadedRobot:
         """A robot, loaded if need be.
 

@@ -154,7 +154,7 @@ def of_a_client(share: int) -> None:
     request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
     setup = Setup(CATALOGUE, CATALOGUE / "none", 1, 1.0)
     remote = Remote(Crew(1, 1, 1), setup, setup.library(), 1.0, share)
-    asyncio.run(remote.resident(request, "panda"))
+    asyncio.run(remote.resident(request, "somebody"))
 
 
 def result_of(state: dict[str, object]) -> None:

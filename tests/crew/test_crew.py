@@ -41,11 +41,13 @@ async def at_work(crew: Crew, count: int) -> None:
 
 
 async def seconds_to_whole(crew: Crew) -> float:
-    """How long it takes until every seat answers again, all of them at the same time."""
+    """How long it takes until every process is at work again, all of them at the same time."""
     began = time.monotonic()
-    pids = await asyncio.gather(*(crew.run(calls.sleep, 0.05, LONG) for _ in range(crew.size)))
-    assert len(pids) == crew.size
-    return time.monotonic() - began
+    at_work_again = [asyncio.create_task(crew.run(calls.sleep, 1.0, LONG)) for _ in range(crew.size)]
+    await at_work(crew, crew.size)
+    seconds = time.monotonic() - began
+    assert await asyncio.gather(*at_work_again) == [1.0] * crew.size
+    return seconds
 
 
 def test_processes_have_everything_loaded_and_stay() -> None:

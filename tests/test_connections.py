@@ -1,0 +1,303 @@
+"""Connections: slow, silent, oversized and too many of them; none of it changes anything for the others."""
+
+import asyncio
+import json
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import Any, cast
+
+import pytest
+import uvicorn
+
+from app.connections import BoundedProtocol, Bounds, Gate
+
+HOST = "127.0.0.1"
+GET = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"
+QUICK = Bounds(head_seconds=0.6, body_seconds=0.8, stalled_seconds=1.0)
+
+
+class Application:
+    """Answers with the length of the body; at other paths slowly, hugely, or never."""
+
+    def __init__(self) -> None:
+        self.at_work = self.most_at_work = 0
+        self.left = 0
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        assert scope["type"] == "http"
+        size, more = 0, True
+        while more:
+            message = await receive()
+            if message["type"] == "http.disconnect":
+                self.left += 1
+                return
+            size, more = size + len(message.get("body", b"")), message.get("more_body", False)
+        body = str(size).encode()
+        match scope["path"]:
+            case "/slow":
+                await asyncio.sleep(1.0)
+            case "/busy":
+                time.sleep(0.01)
+            case "/endless":
+                while not scope["state"].get("stopping"):
+                    await asyncio.sleep(0.02)
+            case "/huge":
+                body = bytes(50_000_000)
+        await send(
+            {"type": "http.response.start", "status": 200, "headers": [(b"content-length", str(len(body)).encode())]}
+        )
+        await send({"type": "http.response.body", "body": body})
+
+
+@contextmanager
+def serving(bounds: Bounds = QUICK) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
+    gate, app = Gate(bounds), Application()
+    config = uvicorn.Config(
+        app,
+        http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=gate)),
+        ws="none",
+        lifespan="off",
+        log_level="critical",
+        timeout_graceful_shutdown=10,
+    )
+    server = uvicorn.Server(config)
+    listener = socket.create_server((HOST, 0), backlog=2048)
+    thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
+    thread.start()
+    wait_for(lambda: server.started)
+    try:
+        yield listener.getsockname()[1], gate, app, server
+    finally:
+        server.should_exit = True
+        thread.join(20)
+        assert not thread.is_alive()
+        listener.close()
+
+
+def wait_for(condition: Any, seconds: float = 20.0) -> None:
+    until = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def connected(port: int) -> socket.socket:
+    return socket.create_connection((HOST, port), timeout=20)
+
+
+def answer(connection: socket.socket) -> tuple[int, dict[str, str], bytes]:
+    """One answer; an empty one where the connection was closed without."""
+    head = b""
+    while b"\r\n\r\n" not in head:
+        piece = connection.recv(65536)
+        if not piece:
+            return 0, {}, b""
+        head += piece
+    head, _, body = head.partition(b"\r\n\r\n")
+    first, *lines = head.decode().split("\r\n")
+    headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines)}
+    while len(body) < int(headers.get("content-length", 0)):
+        body += connection.recv(1_000_000)
+    return int(first.split()[1]), headers, body
+
+
+def check_problem(found: tuple[int, dict[str, str], bytes], status: int, kind: str) -> None:
+    assert found[0] == status
+    assert found[1]["content-type"] == "application/problem+json"
+    problem = json.loads(found[2])
+    assert (problem["status"], problem["type"]) == (status, f"urn:gelenk:{kind}")
+    assert set(problem) == {"type", "title", "status", "detail", "instance"}
+
+
+def still_answers(port: int) -> None:
+    with connected(port) as connection:
+        for _ in range(3):
+            connection.sendall(GET)
+            assert answer(connection)[0::2] == (200, b"0")
+
+
+@pytest.mark.parametrize("start", [b"", b"G", b"GET / HTTP/1.1\r\nHost: x\r\n", b"\r\n"])
+def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        connection.sendall(start)
+        began = time.monotonic()
+        found = answer(connection)
+        assert 0.5 < time.monotonic() - began < 10.0
+        if start.strip():
+            check_problem(found, 408, "request-too-slow")
+        else:
+            assert found[0] == 0
+        wait_for(lambda: gate.closed == 1)
+        still_answers(port)
+
+
+def test_a_head_that_trickles_in_gets_no_more_time_for_it() -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        began = time.monotonic()
+        with pytest.raises(OSError):
+            connection.sendall(b"GET / HTTP/1.1\r\n")
+            while time.monotonic() - began < 10.0:
+                connection.sendall(b"X: y\r\n")
+                time.sleep(0.1)
+        assert time.monotonic() - began < 10.0
+        wait_for(lambda: gate.closed == 1)
+
+
+def test_a_second_request_has_the_same_time() -> None:
+    with serving() as (port, _, _, _), connected(port) as connection:
+        connection.sendall(GET)
+        assert answer(connection)[0] == 200
+        connection.sendall(b"GET /")
+        check_problem(answer(connection), 408, "request-too-slow")
+
+
+def test_half_a_body_is_not_waited_for_and_whoever_reads_it_is_told() -> None:
+    with serving() as (port, gate, app, _), connected(port) as connection:
+        connection.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")
+        check_problem(answer(connection), 408, "request-too-slow")
+        wait_for(lambda: app.left == 1)
+        wait_for(lambda: gate.closed == 1)
+        still_answers(port)
+
+
+def test_a_long_body_has_time_while_it_keeps_coming() -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        size, count = 16_000, 20
+        connection.sendall(f"POST / HTTP/1.1\r\nContent-Length: {size * count}\r\n\r\n".encode())
+        for _ in range(count):
+            connection.sendall(bytes(size))
+            time.sleep(0.1)
+        assert answer(connection)[0::2] == (200, str(size * count).encode())
+        assert gate.closed == 0
+
+
+def test_who_takes_nothing_of_an_answer_is_cut_off() -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        connection.sendall(GET.replace(b"/ ", b"/huge "))
+        wait_for(lambda: gate.closed == 1)
+        wait_for(lambda: not gate.connections)
+        still_answers(port)
+
+
+def test_who_takes_an_answer_slowly_gets_it() -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        connection.sendall(GET.replace(b"/ ", b"/huge "))
+        received = 0
+        while received < 50_000_000:
+            received += len(connection.recv(2_500_000))
+            time.sleep(0.05)
+        assert gate.closed == 0
+
+
+def test_a_long_computation_is_not_the_clients_fault() -> None:
+    with serving() as (port, gate, _, _), connected(port) as connection:
+        connection.sendall(GET.replace(b"/ ", b"/slow "))
+        assert answer(connection)[0] == 200
+        assert gate.closed == 0
+
+
+@pytest.mark.parametrize("field", [b"X: " + b"a" * 70_000, b"\r\n".join(b"X%d: y" % i for i in range(10_000))])
+def test_a_head_has_a_size(field: bytes) -> None:
+    with serving() as (port, _, _, _), connected(port) as connection:
+        connection.sendall(b"GET / HTTP/1.1\r\n" + field)
+        check_problem(answer(connection), 431, "head-too-large")
+        still_answers(port)
+
+
+def test_what_is_not_http_is_a_problem() -> None:
+    with serving() as (port, _, _, _), connected(port) as connection:
+        connection.sendall(b"HELO there\r\n\r\n")
+        check_problem(answer(connection), 400, "malformed-request")
+        still_answers(port)
+
+
+def test_slow_sockets_give_way_to_others_where_there_are_too_many() -> None:
+    with serving(Bounds(connections=50)) as (port, gate, _, _):
+        slow = [connected(port) for _ in range(150)]
+        for connection in slow:
+            connection.sendall(b"GET /")
+        for _ in range(5):
+            still_answers(port)
+        wait_for(lambda: len(gate.connections) <= 50)
+        wait_for(lambda: gate.closed >= 100)
+        for connection in slow:
+            connection.close()
+
+
+def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
+    with serving(Bounds(connections=3)) as (port, _, _, _):
+        working = [connected(port) for _ in range(3)]
+        for connection in working:
+            connection.sendall(GET.replace(b"/ ", b"/slow "))
+        time.sleep(0.3)
+        with connected(port) as one_more:
+            found = answer(one_more)
+            check_problem(found, 503, "service-busy")
+            assert found[1]["retry-after"] == "1"
+        assert [answer(connection)[0] for connection in working] == [200] * 3
+        for connection in working:
+            connection.close()
+
+
+def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() -> None:
+    """Each takes 10 ms of the event loop, and a hundred may wait; whoever watches does not wait for them."""
+    with serving(Bounds(waiting=100)) as (port, gate, _, _), connected(port) as watching:
+        connections = [connected(port) for _ in range(160)]
+        wait_for(lambda: len(gate.connections) == 161)
+        for connection in connections:
+            connection.sendall(GET.replace(b"/ ", b"/busy "))
+        began = time.monotonic()
+        watching.sendall(GET.replace(b"/ ", b"/healthz "))
+        assert answer(watching)[0] == 200
+        waited = time.monotonic() - began
+        found = [answer(connection) for connection in connections]
+        whole = time.monotonic() - began
+        refused = [one for one in found if one[0] == 503]
+        assert gate.refused == len(refused) > 0
+        for one in refused:
+            check_problem(one, 503, "service-busy")
+        assert len(found) - len(refused) >= 100
+        assert waited < 0.6 * whole
+        for connection in connections:
+            connection.sendall(GET)
+            assert answer(connection)[0] == 200
+            connection.close()
+
+
+def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
+    with serving(Bounds(waiting=1)) as (port, _, _, _), connected(port) as connection:
+        busy = [connected(port) for _ in range(30)]
+        for one in busy:
+            one.sendall(GET.replace(b"/ ", b"/busy ") * 50)
+        connection.sendall(GET * 2000)
+        status = answer(connection)[0]
+        assert status in {200, 503}
+        for one in busy:
+            one.close()
+        still_answers(port)
+
+
+def test_a_shutdown_waits_for_answers_and_hardly_for_clients() -> None:
+    with serving(Bounds()) as (port, gate, app, server):
+        idle, slow, half, endless, head = (connected(port) for _ in range(5))
+        slow.sendall(GET.replace(b"/ ", b"/slow "))
+        half.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")
+        endless.sendall(GET.replace(b"/ ", b"/endless "))
+        head.sendall(b"GET /")
+        wait_for(lambda: len(gate.connections) == 5)
+        time.sleep(0.2)
+        began = time.monotonic()
+        server.should_exit = True
+        assert answer(endless)[0] == 200
+        assert answer(slow)[0] == 200
+        assert answer(idle)[0] == answer(head)[0] == 0
+        check_problem(answer(half), 408, "request-too-slow")
+        wait_for(lambda: not gate.connections)
+        assert time.monotonic() - began < 6.0
+        assert app.left == 1
+        for connection in (idle, slow, half, endless, head):
+            connection.close()
