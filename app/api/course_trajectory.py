@@ -6,13 +6,9 @@ from functools import partial
 from typing import Any, Literal, TypeVar
 
 import numpy as np
-from starlette.responses import Response
 
-from app.api.course import TAG
-from app.api.errand import JsonErrand
-from app.api.openapi import json_example, picture_content, problem_responses
-from app.api.payloads import JSON, PNG, SVG, json_response, read_json
-from app.api.remote import Remote, json_handler
+from app.api.course import Picture, course_route
+from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.steps import Step
 from app.model.arrays import Array
@@ -83,24 +79,17 @@ def motion_route(
         example: A request that runs.
         documentation: `operation_id` and `summary`.
     """
-    errand = JsonErrand(model, partial(_answer, plan=plan), partial(_picture, plan=plan))
-
-    def quick(body: bytes) -> Response | None:
-        call = read_json(model, body)
-        return None if _is_heavy(call) else json_response(_answer(call, plan))
-
-    return DocumentedRoute(
-        f"/v1/course/{path}",
+    drawn = "Position, velocity, acceleration and jerk over time, with the limits."
+    return course_route(
+        path,
         endpoint,
-        json_handler(errand, remote, (JSON, SVG, PNG), quick),
+        model,
+        partial(_answer, plan=plan),
+        remote,
         max_body_bytes,
-        methods=["POST"],
-        tags=[TAG],
-        responses={
-            200: {"content": picture_content("Position, velocity, acceleration and jerk over time, with the limits.")},
-            **problem_responses(400, 413, 415, 422),
-        },
-        openapi_extra={"requestBody": {"content": json_example(example)}},
+        example=example,
+        is_heavy=_is_heavy,
+        picture=Picture(drawn, partial(_picture, plan=plan)),
         **documentation,
     )
 

@@ -36,9 +36,11 @@ def send(connection: socket.socket, content: Any) -> None:
 
 
 async def send_soon(connection: socket.socket, content: Any) -> None:
-    """The same from an event loop, on a socket that does not block."""
+    """The same from an event loop, on a socket that does not block; between two parts others get their turn."""
     loop = asyncio.get_running_loop()
-    for part in _parts(content):
+    for i, part in enumerate(_parts(content)):
+        if i:
+            await asyncio.sleep(0)
         await loop.sock_sendall(connection, part)
 
 
@@ -56,10 +58,14 @@ def receive(connection: socket.socket) -> Any:
 
 
 async def receive_soon(connection: socket.socket) -> Any:
-    """The same from an event loop, on a socket that does not block."""
+    """The same from an event loop, on a socket that does not block; between two parts others get their turn."""
     (count,) = _COUNT.unpack(await _taken_soon(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", await _taken_soon(connection, 8 * count))
-    parts = [await _taken_soon(connection, length) for length in lengths]
+    parts: list[bytearray] = []
+    for length in lengths:
+        if parts:
+            await asyncio.sleep(0)
+        parts.append(await _taken_soon(connection, length))
     return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from a process of ours
 
 
