@@ -228,6 +228,13 @@ def test_the_profiles_are_the_services_samples(studio: Studio) -> None:
     filled = np.flatnonzero(rows)
     inner = filled[(filled > dashed[0] + 1) & (filled < dashed[1] - 1)]
     assert (middle - inner.min()) / (middle - dashed[0]) == pytest.approx(peak, abs=0.04)
+    # Far limits are left out, until they are asked for.
+    studio.button("Position").click()
+    before = drawn(studio, "--joint-1", axis=0)
+    studio.button("All limits").click()
+    after = drawn(studio, "--joint-1", axis=0)
+    assert (before > 0.3 * box["width"]).sum() == 0
+    assert (after > 0.3 * box["width"]).sum() == 2
     studio.page.get_by_title("joint_1: show or hide").click()
     assert drawn(studio, "--joint-1").sum() == 0
 
@@ -319,6 +326,7 @@ def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
     assert answer["tip_poses"][-1]["position"][2] == pytest.approx(0.55, abs=1e-4)
     assert answer["audit"]["tip"]["speed"]["value"] < 0.2
 
+    studio.button("Jerk").click()
     motion, planned = studio.state("motion"), studio.state("plan")
     studio.page.get_by_role("tab", name="Pose").click()
     studio.page.get_by_role("tab", name="Trajectory").click()
@@ -329,6 +337,7 @@ def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
     studio.until("studio.store.value.plan", COLD)  # a link plans what it holds
     assert studio.state("motion") == motion
     assert studio.run("studio.store.value.plan.answer.duration") == planned["answer"]["duration"]
+    assert studio.button("Jerk").get_attribute("aria-pressed") == "true"
     # Another chain has a motion of its own; this one comes back with its chain.
     studio.field("Tip frame").select_option("link_4")
     assert segments(studio) == []

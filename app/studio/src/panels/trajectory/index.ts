@@ -42,7 +42,8 @@ function open(host: HTMLElement, studio: Studio): () => void {
       result.update();
     }),
     store.watch(["model", "base", "tip", "motion", "unit", "dark"], showPlaces),
-    store.watch(["unit", "dark"], () => result.draw()),
+    store.watch(["unit", "dark"], () => result.drawWay()),
+    store.watch(["dark", "options"], () => result.drawProfiles()),
     store.watch(["joint"], ({ joint }) => result.point(joint)),
     store.watch(["positions"], () => marks?.follow(draft.chain)),
     () => planner.stop(),

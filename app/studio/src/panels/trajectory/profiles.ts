@@ -5,23 +5,28 @@ import "uplot/dist/uPlot.min.css";
 import uPlot from "uplot";
 
 import type { Joint } from "../../robot/model.ts";
-import type { State } from "../../state.ts";
+import { chosen, choosing, type State } from "../../state.ts";
 import type { Store } from "../../store.ts";
-import { button, Choice, element } from "../../ui/dom.ts";
-import { fixed, unitOf } from "../../ui/quantity.ts";
-import { type Hue, paint } from "../../view/colours.ts";
+import { Choice, element, toggle } from "../../ui/dom.ts";
+import { unitOf } from "../../ui/quantity.ts";
+import { paint } from "../../view/colours.ts";
 import type { JointLimits, TrajectoryAnswer } from "./answer.ts";
 import type { Curve, Derivative, Samples } from "./curve.ts";
 import { kindOf } from "./fields.ts";
+import { hue, Legend } from "./legend.ts";
 
-const QUANTITIES = [
-  { value: "0", text: "Position", per: "" },
-  { value: "1", text: "Velocity", per: "/s" },
-  { value: "2", text: "Acceleration", per: "/s²" },
-  { value: "3", text: "Jerk", per: "/s³" },
-] as const;
+type Quantity = "position" | "velocity" | "acceleration" | "jerk";
+
+const QUANTITIES: readonly { value: Quantity; text: string; per: string }[] = [
+  { value: "position", text: "Position", per: "" },
+  { value: "velocity", text: "Velocity", per: "/s" },
+  { value: "acceleration", text: "Acceleration", per: "/s²" },
+  { value: "jerk", text: "Jerk", per: "/s³" },
+];
+/** What is drawn where nothing else is chosen stands first. */
+const CHOICES: readonly Quantity[] = ["velocity", "position", "acceleration", "jerk"];
+const EXTENTS = ["near", "all"] as const;
 const LIMITS = [null, "joint_velocity", "joint_acceleration", "joint_jerk"] as const;
-const HUES = 8;
 const HEIGHT = 184;
 const LEAST_SAMPLES = 600;
 const DASH = [5, 4];
@@ -37,17 +42,17 @@ export interface Drawn {
 
 export class Profiles {
   readonly host: HTMLElement;
-  #quantity: Derivative = 1;
-  #choice: Choice<(typeof QUANTITIES)[number]["value"]>;
+  #choice: Choice<Quantity>;
   #unit = element("span", { class: "unit" });
   #canvas = element("div", { class: "profiles" });
-  #legend = element("div", { class: "profile-legend", role: "group", "aria-label": "Joints in the plot" });
-  #values: HTMLElement[] = [];
+  #legend: Legend;
   #now = element("div", { class: "profile-now" });
   #plot: uPlot | null = null;
   #drawn: Drawn | null = null;
-  #hidden = new Set<string>();
   #time = 0;
+  #limits = toggle("All limits", "Scale the plot so that every limit is on it", () =>
+    this.#choose("trajectory.limits", this.#showsLimits ? null : "all"),
+  );
   #observer: ResizeObserver;
 
   /** @param go is told of the time that is clicked, [s]. */
@@ -55,18 +60,28 @@ export class Profiles {
     private readonly store: Store<State>,
     private readonly go: (time: number) => void,
   ) {
-    this.#choice = new Choice("Quantity", QUANTITIES, (chosen) => {
-      this.#quantity = Number(chosen) as Derivative;
-      this.draw();
+    this.#choice = new Choice("Quantity", QUANTITIES, (quantity) =>
+      this.#choose("trajectory.plot", quantity === CHOICES[0] ? null : quantity),
+    );
+    this.#legend = new Legend(store, (index, isShown) => {
+      this.point(null);
+      for (const line of [1, 2, 3]) this.#plot?.setSeries(3 * index + line, { show: isShown });
     });
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(this.#canvas);
     this.host = element(
       "div",
       { class: "part" },
-      element("div", { class: "bar" }, this.#choice.host, this.#unit),
+      element(
+        "div",
+        { class: "bar profile-bar" },
+        this.#choice.host,
+        this.#unit,
+        element("span", { class: "spring" }),
+        this.#limits,
+      ),
       this.#canvas,
-      this.#legend,
+      this.#legend.host,
     );
   }
 
@@ -77,14 +92,15 @@ export class Profiles {
     this.draw();
   }
 
-  /** Anew, in the unit of angles and the colours of the page. */
+  /** Anew: what is chosen, in the unit of angles and the colours of the page. */
   draw(): void {
     this.#plot?.destroy();
     this.#plot = null;
-    this.#choice.show(String(this.#quantity) as "0");
+    this.#choice.show(QUANTITIES[this.#quantity]!.value);
+    this.#limits.setAttribute("aria-pressed", String(this.#showsLimits));
     if (!this.#drawn) return;
     const { curve, joints } = this.#drawn;
-    const name = QUANTITIES[this.#quantity];
+    const name = QUANTITIES[this.#quantity]!;
     const degrees = this.store.value.degrees;
     const units = new Set(joints.map((joint) => unitOf(kindOf(joint), degrees) + name.per));
     this.#unit.textContent = `[${[...units].join(" or ")}]`;
@@ -96,7 +112,7 @@ export class Profiles {
     this.#plot = new uPlot(this.#options(joints), data, this.#canvas);
     this.#plot.over.append(this.#now);
     this.#follow(this.#plot.over);
-    this.#list(joints);
+    this.#legend.list(joints);
     this.at(this.#time);
   }
 
@@ -106,19 +122,31 @@ export class Profiles {
     if (!this.#plot || !this.#drawn) return;
     this.#now.style.transform = `translateX(${this.#plot.valToPos(time, "x")}px)`;
     const values = this.#drawn.curve.at(time, this.#quantity);
-    for (const [i, cell] of this.#values.entries())
-      cell.textContent = fixed(values[i]! * this.#factor(this.#drawn.joints[i]!), 3);
+    this.#legend.tell(values.map((value, i) => value * this.#factor(this.#drawn!.joints[i]!)));
   }
 
   /** Bring one joint to the front, or none. */
   point(joint: string | null): void {
-    const index = this.#drawn?.joints.findIndex(({ name }) => name === joint && !this.#hidden.has(name)) ?? -1;
+    const index = this.#drawn?.joints.findIndex((one) => one.name === joint && this.#legend.isShown(one)) ?? -1;
     this.#plot?.setSeries(index < 0 ? null : 1 + 3 * index, { focus: true });
   }
 
   stop(): void {
     this.#observer.disconnect();
     this.#plot?.destroy();
+  }
+
+  get #quantity(): Derivative {
+    const quantity = chosen(this.store.value, "trajectory.plot", CHOICES);
+    return QUANTITIES.findIndex(({ value }) => value === quantity) as Derivative;
+  }
+
+  get #showsLimits(): boolean {
+    return chosen(this.store.value, "trajectory.limits", EXTENTS) === "all";
+  }
+
+  #choose(option: string, value: string | null): void {
+    this.store.set(choosing(this.store.value, option, value));
   }
 
   /** A joint's values, its lower and its upper limit: null where there is none. */
@@ -145,7 +173,7 @@ export class Profiles {
     const axis = { stroke: tone, font, grid: { stroke: paint("line"), width: 1 }, ticks: { show: false }, gap: 4 };
     const series = joints.flatMap((joint, i) => {
       const stroke = paint(hue(i));
-      const show = !this.#hidden.has(joint.name);
+      const show = this.#legend.isShown(joint);
       const limit = { stroke, show, width: 1, dash: DASH, points: { show: false } };
       return [{ stroke, show, width: WIDTH, pxAlign: 0, points: { show: false } }, limit, limit];
     });
@@ -153,7 +181,10 @@ export class Profiles {
       width: Math.max(this.#canvas.clientWidth, 200),
       height: HEIGHT,
       padding: [8, 14, 0, 0],
-      scales: { x: { time: false, range: (_, from, to) => [from, to] }, y: { range: (plot) => extent(plot) } },
+      scales: {
+        x: { time: false, range: (_, from, to) => [from, to] },
+        y: { range: (plot) => extent(plot, this.#showsLimits) },
+      },
       axes: [
         { ...axis, size: 24, values: (_, splits) => splits.map((value) => `${value} s`) },
         { ...axis, size: 40, values: (_, splits) => splits.map((value) => String(value).replace("-", "−")) },
@@ -197,57 +228,12 @@ export class Profiles {
     });
   }
 
-  #list(joints: readonly Joint[]): void {
-    const prefix = commonPrefix(joints.map(({ name }) => name));
-    this.#values = joints.map(() => element("span", { class: "profile-value" }));
-    const entries = joints.map((joint, i) => {
-      const point = (name: string | null) => () => this.store.set({ joint: name });
-      const flip = button("", () => this.#flip(joint.name, i), {
-        class: "profile-joint",
-        title: `${joint.name}: show or hide`,
-        "aria-pressed": String(!this.#hidden.has(joint.name)),
-        onpointerenter: point(joint.name),
-        onpointerleave: point(null),
-        onfocus: point(joint.name),
-        onblur: point(null),
-      });
-      flip.append(
-        element("span", { class: `swatch ${hue(i)}` }),
-        element("span", { class: "profile-name" }, joint.name.slice(prefix)),
-        this.#values[i]!,
-      );
-      return flip;
-    });
-    this.#legend.replaceChildren(...entries);
-  }
-
-  #flip(joint: string, index: number): void {
-    const isShown = this.#hidden.delete(joint);
-    if (!isShown) this.#hidden.add(joint);
-    this.point(null);
-    this.#legend.children[index]!.setAttribute("aria-pressed", String(isShown));
-    for (const line of [1, 2, 3]) this.#plot?.setSeries(3 * index + line, { show: isShown });
-  }
-
   #resize(): void {
     const width = this.#canvas.clientWidth;
     if (!this.#plot || !width || width === this.#plot.width) return;
     this.#plot.setSize({ width, height: HEIGHT });
     this.at(this.#time);
   }
-}
-
-function hue(index: number): Hue {
-  return `joint-${(index % HUES) + 1}`;
-}
-
-/** How many characters at the front, up to an underscore, all names share and can do without: `panda_`. */
-function commonPrefix(names: readonly string[]): number {
-  const [first = ""] = names;
-  const isShared = (end: number) =>
-    names.every((name) => name.startsWith(first.slice(0, end)) && /^[a-z]/i.test(name.slice(end)));
-  const ends = [...first].flatMap((letter, i) => (letter === "_" && isShared(i + 1) ? [i + 1] : []));
-  return names.length > 1 ? (ends.at(-1) ?? 0) : 0;
 }
 
 /** The limits of the joints in a piece: those of the segment that it is in. */
@@ -262,12 +248,12 @@ function limitIn(
   return (segment?.limits ?? limits)[key];
 }
 
-/** All of the lines, and of the limits those that are not further away from them than they are wide. */
-function extent(plot: uPlot): [number, number] {
+/** All of the lines, and all limits or those that are not further away from them than they are wide. */
+function extent(plot: uPlot, showsLimits: boolean): [number, number] {
   const drawn = plot.series.map(({ show }, i) => (show && i > 0 ? (plot.data[i] as (number | null)[]) : []));
   let [low, high] = range(drawn.filter((_, i) => i % 3 === 1));
   if (low > high) [low, high] = [0, 0];
-  const span = high - low || Math.abs(high) || 1;
+  const span = showsLimits ? Infinity : high - low || Math.abs(high) || 1;
   for (const line of drawn.filter((_, i) => i % 3 !== 1)) {
     const [from, to] = range([line]);
     if (from > high && from <= high + span) high = Math.max(high, to);

@@ -62,13 +62,18 @@ export class Result {
     }
     if (isOther || store.value.degrees !== this.#degrees) this.#tell();
     this.#degrees = store.value.degrees;
-    if (isOther) this.#drawWay();
+    if (isOther) this.drawWay();
   }
 
-  /** In the colours of the page, and in the size of the robot. */
-  draw(): void {
+  /** The way of the tip, in the colours of the page and the size of the robot. */
+  drawWay(): void {
+    const { chain, store } = this.draft;
+    const failure = this.#plan?.answer.failure ?? null;
+    this.marks?.showWay(this.#curve && tipPath(chain, this.#curve), failure, store.value.unit);
+  }
+
+  drawProfiles(): void {
     this.#profiles.draw();
-    this.#drawWay();
   }
 
   /** Bring a joint's lines to the front. */
@@ -84,12 +89,6 @@ export class Result {
   stop(): void {
     this.#player.pause();
     this.#profiles.stop();
-  }
-
-  #drawWay(): void {
-    const { chain, store } = this.draft;
-    const failure = this.#plan?.answer.failure ?? null;
-    this.marks?.showWay(this.#curve && tipPath(chain, this.#curve), failure, store.value.unit);
   }
 
   async #download(): Promise<void> {

@@ -34,6 +34,13 @@ const OF_JOINTS = [
   { name: "joint_jerk", title: "Jerk", per: "/s³" },
 ] as const;
 
+/** Where a limit is from while no plan has told it. */
+const UNKNOWN: Record<keyof JointLimits, string> = {
+  joint_velocity: "robot’s own",
+  joint_acceleration: "assumed",
+  joint_jerk: "assumed",
+};
+
 export class Settings {
   readonly host: HTMLElement;
   #summary = element("span", { class: "muted small" });
@@ -148,7 +155,7 @@ export class Settings {
       },
     });
     const used = this.#used?.[name][index];
-    field.input.placeholder = used === undefined ? "" : format(used, kind, this.draft.degrees, 3);
+    field.input.placeholder = used === undefined ? UNKNOWN[name] : format(used, kind, this.draft.degrees, 3);
     this.#shows.push(({ limits }) => field.set(limits?.[name]?.[joint] ?? null));
     return field.input;
   }

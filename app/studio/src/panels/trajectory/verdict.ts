@@ -157,7 +157,7 @@ function rest({ limit_margin, min_singular_value, continuity }: Audit, ofJoint: 
   }
   if (min_singular_value) {
     const { value, time } = min_singular_value;
-    found.push({ ...bare, name: "Smallest σ of the Jacobian", value: short(value), joint: null, time });
+    found.push({ ...bare, name: "Smallest σ of J", value: short(value), joint: null, time });
   }
   const jump = continuity.acceleration;
   if (jump && jump.value > NO_JUMP) {
