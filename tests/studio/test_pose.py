@@ -225,6 +225,27 @@ def test_the_request_as_json_is_what_was_sent(studio: Studio) -> None:
     assert studio.fk("planar_2r", sent)["poses"]
 
 
+SLIDE = """() => {
+  const slider = document.querySelector('[aria-label="joint_1"]');
+  for (let i = 1; i <= 50; i += 1) {
+    slider.value = i / 100;
+    slider.dispatchEvent(new Event("input"));
+  }
+}"""
+
+
+def test_a_slider_that_moves_asks_no_more_than_is_answered(studio: Studio) -> None:
+    studio.open(robot="planar_2r", q="0,0")
+    studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
+    asked: list[Any] = []
+    studio.page.on("request", lambda request: asked.append(request.post_data_json) if "/fk" in request.url else None)
+    studio.run(SLIDE)
+    while not (asked and asked[-1]["joint_positions"] == [[0.5, 0.0]]):
+        studio.page.wait_for_timeout(20)
+    studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
+    assert len(asked) == 2, "the first position and the last"
+
+
 def test_the_arrow_keys_move_a_slider_and_turn_the_view(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0,0")
     studio.field("joint_1").press("ArrowRight")

@@ -128,3 +128,32 @@ export class Latest {
     this.#running?.abort();
   }
 }
+
+/** Does one thing at a time, and of what is wanted meanwhile only the last: for calls at every move of a slider, which
+ * are cheap for the service but cost the page more than its picture when each is begun and aborted. */
+export class Paced<T> {
+  #next: { wanted: T } | null = null;
+  #isBusy = false;
+
+  constructor(private readonly work: (wanted: T) => Promise<void>) {}
+
+  want(wanted: T): void {
+    this.#next = { wanted };
+    if (!this.#isBusy) void this.#go();
+  }
+
+  /** Begin nothing more. */
+  cancel(): void {
+    this.#next = null;
+  }
+
+  async #go(): Promise<void> {
+    this.#isBusy = true;
+    while (this.#next) {
+      const { wanted } = this.#next;
+      this.#next = null;
+      await this.work(wanted);
+    }
+    this.#isBusy = false;
+  }
+}

@@ -2,9 +2,10 @@
 
 import type { Matrix4 } from "three";
 
-import { type Api, Latest } from "../../api.ts";
+import { type Api, Latest, Paced } from "../../api.ts";
 import { asProblem } from "../../robot/load.ts";
 import type { ShownChain } from "../../robot/chain.ts";
+import type { RobotModel } from "../../robot/model.ts";
 import { asMatrix, difference } from "../../robot/pose.ts";
 import type { ForwardAnswer } from "../../types.ts";
 import { element } from "../../ui/dom.ts";
@@ -17,6 +18,8 @@ const TOLERANCE = 1e-9;
 export class Agreement {
   readonly host = element("p", { class: "agreement", role: "status" });
   #latest = new Latest();
+  #model: RobotModel | null = null;
+  #paced = new Paced<{ chain: ShownChain; T: Matrix4 }>(({ chain, T }) => this.#ask(chain, T));
 
   constructor(
     private readonly api: Api,
@@ -24,16 +27,23 @@ export class Agreement {
   ) {}
 
   stop(): void {
+    this.#paced.cancel();
     this.#latest.cancel();
   }
 
   /** Ask the service for the same pose, and say how far the two are apart. */
-  async check(chain: ShownChain, T: Matrix4): Promise<void> {
+  check(chain: ShownChain, T: Matrix4): void {
     if (chain.path === null) {
-      this.#latest.cancel();
+      this.stop();
       this.#say("idle", "Add the table to the robots (Robot, DH table) to compare this with the service.");
       return;
     }
+    if (chain.model !== this.#model) this.#latest.cancel();
+    this.#model = chain.model;
+    this.#paced.want({ chain, T });
+  }
+
+  async #ask(chain: ShownChain, T: Matrix4): Promise<void> {
     const call = { joint_positions: [chain.configuration], ...chain.ends, pose_format: "matrix" };
     try {
       const path = `${chain.path}/fk`;

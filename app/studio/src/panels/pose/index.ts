@@ -47,7 +47,7 @@ function open(host: HTMLElement, studio: Studio): () => void {
       if (!chain) return;
       const T = chain.model.pose(chain.base, chain.tip);
       tip.show(T, chain.base, chain.tip, state.degrees);
-      void agreement.check(chain, T);
+      agreement.check(chain, T);
     }),
     () => agreement.stop(),
     () => store.set({ joint: null }),
