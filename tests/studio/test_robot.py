@@ -268,6 +268,16 @@ def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     ][0] == pytest.approx(1.3)
 
 
+def test_the_table_of_a_robot_that_is_kept_stands_in_the_editor(studio: Studio) -> None:
+    studio.open("robot", robot="anthropomorphic")
+    studio.button("DH table").click()
+    studio.until("studio.store.value.table && document.querySelector('.product .katex')")
+    assert studio.page.locator("table.dh tbody tr:has(> th)").count() == 3
+    assert studio.button("Standard").get_attribute("aria-pressed") == "true"
+    studio.page.get_by_text("Base and tool").click()
+    assert studio.field("Base, x").input_value() == "0"
+
+
 def test_a_table_of_the_course_is_started_from(studio: Studio) -> None:
     open_editor(studio)
     tables = [catalogue.dh_table(name)["joints"] for name in catalogue.TABLES]

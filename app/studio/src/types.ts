@@ -69,8 +69,8 @@ export interface DhRow {
 export interface DhTable {
   convention: Convention;
   joints: DhRow[];
-  base?: Pose;
-  tool?: Pose;
+  base?: Pose | null;
+  tool?: Pose | null;
 }
 
 export interface Certificate {

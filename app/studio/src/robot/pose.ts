@@ -75,7 +75,7 @@ function quaternion(T: Matrix4): number[] {
 }
 
 /** T_a_b of a pose that the service sent as a matrix, or of a base or tool of a table. */
-export function asMatrix(pose: Pose | undefined): Matrix4 {
+export function asMatrix(pose: Pose | null | undefined): Matrix4 {
   const T = new Matrix4();
   if (!pose) return T;
   if (pose.matrix) return T.set(...(pose.matrix.flat() as Parameters<Matrix4["set"]>));

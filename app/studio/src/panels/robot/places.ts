@@ -43,7 +43,7 @@ export class Places {
   }
 
   build(table: DhTable): void {
-    for (const [index, { end }] of ENDS.entries()) this.#places[index]!.build(table[end]);
+    for (const [index, { end }] of ENDS.entries()) this.#places[index]!.build(table[end] ?? {});
     if (table.base || table.tool) this.host.setAttribute("open", "");
   }
 
@@ -93,7 +93,7 @@ class PlaceFields {
     );
   }
 
-  build(pose: Pose = {}): void {
+  build(pose: Pose): void {
     this.#pose = pose;
     if (pose.zyz || pose.rpy) this.#angles = pose.zyz ? "zyz" : "rpy";
     this.#fill();
