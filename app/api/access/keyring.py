@@ -1,10 +1,11 @@
 """The keys of the service: made at random, kept as salted hashes, read from a file or from the environment.
 
 A key is 32 random bytes behind the name it was given, `gelenk.anna.…`. Nobody guesses 256 bits, so that a slow hash
-would protect nothing and only cost each request; a salted HMAC-SHA-256 gives away no key either, and takes a
+would protect nothing and only cost each request; BLAKE2b under a salt gives away no key either, and takes half a
 microsecond.
 """
 
+import hashlib
 import hmac
 import logging
 import re
@@ -41,7 +42,7 @@ class Key:
         name: Whose it is; logs name it.
         scopes: What it is good for.
         salt: 16 random bytes.
-        digest: HMAC-SHA-256 of the key under the salt.
+        digest: BLAKE2b of the key under the salt, 32 bytes.
     """
 
     name: str
@@ -153,7 +154,7 @@ class Keyring:
 
 
 def _digest(salt: bytes, token: str) -> bytes:
-    return hmac.digest(salt, token.encode("utf-8", "surrogatepass"), "sha256")
+    return hashlib.blake2b(token.encode("utf-8", "surrogatepass"), key=salt, digest_size=32).digest()
 
 
 def _stamp(file: Path) -> tuple[int, int, int]:
