@@ -12,7 +12,7 @@ import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import pytest
 
@@ -42,10 +42,19 @@ def get(url: str, method: str = "GET", body: Any = None) -> tuple[int, Any]:
 @contextmanager
 def service(data_dir: Path, *arguments: str, **settings: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A running service and its address; it is told to stop at the end, and must."""
+    with service_that_writes(subprocess.PIPE, data_dir, *arguments, **settings) as (run, url):
+        yield run, url
+
+
+@contextmanager
+def service_that_writes(
+    output: int | IO[bytes], data_dir: Path, *arguments: str, **settings: str
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """The same with a place for what it writes."""
     port = free_port()
     environment = {**os.environ, "GELENK_DATA_DIR": str(data_dir), **settings}
     command = [sys.executable, "-m", "app.serve", "--port", str(port), *arguments]
-    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+    with subprocess.Popen(command, env=environment, stdout=output, stderr=subprocess.STDOUT, text=True) as run:
         try:
             url = f"http://{HOST}:{port}"
             wait_until_ready(url, run)

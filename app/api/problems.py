@@ -104,7 +104,7 @@ def problem(
         "type": f"urn:gelenk:{kind}",
         "title": kind.replace("-", " ").capitalize(),
         "status": int(status),
-        "detail": detail[:_MOST_TEXT],
+        "detail": _printable(detail[:_MOST_TEXT]),
         "instance": request.url.path[:256],
         "request_id": request.scope.get("request_id"),
     }
@@ -237,10 +237,14 @@ def _pointer(location: Sequence[int | str]) -> str:
     return "#/" + "/".join(escaped) if escaped else "#"
 
 
+def _printable(text: str) -> str:
+    return "".join(c if c.isprintable() else "�" for c in text)
+
+
 def _shortened(value: Any) -> Any:
     """Facts of bounded size: lists and texts from outside are cut."""
     if isinstance(value, str):
-        return "".join(c if c.isprintable() else "�" for c in value[:256])
+        return _printable(value[:256])
     if isinstance(value, list | tuple):
         items = [_shortened(item) for item in value[:_MOST_NAMES]]
         while len(orjson.dumps(items)) > _MOST_BYTES:

@@ -69,8 +69,9 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[Unpac
 
 
 def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> UnpackedRobot:
-    entries = [entry for entry in archive.infolist() if not entry.is_dir()]
-    _check_overlap(entries)
+    _check_count(archive)
+    entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
+    _check_overlap(entries, archive.start_dir)
     descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
     if len(descriptions) != 1:
         raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
@@ -108,6 +109,13 @@ def _check_directory(file: BinaryIO) -> None:
         raise TooLarge("bytes in the archive's list of entries", directory, MAX_DIRECTORY)
 
 
+def _check_count(archive: zipfile.ZipFile) -> None:
+    """Count the entries themselves: how many its end record tells is its own word."""
+    count = len(archive.infolist())
+    if count > MAX_ENTRIES:
+        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
+
+
 def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
     name = entry.filename
     parts = name.split("/")
@@ -115,8 +123,11 @@ def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
         raise InvalidArchive("its path must stay inside the archive", name)
     if len(name.encode()) > MAX_PATH_BYTES or not name.isprintable():
         raise InvalidArchive(f"its path must be at most {MAX_PATH_BYTES} bytes of printable characters", name)
-    if stat.S_ISLNK(entry.external_attr >> 16):
+    mode = entry.external_attr >> 16
+    if stat.S_ISLNK(mode):
         raise InvalidArchive("links are not allowed", name)
+    if stat.S_IFMT(mode) not in {0, stat.S_IFREG}:
+        raise InvalidArchive("it must be a plain file", name)
     if entry.compress_type not in {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}:
         raise InvalidArchive("its compression is not known: stored or deflated", name)
     if entry.flag_bits & 0x1:
@@ -126,13 +137,15 @@ def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
     seen.add(name.lower())
 
 
-def _check_overlap(entries: list[zipfile.ZipInfo]) -> None:
-    """Entries that share compressed bytes are how a small zip becomes a huge one."""
+def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:
+    """Entries that share compressed bytes are how a small zip becomes a huge one; all lie before their list."""
     end = -1
     for entry in sorted(entries, key=lambda entry: entry.header_offset):
         if entry.header_offset < end:
             raise InvalidArchive("it overlaps another entry", entry.filename)
         end = entry.header_offset + entry.compress_size
+        if end > directory:
+            raise InvalidArchive("it overlaps the list of entries", entry.filename)
 
 
 def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, left: int, allowed: int) -> int:

@@ -29,6 +29,8 @@ Stamp: TypeAlias = tuple[int, int, int]
 Signature: TypeAlias = tuple[Stamp | None, Stamp | None]
 
 ROBOT_FILE = "robot.json"
+_MOST_FOLDERS = 100
+"""Parts of a mesh's path that are looked for: more do not fit into an archive's path of 200 bytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,7 +225,7 @@ def _mesh_path(record: Record, reference: str) -> str | None:
         return None
     scheme, separator, path = reference.partition("://")
     if separator:
-        parts = path.split("/") if scheme in {"package", "model"} else []
+        parts = path.split("/")[-_MOST_FOLDERS:] if scheme in {"package", "model"} else []
         candidates = ["/".join(parts[start:]) for start in range(len(parts))]
     else:
         candidates = [os.path.normpath(PurePosixPath(record.file.urdf_folder) / reference)]
@@ -235,7 +237,9 @@ def _file_below(root: Path, path: str) -> Path | None:
     if PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES:
         return None
     try:
+        if not (root / path).is_file():
+            return None
         file = (root / path).resolve()
-        return file if file.is_relative_to(root.resolve()) and file.is_file() else None
+        return file if file.is_relative_to(root.resolve()) else None
     except (OSError, ValueError):  # a name that no file system takes
         return None

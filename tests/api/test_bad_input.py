@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from app.api.payloads import read_json
+from app.schemas.dh import FromUrdfRequest
 from tests.corpus.dh import GOOD_BODY, REFUSED_DH, REFUSED_JSON, TABLE, RefusedDh
 from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid
 
@@ -179,6 +181,14 @@ def test_a_large_list_of_nonsense_is_refused_at_its_first_entry(client: TestClie
     assert time.process_time() - started < 1.0
     assert answer.status_code == 422
     assert len(answer.content) < MAX_PROBLEM_BYTES
+
+
+@pytest.mark.parametrize("text", ['"' * 500_000, '\\"' * 300_000, "\\" * 500_000, 'a="1" ' * 100_000])
+def test_a_long_text_of_quotes_is_read_at_once(text: str) -> None:
+    """A request may be answered in another process, whose time is not seen from here: so without one."""
+    started = time.process_time()
+    assert read_json(FromUrdfRequest, to_json({"urdf": text})).urdf == text
+    assert time.process_time() - started < 0.5
 
 
 def test_unknown_paths_and_methods_are_problems(client: TestClient) -> None:
