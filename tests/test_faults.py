@@ -17,7 +17,7 @@ import pytest
 
 from tests.test_serve import HOST, get, service
 
-LOST = [{"position": [9.0, 0.0, 0.0], "rotation_vector": [0.0, 0.0, 0.0]}] * 2000
+LOST = [{"position": [9.0, 0.0, 0.0], "rotation_vector": [0.0, 0.0, 0.0]}] * 10_000
 """Out of reach of the Panda: looked for until time is up."""
 QUICK = {"joint_positions": [[0.0, 0.0]]}
 

@@ -194,6 +194,7 @@ def test_a_table_that_cannot_be_worked_out_says_why(studio: Studio, refusals: se
 def test_long_work_is_stopped(studio: Studio) -> None:
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE)
     studio.until(AGREES)
+    studio.until("document.querySelector('.sheet annotation')")
     held: list[Callable[[], None]] = []
     studio.page.route("**/v1/dh/derive", lambda route: held.append(route.continue_))
     studio.button("Values").click()
