@@ -81,6 +81,7 @@ export class Derivation {
 
   async #fetchTable(): Promise<void> {
     this.#table = null;
+    this.#answered = ""; // the sheet is empty again, be the table the same
     this.#answers.cancel();
     await this.#attempt(async () => {
       const found = await this.#tables.run((signal) => chainTable(this.api, this.store.value, signal));
