@@ -329,8 +329,18 @@ def workers() -> set[str]:
 
 
 def children(pid: str) -> set[str]:
-    return {child for task in Path(f"/proc/{pid}/task").iterdir() for child in (task / "children").read_text().split()}
+    """Those of all its threads; a thread may end while they are looked through, and its children go to another one."""
+    while True:
+        try:
+            tasks = list(Path(f"/proc/{pid}/task").iterdir())
+            return {child for task in tasks for child in (task / "children").read_text().split()}
+        except (FileNotFoundError, ProcessLookupError):
+            if not Path(f"/proc/{pid}").exists():
+                return set()
 
 
 def command(pid: str) -> bytes:
-    return Path(f"/proc/{pid}/cmdline").read_bytes()
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    except (FileNotFoundError, ProcessLookupError):
+        return b""

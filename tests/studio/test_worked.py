@@ -28,7 +28,11 @@ SLIDE = """() => {
     slider.dispatchEvent(new Event("input"));
   }
 }"""
-AGREES = "document.querySelector('.agreement')?.dataset.tone === 'good' && !document.querySelector('.formula:empty')"
+AGREES = (
+    "document.querySelector('section:not([hidden]) > .agreement')?.dataset.tone === 'good'"
+    " && !document.querySelector('.formula:empty')"
+)
+"""What agreed before stays in the hidden section while the sheet is worked out anew."""
 
 
 def part(studio: Studio, name: str) -> None:
