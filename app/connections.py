@@ -26,8 +26,8 @@ _SLOWEST_BYTES = 32 * 1024
 """A body that takes longer than its time must come at this rate, [bytes/s]."""
 _GRACE_SECONDS = 2.0
 """How long the rest of a body is waited for when the service shuts down."""
-_PAUSE_SECONDS = 0.1
-"""A connection that was refused is not read from for so long: refusing must cost less than answering."""
+_PAUSE_SECONDS = 1.0
+"""What a refused request is told to wait; its connection is not read from before, or refusing would take all time."""
 _EVICTED = 16
 """Connections that make room together where there are too many."""
 
@@ -180,6 +180,8 @@ class BoundedProtocol(HttpToolsProtocol):
         """The answer is on its way."""
         self.since = self.loop.time()
         super().on_response_complete()
+        if self.cycle.response_complete and self.cycle.scope["state"].get("refused"):
+            self._pause()
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
         begin = partial(super()._start_asgi_task, cycle, app)
@@ -194,13 +196,16 @@ class BoundedProtocol(HttpToolsProtocol):
         detail = "the service has as many requests as it can work off: ask again in 1 s"
         status, path = HTTPStatus.SERVICE_UNAVAILABLE, cycle.scope["path"]
         self.transport.write(_answer(status, "service-busy", detail, path, stays=stays))
-        cycle.response_started = cycle.response_complete = True
+        cycle.response_started = cycle.response_complete = cycle.scope["state"]["refused"] = True
         if not stays:
             self.transport.close()
             return
         self.on_response_complete()
-        self.flow.pause_reading()
-        self.loop.call_later(_PAUSE_SECONDS, self._listen)
+
+    def _pause(self) -> None:
+        if not self.transport.is_closing():
+            self.flow.pause_reading()
+            self.loop.call_later(_PAUSE_SECONDS, self._listen)
 
     def _listen(self) -> None:
         if not self.transport.is_closing():
