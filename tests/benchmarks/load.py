@@ -1,0 +1,355 @@
+"""The service under load, and beyond what it can bear: wrk as the crowd, and beside it clients that keep to the rules.
+
+The crowd sends its next request as soon as it has an answer, also where that was a refusal with `Retry-After`. What is
+told of latency is that of the polite clients, who wait as long as they are asked to, and of one who watches /healthz.
+Everything runs on this machine: the crowd takes its share of the processors.
+"""
+
+import asyncio
+import contextlib
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import AsyncGenerator, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tests.benchmarks.server import wait_for
+from tests.benchmarks.table import Row
+from tests.test_serve import HOST, free_port
+
+WORKERS = 2
+POLITE = 20
+HEALTH_PERIOD = 0.05
+WARM_UP_SECONDS = 60.0
+FK = ("panda/fk", {"joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]]})
+TRAJECTORY = (
+    "panda/trajectory",
+    {
+        "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
+        "segments": [{"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]}],
+    },
+)
+_SCRIPT = """
+wrk.method = "POST"
+wrk.body = [==[%s]==]
+wrk.headers["Content-Type"] = "application/json"
+done = function(summary, latency, requests)
+  local e = summary.errors
+  io.write(string.format('RESULT {"requests": %%d, "refused": %%d, "broken": %%d, "timeouts": %%d, "p99": %%f}\\n',
+    summary.requests, e.status, e.connect + e.read + e.write, e.timeout, latency:percentile(99.0) / 1e6))
+end
+"""
+
+
+class Call(NamedTuple):
+    """What is asked: the end of its path, and its body."""
+
+    path: str
+    body: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How much of it.
+
+    Attributes:
+        seconds: Of each part.
+        clients: That the service is to bear without an error.
+        times: How many times that is too much.
+        slow_sockets: That send nothing whole.
+    """
+
+    seconds: float = 60.0
+    clients: int = 200
+    times: int = 10
+    slow_sockets: int = 3000
+
+
+class Crowd(NamedTuple):
+    """What the crowd saw: answers, of these refused, connections broken, answers late, 99 % answered within [s]."""
+
+    requests: int
+    refused: int
+    broken: int
+    timeouts: int
+    p99: float
+
+
+@dataclass
+class Seen:
+    """What polite clients and the watcher saw; latencies in seconds."""
+
+    accepted: list[float] = field(default_factory=list)
+    refused: list[float] = field(default_factory=list)
+    healthy: list[float] = field(default_factory=list)
+    other: list[int] = field(default_factory=list)
+
+
+def measure() -> list[Row]:
+    """All of it at full length: about six minutes."""
+    return measured(Scale())
+
+
+def measured(scale: Scale) -> list[Row]:
+    """The rows of the table."""
+    if shutil.which("wrk") is None:
+        sys.exit("wrk is needed to load the service: apt-get install wrk")
+    with serving() as (url, pid):
+        rows = []
+        for name, call in (("`fk`", Call(*FK)), ("`trajectory`", Call(*TRAJECTORY))):
+            few, seen_by_few, growth = loaded(url, pid, call, scale.clients, scale.seconds)
+            many, seen_by_many, _ = loaded(url, pid, call, scale.clients * scale.times, scale.seconds)
+            rows += [
+                row_of_few(name, scale, few, growth),
+                *rows_of_many(name, scale, many, seen_by_few, seen_by_many),
+            ]
+        before, _, _ = loaded(url, pid, Call(*FK), scale.clients, scale.seconds / 4)
+        with slow_sockets(url, scale.slow_sockets):
+            during, _, _ = loaded(url, pid, Call(*FK), scale.clients, scale.seconds / 4)
+        rows.append(row_of_slow(scale, before, during))
+    return rows
+
+
+def row_of_few(name: str, scale: Scale, few: Crowd, growth: float) -> Row:
+    """That as many as it is to bear get their answers."""
+    rate = few.requests / scale.seconds
+    errors = few.refused + few.broken + few.timeouts
+    told = f"{rate:.0f} requests/s, 99 % within {1e3 * few.p99:.0f} ms, {errors} errors, memory {growth:+.1%}"
+    return Row(f"{scale.clients} clients of {name} on {WORKERS} workers", told, wanted="no error, memory < 3 %")
+
+
+def rows_of_many(name: str, scale: Scale, many: Crowd, before: Seen, seen: Seen) -> list[Row]:
+    """That too many are refused, and harm neither who is not nor who watches."""
+    clients = scale.clients * scale.times
+    accepted, usual = p99(seen.accepted), p99(before.accepted)
+    share = many.refused / max(1, many.requests)
+    return [
+        Row(
+            f"{clients} clients of {name}: 99 % of who is let in",
+            f"{1e3 * accepted:.0f} ms",
+            f"with {scale.clients}, {1e3 * usual:.0f} ms",
+            accepted / usual,
+            "≤ 2",
+        ),
+        Row(
+            f"{clients} clients of {name}: 99 % of who is not",
+            f"503 within {1e3 * p99(seen.refused):.0f} ms; {share:.0%} of the crowd's requests, "
+            f"{many.broken + many.timeouts} broken or late, {len(seen.other)} other answers",
+            wanted="at once",
+        ),
+        Row(f"{clients} clients of {name}: `/healthz`", f"99 % within {1e3 * p99(seen.healthy):.0f} ms", wanted="< 50"),
+    ]
+
+
+def row_of_slow(scale: Scale, before: Crowd, during: Crowd) -> Row:
+    """That sockets which send nothing whole change nothing."""
+    return Row(
+        f"{scale.clients} clients of `fk` beside {scale.slow_sockets} slow sockets",
+        f"{during.requests / scale.seconds * 4:.0f} requests/s, 99 % within {1e3 * during.p99:.0f} ms, "
+        f"{during.refused + during.broken + during.timeouts} errors",
+        f"without, {before.requests / scale.seconds * 4:.0f} requests/s, {1e3 * before.p99:.0f} ms",
+        during.requests / max(1, before.requests),
+        "≈ 1, no error",
+    )
+
+
+def p99(latencies: list[float]) -> float:
+    """What 99 % are within, [s]; nothing where there are none."""
+    return sorted(latencies)[int(0.99 * (len(latencies) - 1))] if latencies else float("nan")
+
+
+@contextmanager
+def serving(**settings: str) -> Iterator[tuple[str, int]]:
+    """The service with two workers, warm: its address, and its process."""
+    port = free_port()
+    with tempfile.TemporaryDirectory() as data_dir:
+        command = [sys.executable, "-m", "app.serve", "--port", str(port), "--workers", str(WORKERS)]
+        environment = {**os.environ, "GELENK_DATA_DIR": data_dir, **settings}
+        with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as process:
+            try:
+                url = f"http://{HOST}:{port}"
+                wait_for(f"{url}/readyz")
+                asyncio.run(warm_up(url))
+                yield url, process.pid
+            finally:
+                process.terminate()
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(timeout=20)
+                process.kill()
+
+
+async def warm_up(url: str) -> None:
+    """Have all processes answer once: those for what takes longer start when the service is ready for the rest."""
+    until = time.perf_counter() + WARM_UP_SECONDS
+    for call in (Call(*FK), Call(*TRAJECTORY)):
+        await asyncio.gather(*(let_in(url, call, until) for _ in range(POLITE)))
+
+
+async def let_in(url: str, call: Call, until: float) -> None:
+    """Ask until there is an answer."""
+    async with contextlib.aclosing(asked(url, request_of(call), until)) as answers:
+        async for status, _ in answers:
+            if status == 200:
+                return
+            await asyncio.sleep(0.2)
+    raise TimeoutError(call.path)
+
+
+def loaded(url: str, pid: int, call: Call, clients: int, seconds: float) -> tuple[Crowd, Seen, float]:
+    """What a crowd saw, what polite clients saw meanwhile, and by what share the service's memory has grown."""
+    with begun_crowd(url, call, clients, seconds) as process:
+        time.sleep(min(2.0, seconds / 5))
+        at_first = memory(pid)
+        seen = asyncio.run(watched(url, call, 0.7 * seconds - min(2.0, seconds / 5)))
+        at_last = memory(pid)
+        found = told_by(process, seconds)
+    time.sleep(0.5)
+    return found, seen, at_last / at_first - 1.0
+
+
+def crowd(url: str, call: Call, clients: int, seconds: float) -> Crowd:
+    """What a crowd of clients saw."""
+    with begun_crowd(url, call, clients, seconds) as process:
+        return told_by(process, seconds)
+
+
+@contextmanager
+def begun_crowd(url: str, call: Call, clients: int, seconds: float) -> "Iterator[subprocess.Popen[str]]":
+    """Wrk at work; ended by its own process where it does not end by itself."""
+    threads = min(2, clients)
+    with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
+        script.write(_SCRIPT % json.dumps(call.body))
+        script.flush()
+        command = ["wrk", f"-t{threads}", f"-c{clients}", f"-d{max(1, round(seconds))}s", "--timeout", "30s"]
+        command += ["-s", script.name, f"{url}/v1/robots/{call.path}"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+            try:
+                yield process
+            finally:
+                if process.poll() is None:
+                    process.send_signal(signal.SIGKILL)
+
+
+def told_by(process: "subprocess.Popen[str]", seconds: float) -> Crowd:
+    """What wrk tells at its end."""
+    text, _ = process.communicate(timeout=seconds + 60)
+    line = next(line for line in text.splitlines() if line.startswith("RESULT "))
+    return Crowd(**json.loads(line.removeprefix("RESULT ")))
+
+
+async def watched(url: str, call: Call, seconds: float) -> Seen:
+    """What polite clients and a watcher see for some time."""
+    seen, until = Seen(), time.perf_counter() + seconds
+    clients = (polite(url, call, seen, until) for _ in range(POLITE))
+    await asyncio.gather(watcher(url, seen, until), *clients)
+    return seen
+
+
+async def polite(url: str, call: Call, seen: Seen, until: float) -> None:
+    """A client who asks ten times a second, and waits where it is told to."""
+    async for status, latency in asked(url, request_of(call), until):
+        if status == 200:
+            seen.accepted.append(latency)
+            await asyncio.sleep(0.1)
+        elif status == 503:
+            seen.refused.append(latency)
+            await asyncio.sleep(1.0)
+        else:
+            seen.other.append(status)
+            await asyncio.sleep(0.1)
+
+
+async def watcher(url: str, seen: Seen, until: float) -> None:
+    """Whoever wants to know whether the process lives."""
+    async for status, latency in asked(url, f"GET /healthz HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode(), until):
+        (seen.healthy if status == 200 else seen.refused).append(latency)
+        await asyncio.sleep(HEALTH_PERIOD)
+
+
+def request_of(call: Call) -> bytes:
+    """A call as it goes over the wire."""
+    body = json.dumps(call.body).encode()
+    head = f"POST /v1/robots/{call.path} HTTP/1.1\r\nHost: {HOST}\r\nContent-Type: application/json\r\n"
+    return f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
+
+
+async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[tuple[int, float]]:
+    """Status and latency of one request after the other, on one connection while it lasts; 0 where it broke."""
+    port, writer = int(url.rsplit(":", 1)[1]), None
+    try:
+        while time.perf_counter() < until:
+            began = time.perf_counter()
+            try:
+                if writer is None:
+                    reader, writer = await asyncio.open_connection(HOST, port)
+                writer.write(request)
+                status, stays = await status_of_answer(reader)
+            except (OSError, asyncio.IncompleteReadError):
+                status, stays = 0, False
+            if not stays:
+                await closed(writer)
+                writer = None
+            yield status, time.perf_counter() - began
+    finally:
+        await closed(writer)
+
+
+async def status_of_answer(reader: asyncio.StreamReader) -> tuple[int, bool]:
+    """The status of an answer that is read to its end, and whether the connection stays."""
+    head = (await reader.readuntil(b"\r\n\r\n")).lower()
+    size = next(int(line[15:]) for line in head.split(b"\r\n") if line.startswith(b"content-length:"))
+    await reader.readexactly(size)
+    return int(head.split()[1]), b"connection: close" not in head
+
+
+async def closed(writer: asyncio.StreamWriter | None) -> None:
+    """Close a connection, whatever state it is in."""
+    if writer is not None:
+        writer.close()
+        with contextlib.suppress(OSError):
+            await writer.wait_closed()
+
+
+@contextmanager
+def slow_sockets(url: str, count: int) -> Iterator[None]:
+    """Connections that have sent the beginning of a request, a third of them the half of a body."""
+    port, sockets = int(url.rsplit(":", 1)[1]), []
+    half = f"POST /v1/robots/panda/fk HTTP/1.1\r\nHost: {HOST}\r\nContent-Length: 1000\r\n\r\n{{".encode()
+    try:
+        for i in range(count):
+            connection = socket.create_connection((HOST, port), timeout=20)
+            connection.sendall((b"", b"GET / HTTP/1.1\r\nHost: ", half)[i % 3])
+            sockets.append(connection)
+        yield
+    finally:
+        for connection in sockets:
+            connection.close()
+
+
+def memory(pid: int) -> float:
+    """Bytes of a process and of all that come from it, what they share counted once."""
+    return sum(_proportional(one) for one in _tree(pid))
+
+
+def _tree(pid: int) -> Iterator[int]:
+    yield pid
+    with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+        for task in Path(f"/proc/{pid}/task").iterdir():
+            for child in (task / "children").read_text().split():
+                yield from _tree(int(child))
+
+
+def _proportional(pid: int) -> float:
+    with contextlib.suppress(OSError):
+        lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+        return 1024.0 * next(int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+    return 0.0
