@@ -65,7 +65,8 @@ class Shelf:
             return
         try:
             with folders.exclusive(self._root):
-                folders.sweep(self._root)
+                for folder in (self._root, *(path.parent for path in self._root.glob(f"*/{JOB_FILE}"))):
+                    folders.sweep(folder)
                 for lock in (self._root / _OWNERS).glob("*"):
                     if not self._lives(lock.name):
                         lock.unlink(missing_ok=True)
@@ -93,6 +94,7 @@ class Shelf:
             StorageFailed: It cannot be written.
         """
         with folders.exclusive(self._root):
+            folders.sweep(self._root)
             self._say_alive()
             if job_id is not None and (found := self._read(job_id)) is not None:
                 if found.digest != digest:
@@ -144,12 +146,8 @@ class Shelf:
             job = replace(job, **changes)
             if job.is_final:
                 job = replace(job, finished=time.time())
-                folders.replace_file(self._root / job_id, JOB_FILE, job.as_bytes())
-            else:
-                # How far a job is need not outlive the machine: it is not synced.
-                beside = self._root / job_id / f".new-{uuid.uuid4().hex}"
-                beside.write_bytes(job.as_bytes())
-                beside.replace(self._root / job_id / JOB_FILE)
+            # How far a job is need not outlive the machine.
+            folders.replace_file(self._root / job_id, JOB_FILE, job.as_bytes(), is_durable=job.is_final)
         return job
 
     def write(self, job_id: str, name: str, content: Callable[[IO[bytes]], object]) -> None:

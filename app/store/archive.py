@@ -12,13 +12,14 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
-from tempfile import TemporaryDirectory
-from typing import BinaryIO
+from io import BytesIO
+from pathlib import PurePosixPath
+from tempfile import TemporaryFile
+from typing import IO, BinaryIO
 
 from app.model.errors import InvalidArchive, TooLarge, quoted
 from app.model.xml import MAX_BYTES
-from app.store.folders import writing
+from app.store.folders import Stretch, writing
 
 MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
@@ -38,12 +39,13 @@ class UnpackedRobot:
     Attributes:
         urdf: The description's bytes.
         urdf_folder: Where it stood in the archive, "" at the top.
-        meshes: Mesh files by their path in the archive; they live as long as the context they were unpacked in.
+        meshes: Mesh files by their path in the archive: stretches of a file without a name, which is gone with the
+            context that they were unpacked in, or with the process.
     """
 
     urdf: bytes
     urdf_folder: str
-    meshes: dict[str, Path]
+    meshes: dict[str, Stretch]
 
 
 @contextmanager
@@ -64,11 +66,11 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[Unpac
         archive = zipfile.ZipFile(file)
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
         raise InvalidArchive("the file is not a zip archive") from error
-    with archive, writing(), TemporaryDirectory(prefix="gelenk-") as folder:
-        yield _unpack(archive, Path(folder), max_unpacked)
+    with archive, writing(), TemporaryFile() as store:
+        yield _unpack(archive, store, max_unpacked)
 
 
-def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> UnpackedRobot:
+def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> UnpackedRobot:
     _check_count(archive)
     entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
     _check_overlap(entries, archive.start_dir)
@@ -76,19 +78,19 @@ def _unpack(archive: zipfile.ZipFile, folder: Path, max_unpacked: int) -> Unpack
     if len(descriptions) != 1:
         raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
     seen = {str(parent).lower() for entry in entries for parent in PurePosixPath(entry.filename).parents}
-    meshes: dict[str, Path] = {}
-    left = max_unpacked
-    for number, entry in enumerate(entries):
+    meshes: dict[str, Stretch] = {}
+    used = 0
+    for entry in entries:
         _check_entry(entry, seen)
         if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in MESH_SUFFIXES:
             continue
-        target = folder / str(number)
-        left -= _copy(archive, entry, target, left, max_unpacked)
-        meshes[entry.filename] = target
-    urdf = folder / "urdf"
+        size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
+        meshes[entry.filename] = Stretch(store, used, size)
+        used += size
+    urdf = BytesIO()
     _copy(archive, descriptions[0], urdf, MAX_BYTES, MAX_BYTES)
     parent = PurePosixPath(descriptions[0].filename).parent
-    return UnpackedRobot(urdf.read_bytes(), "" if str(parent) == "." else str(parent), meshes)
+    return UnpackedRobot(urdf.getvalue(), "" if str(parent) == "." else str(parent), meshes)
 
 
 def _check_directory(file: BinaryIO) -> None:
@@ -148,15 +150,14 @@ def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:
             raise InvalidArchive("it overlaps the list of entries", entry.filename)
 
 
-def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, left: int, allowed: int) -> int:
-    """Unpack one entry, counting; returns its bytes."""
+def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], left: int, allowed: int) -> int:
+    """Unpack one entry to the end of a file, counting; returns its bytes."""
     count = 0
-    with target.open("wb") as sink:
-        for chunk in _chunks(archive, entry):
-            count += len(chunk)
-            if count > left:
-                raise TooLarge(f"bytes unpacked up to {quoted(entry.filename)}", allowed - left + count, allowed)
-            sink.write(chunk)
+    for chunk in _chunks(archive, entry):
+        count += len(chunk)
+        if count > left:
+            raise TooLarge(f"bytes unpacked up to {quoted(entry.filename)}", allowed - left + count, allowed)
+        sink.write(chunk)
     return count
 
 

@@ -12,13 +12,47 @@ import shutil
 import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
+from typing import IO, TypeAlias
 
 from app.model.errors import StorageFailed, StorageFull
 
 _NEW = ".new-"
 _OLD = ".old-"
 _LOCK = ".lock"
+_PIECE = 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A part of an open file.
+
+    Attributes:
+        file: Open for reading.
+        start: Where in it the part begins, [bytes].
+        size: How long it is, [bytes].
+    """
+
+    file: IO[bytes]
+    start: int
+    size: int
+
+
+Content: TypeAlias = bytes | Stretch
+"""What a file is to hold."""
+
+
+def pieces(content: Content) -> Iterator[bytes]:
+    """The bytes of a content, piece by piece."""
+    if isinstance(content, bytes):
+        yield content
+        return
+    content.file.seek(content.start)
+    left = content.size
+    while left and (piece := content.file.read(min(left, _PIECE))):
+        left -= len(piece)
+        yield piece
 
 
 @contextmanager
@@ -49,27 +83,38 @@ def exclusive(root: Path) -> Iterator[None]:
             yield
 
 
-def sweep(root: Path) -> None:
-    """Remove what interrupted writers have left below `root`; to be called while holding `exclusive`."""
-    for pattern in (_NEW + "*", _OLD + "*", f"*/{_NEW}*"):
-        for orphan in root.glob(pattern):
+def sweep(folder: Path) -> None:
+    """Remove what interrupted writers have left in a folder; to be called while holding `exclusive`.
+
+    Whoever writes does so first: a process that is killed again and again in the middle fills no disk.
+    """
+    for pattern in (_NEW + "*", _OLD + "*"):
+        for orphan in folder.glob(pattern):
             _discard(orphan)
 
 
-def create_folder(root: Path, name: str, files: Mapping[str, bytes | Path]) -> None:
-    """Make `root/name` with these files (content, or a file to copy, by relative path), all at once."""
+def create_folder(root: Path, name: str, files: Mapping[str, Content]) -> None:
+    """Make `root/name` with these files (their content by relative path), all at once."""
     with _staging(root) as staging:
         _write_tree(staging, files)
         staging.rename(root / name)
         _sync(root)
 
 
-def replace_file(folder: Path, name: str, content: bytes) -> None:
-    """Put a file in the place of the one of the same name, all at once."""
+def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = True) -> None:
+    """Put a file in the place of the one of the same name, all at once.
+
+    Args:
+        folder: Where it is.
+        name: Its name.
+        content: What it is to hold.
+        is_durable: Whether it is on disk when this returns; else that is left to the system.
+    """
     with _staging(folder) as staging:
-        _write_tree(staging, {name: content})
+        _write_tree(staging, {name: content}, is_durable)
         (staging / name).replace(folder / name)
-        _sync(folder)
+        if is_durable:
+            _sync(folder)
 
 
 def remove_folder(root: Path, name: str) -> None:
@@ -106,20 +151,20 @@ def _staging(parent: Path) -> Iterator[Path]:
         shutil.rmtree(staging, ignore_errors=True)
 
 
-def _write_tree(folder: Path, files: Mapping[str, bytes | Path]) -> None:
-    """Write files below a new folder and sync each of them, and every folder on the way."""
+def _write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = True) -> None:
+    """Write files below a new folder; where wanted sync each of them, and every folder on the way."""
     folder.mkdir()
     for name, content in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         with path.open("wb") as target:
-            if isinstance(content, Path):
-                with content.open("rb") as source:
-                    shutil.copyfileobj(source, target, 1024 * 1024)
-            else:
-                target.write(content)
-            target.flush()
-            os.fsync(target.fileno())
+            for piece in pieces(content):
+                target.write(piece)
+            if is_durable:
+                target.flush()
+                os.fsync(target.fileno())
+    if not is_durable:
+        return
     for parent in (folder, *(path for path in folder.rglob("*") if path.is_dir())):
         _sync(parent)
 

@@ -31,6 +31,7 @@ from app.model.robot import Robot
 from app.schemas.common import ChainEnds
 from app.schemas.robots import RobotFile
 from app.store import folders
+from app.store.folders import Content
 from app.store.records import ROBOT_FILE, LoadedRobot, Record, describe, load, mesh_file, read_record
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -54,7 +55,7 @@ class RobotUpload:
         model: The bytes of the URDF or of the DH table as JSON.
         description: One sentence for people.
         default_chain: Chain of calls that name none.
-        meshes: Mesh files by relative path.
+        meshes: What mesh files hold, by relative path.
         urdf_folder: Where the URDF stood among them.
     """
 
@@ -63,7 +64,7 @@ class RobotUpload:
     model: bytes
     description: str = ""
     default_chain: ChainEnds | None = None
-    meshes: Mapping[str, Path] = field(default_factory=dict)
+    meshes: Mapping[str, Content] = field(default_factory=dict)
     urdf_folder: str = ""
 
 
@@ -90,6 +91,7 @@ class Library:
             with folders.exclusive(self._uploads):
                 folders.sweep(self._uploads)
                 for folder in self._folders():
+                    folders.sweep(folder)
                     self._remove_stale_versions(folder)
         except StorageFailed as error:
             logger.warning("uploaded robots cannot be written: %s", error.reason)
@@ -177,6 +179,7 @@ class Library:
             raise RobotExists(upload.name)
         file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):
+            folders.sweep(self._uploads)
             folder = self._uploads / upload.name
             if folder.exists():
                 if not _holds(folder, file):
@@ -199,6 +202,7 @@ class Library:
         file, version = _robot_file(upload)
         with folders.exclusive(self._uploads):
             self._writable(upload.name)
+            folders.sweep(folder)
             folders.create_folder(folder, version, _contents(upload))
             try:
                 folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
@@ -217,6 +221,7 @@ class Library:
         self._writable(name)
         with folders.exclusive(self._uploads):
             self._writable(name)
+            folders.sweep(self._uploads)
             folders.remove_folder(self._uploads, name)
         with self._lock:
             self._loaded.pop(name, None)
@@ -295,9 +300,9 @@ def _robot_file(upload: RobotUpload) -> tuple[RobotFile, str]:
     return file, version
 
 
-def _contents(upload: RobotUpload) -> dict[str, bytes | Path]:
+def _contents(upload: RobotUpload) -> dict[str, Content]:
     """The files of a version's folder."""
-    meshes = {f"meshes/{path}": file for path, file in upload.meshes.items()}
+    meshes = {f"meshes/{path}": content for path, content in upload.meshes.items()}
     return {_MODEL_NAMES[upload.format]: upload.model, **meshes}
 
 
@@ -308,10 +313,12 @@ def _as_bytes(file: RobotFile) -> bytes:
 def _digest(upload: RobotUpload) -> str:
     """SHA-256 of the model's bytes and of each mesh's path and bytes."""
     digest = hashlib.sha256(upload.model)
-    for path, file in sorted(upload.meshes.items()):
+    for path in sorted(upload.meshes):
         digest.update(f"\0{path}\0".encode())
-        with file.open("rb") as stream:
-            digest.update(hashlib.file_digest(stream, "sha256").digest())
+        of_mesh = hashlib.sha256()
+        for piece in folders.pieces(upload.meshes[path]):
+            of_mesh.update(piece)
+        digest.update(of_mesh.digest())
     return digest.hexdigest()
 
 

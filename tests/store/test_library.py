@@ -79,9 +79,7 @@ def test_what_is_no_robot_leaves_no_trace(library: Library, tmp_path: Path) -> N
 
 
 def test_a_replacement_leaves_only_its_own_files(library: Library, tmp_path: Path) -> None:
-    mesh = tmp_path / "mesh"
-    mesh.write_bytes(b"solid")
-    library.add(RobotUpload("arm", "urdf", one_joint(1), meshes={"meshes/a.stl": mesh}))
+    library.add(RobotUpload("arm", "urdf", one_joint(1), meshes={"meshes/a.stl": b"solid"}))
     library.replace(RobotUpload("arm", "urdf", one_joint(2)))
     names = sorted(path.name for path in (tmp_path / "robots" / "arm").iterdir())
     record = json.loads((tmp_path / "robots" / "arm" / "robot.json").read_text())
@@ -259,7 +257,31 @@ def test_orphans_are_swept_under_the_lock(tmp_path: Path) -> None:
     (root / "arm" / ".new-2").mkdir(parents=True)
     with folders.exclusive(root):
         folders.sweep(root)
+        folders.sweep(root / "arm")
     assert sorted(path.name for path in root.rglob("*")) == [".lock", "arm"]
+
+
+def test_who_writes_sweeps_first(library: Library, tmp_path: Path) -> None:
+    """Of writers that are killed one after the other no more is left than the last one was at."""
+    library.add(RobotUpload("arm", "urdf", one_joint(1)))
+    root = tmp_path / "robots"
+
+    def leave_orphans() -> None:
+        for folder in (root, root / "arm"):
+            (folder / ".new-1" / "meshes").mkdir(parents=True)
+        (root / ".old-1").mkdir()
+
+    def orphans() -> set[str]:
+        return {str(path.relative_to(root)) for path in root.rglob(".[no][el][wd]-*")}
+
+    leave_orphans()
+    library.replace(RobotUpload("arm", "urdf", one_joint(2)))
+    assert orphans() == {".new-1", ".old-1"}
+    library.add(RobotUpload("other", "urdf", one_joint(1)))
+    assert orphans() == set()
+    leave_orphans()
+    library.remove("arm")
+    assert orphans() == set()
 
 
 def test_a_stale_file_beside_the_record_is_harmless(library: Library, tmp_path: Path) -> None:
