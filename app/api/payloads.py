@@ -48,10 +48,17 @@ _NPY_VERSIONS = {(1, 0), (2, 0), (3, 0)}
 _NPY_LONGEST_HEADER = 10_000
 _NPY_KEYS = {"descr", "fortran_order", "shape"}
 _NPY_ORDERS = {"True", "False"}
-_NPY_ENTRY = re.compile(r"""(?:'|")(\w+)(?:'|")\s*:\s*(\[[^\]]*\]|\([^()]*\)|'[^']*'|"[^"]*"|\w+)\s*""", re.ASCII)
-_NPY_HEADER = re.compile(r"\{\s*(?:E(?:,\s*E)*(?:,\s*)?)?\}\s*".replace("E", _NPY_ENTRY.pattern), re.ASCII)
-_NPY_SIZE = re.compile(r"\d{1,19}", re.ASCII)
-_NPY_SHAPE = re.compile(r"\(\s*(?:\d{1,19}L?\s*,\s*)*(?:\d{1,19}L?\s*)?\)", re.ASCII)
+_NPY_BLANK = r"[ \t\r\n\f]*"
+_NPY_ENTRY = re.compile(
+    r"""('\w+'|"\w+")B:B(\[[^\]]*\]|\([^()]*\)|'[^']*'|"[^"]*"|\w+)B""".replace("B", _NPY_BLANK), re.ASCII
+)
+_NPY_HEADER = re.compile(
+    r"\{B(?:E(?:,BE)*(?:,B)?)?\}B".replace("B", _NPY_BLANK).replace("E", _NPY_ENTRY.pattern), re.ASCII
+)
+_NPY_SIZE = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
+_NPY_SHAPE = re.compile(
+    r"\(B(?:SL?B,B)*(?:SL?B)?\)".replace("B", _NPY_BLANK).replace("S", f"(?:{_NPY_SIZE.pattern})"), re.ASCII
+)
 _NPY_NUMBERS = re.compile(r"""['"]([<>=|]?(?:f[248]|[iu][1248]))['"]""", re.ASCII)
 
 _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
@@ -322,7 +329,8 @@ def _npy_header(body: bytes) -> tuple[dict[str, str], int]:
             f"the header of the npy body must end before byte {_NPY_LONGEST_HEADER}, and before the body"
         )
     text = body[start:end].decode("latin-1")
-    header = dict(_NPY_ENTRY.findall(text)) if _NPY_HEADER.fullmatch(text) else {}
+    entries = _NPY_ENTRY.findall(text) if _NPY_HEADER.fullmatch(text) else []
+    header = {key[1:-1]: value for key, value in entries}
     if (
         set(header) != _NPY_KEYS
         or not _NPY_SHAPE.fullmatch(header["shape"])

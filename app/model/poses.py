@@ -205,13 +205,14 @@ def nearest_rotation(matrix: Array) -> Array:
     Raises:
         InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
     """
-    U, _, Vt = np.linalg.svd(matrix)
-    R = U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt
+    U, stretches, Vt = np.linalg.svd(matrix)
+    handedness = np.linalg.det(U @ Vt)
+    R = U @ np.diag([1.0, 1.0, handedness]) @ Vt
     distance = math.hypot(*(matrix - R).ravel())
     if distance > ROTATION_TOLERANCE:
         kind = (
             "no rotation but a reflection (determinant -1)"
-            if np.linalg.slogdet(matrix)[0] < 0
+            if handedness < 0.0 and np.abs(stretches - 1.0).max() < ROTATION_TOLERANCE
             else "not a rotation (RᵀR ≠ I)"
         )
         raise InvalidPose(
