@@ -21,7 +21,8 @@ from app.model.errors import KinematicsError
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
 from app.schemas.robots import NewRobot
-from app.store.archive import MESH_SUFFIXES, unpacked
+from app.store.archive import MESH_SUFFIXES, UnpackedRobot, unpacked
+from app.store.folders import pieces
 from app.store.records import describe
 from tests.fuzz import seeds
 from tests.fuzz.mutation import ArchiveMutator, Mutator
@@ -128,7 +129,7 @@ def read_archive(data: bytes) -> bool:
     """A zip of a robot, whose files lie inside, hold what Python's own reader finds, and can be packed once more."""
     packed = BytesIO()
     with unpacked(BytesIO(data), _MOST_UNPACKED) as robot, zipfile.ZipFile(packed, "w") as archive:
-        files = {path: file.read_bytes() for path, file in robot.meshes.items()}
+        files = _contents(robot)
         for path, content in files.items():
             if {"", ".", ".."} & set(path.split("/")) or PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES:
                 raise Unsound(f"the path {path!r}")
@@ -140,10 +141,14 @@ def read_archive(data: bytes) -> bool:
         if any(judge.read(path) != content for path, content in files.items()):
             raise Unsound("other bytes than Python's reader finds")
     with unpacked(packed, _MOST_UNPACKED) as again:
-        if again.urdf != robot.urdf or {path: file.read_bytes() for path, file in again.meshes.items()} != files:
+        if again.urdf != robot.urdf or _contents(again) != files:
             raise Unsound("other bytes than were packed")
     describe("fuzzed", "urdf", robot.urdf)
     return True
+
+
+def _contents(robot: UnpackedRobot) -> dict[str, bytes]:
+    return {path: b"".join(pieces(stretch)) for path, stretch in robot.meshes.items()}
 
 
 def _check_robot(description: Description) -> Robot | None:
