@@ -36,10 +36,12 @@ from app.api.remote import Remote
 from app.api.robots import robots_router, upload_routes
 from app.api.routes import Application
 from app.api.service import Readiness, service_router
-from app.api.workspace import SampleLimits, workspace_route
+from app.api.workspace import SampleLimits, workspace_route, workspace_work
 from app.crew.crew import Crew
-from app.jobs.runner import Runner
+from app.jobs import workspace
+from app.jobs.runner import Kind, Runner
 from app.jobs.shelf import Limits, Shelf
+from app.jobs.workers import Workers
 from app.settings import Settings
 
 _LOOK_SECONDS = 0.05
@@ -67,15 +69,13 @@ def create_app(settings: Settings) -> FastAPI:
     crew = Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
-    kept = Limits(settings.kept_jobs, settings.kept_job_bytes, settings.unfinished_jobs)
-    shelf = Shelf(settings.data_dir / "jobs", kept)
-    runner = Runner(shelf, settings.job_processes, settings.running_jobs, settings.job_seconds)
-    readiness, metrics = Readiness(), Metrics(library.catalogue_names, crew, shelf.states)
+    runner = _runner(settings)
+    readiness, metrics = Readiness(), Metrics(library.catalogue_names, crew, runner.shelf.states)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         library.prepare()
-        shelf.prepare()
+        runner.begin()
         readiness.begin()
         starting = asyncio.create_task(_start(readiness, crew))
         async with metrics.publishing():
@@ -137,6 +137,21 @@ def create_app(settings: Settings) -> FastAPI:
     openapi.describe(app, has_keys=bool(settings.api_keys))
     app.door = _door(app, settings, metrics)
     return app
+
+
+def _runner(settings: Settings) -> Runner:
+    """What does the jobs."""
+    kept = Limits(
+        kept=settings.kept_jobs,
+        kept_bytes=settings.kept_job_bytes,
+        unfinished=settings.unfinished_jobs,
+        job_bytes=settings.job_bytes,
+        kept_seconds=settings.kept_job_days * 24 * 3600.0,
+    )
+    kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
+    workers = Workers(settings.job_processes)
+    shelf = Shelf(settings.data_dir / "jobs", kept)
+    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds)
 
 
 def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:

@@ -44,7 +44,9 @@ class Settings:
         unfinished_jobs: Jobs of all worker processes that wait or run; more are refused (`GELENK_UNFINISHED_JOBS`).
         kept_jobs: Jobs that are kept, the oldest finished ones go first (`GELENK_KEPT_JOBS`).
         kept_job_bytes: Bytes of these (`GELENK_KEPT_JOB_BYTES`).
-        job_seconds: How long a job may run, [s] (`GELENK_JOB_SECONDS`).
+        kept_job_days: How long a finished job is kept, [days] (`GELENK_KEPT_JOB_DAYS`).
+        job_bytes: Bytes of the finished parts of one job, which it goes on from after a restart (`GELENK_JOB_BYTES`).
+        job_seconds: How long a job may run in one go, [s] (`GELENK_JOB_SECONDS`).
         max_job_samples: Most configurations of a workspace (`GELENK_MAX_JOB_SAMPLES`).
         api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty where none are needed
             (`GELENK_API_KEYS`).
@@ -74,6 +76,8 @@ class Settings:
     unfinished_jobs: int = 16
     kept_jobs: int = 100
     kept_job_bytes: int = 2 * 1024**3
+    kept_job_days: int = 30
+    job_bytes: int = 1024**3
     job_seconds: int = 600
     max_job_samples: int = 10_000_000
     api_keys: str = ""

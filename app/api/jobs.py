@@ -57,7 +57,10 @@ def jobs_router(runner: Runner) -> APIRouter:
         responses=problem_responses(404, 422),
     )
     def get_job(job: JobPath) -> Response:
-        """How far it is. Any worker of the service knows every job; finished ones outlive a restart."""
+        """How far it is. Any worker of the service knows every job, and all of them outlive a restart.
+
+        One whose process has ended is `queued` until another one goes on with what is not finished of it.
+        """
         return job_response(runner.shelf.get(job))
 
     @router.get(
@@ -108,7 +111,8 @@ def jobs_router(runner: Runner) -> APIRouter:
     def get_result(job: JobPath, request: Request) -> Response:
         """A summary as JSON, the array as npy, or a picture, by `Accept`; of a failed job its problem.
 
-        One that did not come to its end because the service was shutting down is a 409: it has to be asked for again.
+        One that was given up because the service ended each time that it was begun is a 409: it has to be asked for
+        again.
         """
         wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, SVG, PNG))
         if wanted in _PICTURES:
@@ -148,6 +152,7 @@ def _content(job: Job) -> dict[str, Any]:
         "created": _moment(job.created),
         "started": _moment(job.started),
         "finished": _moment(job.finished),
+        "attempts": job.attempts,
         "error": None,
     }
     if failure is not None:

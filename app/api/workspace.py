@@ -4,6 +4,7 @@ import asyncio
 import hashlib
 import math
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from starlette.responses import Response
@@ -15,14 +16,19 @@ from app.api.problems import UnsupportedMediaType
 from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
-from app.jobs.runner import Runner
-from app.jobs.workspace import KIND, question, work_of
+from app.jobs.robot_files import robot_files, robot_of
+from app.jobs.runner import Runner, Work
+from app.jobs.workspace import KIND, Question, question, work_of
 from app.kinematics.survey import POINT_COLUMNS
 from app.kinematics.workspace import Plane, Wish
+from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
+from app.model.robot import Robot
 from app.schemas.jobs import JobInfo
 from app.schemas.workspace import SlicePlane, WorkspaceRequest
 from app.store.records import LoadedRobot
+
+_CALL = "call.json"
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,11 +109,25 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     for field in ("orientations", "orientations_over"):
         if call.kind != "dexterity" and field in call.model_fields_set:
             raise InvalidField(field, f"goes with the kind `dexterity`; this one is `{call.kind}`")
-    asked = question(loaded.record.name, loaded.robot, chain, _wish(call), call.orientations_over, call.orientations)
+    _question(loaded.record.name, loaded.robot, chain, call)
     ends = f"{loaded.record.name}\0{chain.base_frame}\0{chain.tip_frame}\0"
     content = call.model_dump_json(exclude={"job_id", "base_frame", "tip_frame"})
     digest = hashlib.sha256((ends + content + loaded.urdf).encode("utf-8", "surrogatepass")).hexdigest()
-    return runner.submit(KIND, digest, work_of(asked), call.job_id)
+    whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame, "job_id": None})
+    request = {**robot_files(loaded.record.name, loaded.robot, loaded.urdf), _CALL: whole.model_dump_json().encode()}
+    return runner.submit(KIND, digest, request, call.job_id)
+
+
+def workspace_work(folder: Path) -> Work:
+    """What does the job of a request, by the folder that it is kept in."""
+    name, robot = robot_of(folder)
+    call = read_json(WorkspaceRequest, (folder / _CALL).read_bytes())
+    return work_of(_question(name, robot, robot.chain(call.base_frame, call.tip_frame), call))
+
+
+def _question(name: str, robot: Robot, chain: Chain, call: WorkspaceRequest) -> Question:
+    """What is asked, checked as far as the robot has a say in it."""
+    return question(name, robot, chain, _wish(call), call.orientations_over, call.orientations)
 
 
 def _wish(call: WorkspaceRequest) -> Wish:

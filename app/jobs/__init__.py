@@ -1,9 +1,14 @@
 """Long work, beside the requests: jobs on disk, the processes that do them, and what they compute.
 
+A kind of job is a function of the folder that its request is kept in: it hands out parts by `Run.map`, and puts their
+results together. A part is a function of its argument alone, so that it may be computed anywhere, at any time and in
+any order; those that are finished are on disk, and a job that is taken up after a restart does not do them again.
+
 - `job`: what a job is, from its beginning to its end.
-- `shelf`: jobs as folders, which every process of the service reads and writes.
+- `shelf`: jobs as folders, which every process of the service reads and writes; `parts`: what is finished of them.
 - `workers`: processes that are kept warm, and replaced when they die or hang.
-- `runner`: takes jobs in, does them part by part, and cancels them.
+- `run`: a job while it is done; `runner`: takes jobs in and up again, has them done, and cancels them.
+- `parcel`: arrays as bytes; `robot_files`: the robot of a job.
 - `workspace`: the workspace of a robot as a job.
 - `workspace_picture`: its picture.
 """

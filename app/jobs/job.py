@@ -64,6 +64,7 @@ class Job:
         started: When it was begun, [s] since 1970.
         finished: When it came to a final state, likewise.
         failure: Why it failed, where it did.
+        attempts: How often it was begun without getting further than the time before.
     """
 
     id: str
@@ -76,6 +77,7 @@ class Job:
     started: float | None = None
     finished: float | None = None
     failure: Failure | None = None
+    attempts: int = 0
 
     @property
     def is_final(self) -> bool:

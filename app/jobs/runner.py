@@ -1,18 +1,16 @@
-"""Takes jobs in, does them part by part in other processes, tells how far they are, and cancels them."""
+"""Takes jobs in and up again, has them done part by part, and cancels them."""
 
+import contextlib
 import logging
 import queue
 import threading
 import time
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as NotYet
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import IO, Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias
 
 from app.jobs.job import Failure, Job
+from app.jobs.run import Executor, Files, Run
 from app.jobs.shelf import Shelf
 from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
 from app.model.errors import (
@@ -26,95 +24,19 @@ from app.model.errors import (
     UnknownJob,
 )
 
-_Argument = TypeVar("_Argument")
-_Result = TypeVar("_Result")
-
-_LOOK = 0.1
-"""How often a job looks whether it was cancelled, and says how far it is, [s]."""
-_AHEAD = 2
-"""Parts a process that are handed out at once: while one is computed the next one waits."""
 _RENDERING_SECONDS = 60.0
-_SHUTTING_DOWN = "the service was shutting down"
+_LOOK_FOR_LEFT = 5.0
+"""How often the jobs of processes that are gone are looked for, [s]."""
+_ATTEMPTS = 3
+"""How often a job is begun without getting further: one that brings the service down does so no more than that."""
 
 logger = logging.getLogger("gelenk")
 
-Files: TypeAlias = Mapping[str, Callable[[IO[bytes]], object]]
-"""What a job leaves behind: what writes each file, by its name."""
-
-
-@dataclass(eq=False)
-class Run:
-    """A job while it is done: hands out its parts, and says how far they are.
-
-    Attributes:
-        job: As it was when it was begun.
-        order: What its parts have in common.
-        workers: Who does them.
-        shelf: Where it is kept.
-    """
-
-    job: Job
-    order: Order
-    workers: Workers
-    shelf: Shelf
-    _looked: float = field(default=0.0)
-    _progress: float = field(default=0.0)
-
-    def map(
-        self,
-        function: Callable[[_Argument], _Result],
-        arguments: Iterable[_Argument],
-        count: int,
-        span: tuple[float, float] = (0.0, 1.0),
-    ) -> Iterator[_Result]:
-        """The results of a function, in the order of its arguments; progress goes from one end of a span to the other.
-
-        Raises:
-            Cancelled: The job is no longer wanted.
-            OutOfTime: It has taken too long.
-            Exception: Whatever the function raises.
-        """
-        waiting: deque[Future[_Result]] = deque()
-        rest, done = iter(arguments), 0
-        while done < count:
-            while len(waiting) < _AHEAD * self.workers.count and done + len(waiting) < count:
-                waiting.append(self.workers.submit(function, next(rest), self.order))
-            result = self._waited(waiting.popleft())
-            done += 1
-            self.report(span[0] + (span[1] - span[0]) * done / count)
-            yield result
-
-    def report(self, progress: float) -> None:
-        """Say how far the job is, and look whether it is still wanted.
-
-        Raises:
-            Cancelled: It is not.
-        """
-        self._progress = max(self._progress, progress)
-        if time.monotonic() > self._looked + _LOOK:
-            self._look()
-
-    def _waited(self, future: "Future[_Result]") -> _Result:
-        while True:
-            try:
-                return future.result(timeout=_LOOK)
-            except NotYet:
-                self._look()
-
-    def _look(self) -> None:
-        self._looked = time.monotonic()
-        try:
-            job = self.shelf.change(self.job, progress=self._progress)
-        except UnknownJob:
-            raise Cancelled from None
-        if job.is_final:
-            raise Cancelled
-        if self._looked > self.order.until:
-            raise OutOfTime
-
-
 Work: TypeAlias = Callable[[Run], Files]
-"""Does a job: all that it computes it hands to other processes, part by part."""
+"""Does a job: all that it computes it hands out part by part."""
+
+Kind: TypeAlias = Callable[[Path], Work]
+"""What does a job of some kind, by the folder that its request is kept in: the same at any time, in any process."""
 
 
 class Runner:
@@ -122,22 +44,46 @@ class Runner:
 
     Args:
         shelf: Where jobs are kept.
-        workers: Processes that do their parts.
-        running: How many jobs share these at a time.
+        kinds: What does a job, by its kind.
+        executor: Who computes their parts.
+        workers: Processes of this machine, which draw pictures of results.
+        running: How many jobs are done at a time.
         seconds: How long a job may take from when it is begun.
     """
 
-    def __init__(self, shelf: Shelf, workers: int, running: int, seconds: float) -> None:
-        self.shelf, self.workers = shelf, Workers(workers)
+    def __init__(
+        self,
+        shelf: Shelf,
+        kinds: Mapping[str, Kind],
+        workers: Workers,
+        running: int,
+        seconds: float,
+        executor: Executor | None = None,
+    ) -> None:
+        self.shelf, self.workers, self._kinds = shelf, workers, kinds
+        self._executor = executor or workers
         self._running, self._seconds = running, seconds
-        self._queue: queue.SimpleQueue[tuple[Job, Work] | None] = queue.SimpleQueue()
+        self._queue: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
         self._orders: dict[str, Order] = {}
-        self._closed = False
+        self._closed = threading.Event()
 
-    def submit(self, kind: str, digest: str, work: Work, job_id: str | None = None) -> Job:
+    def begin(self) -> None:
+        """Take up what was left by processes that are gone, now and whenever there is something."""
+        self.shelf.prepare()
+        thread = threading.Thread(target=self._take_up, name="jobs-left", daemon=True)
+        thread.start()
+        self._threads.append(thread)
+
+    def submit(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> Job:
         """Have a job done, or find that it was asked for already.
+
+        Args:
+            kind: One of the kinds.
+            digest: Of the request.
+            request: Files that the kind is told by what is asked for.
+            job_id: Its name; one is made up if left out.
 
         Raises:
             JobExists: The name stands for another request.
@@ -145,18 +91,11 @@ class Runner:
             ServiceStopping: It takes no more jobs.
             StorageFailed: It cannot be kept.
         """
-        if self._closed:
+        if self._closed.is_set():
             raise ServiceStopping
-        job, is_new = self.shelf.add(kind, digest, job_id)
+        job, is_new = self.shelf.add(kind, digest, request, job_id)
         if is_new:
-            self._queue.put((job, work))
-            with self._lock:
-                if not self._threads and not self._closed:
-                    self._threads = [
-                        threading.Thread(target=self._serve, name=f"job-{i}", daemon=True) for i in range(self._running)
-                    ]
-                    for thread in self._threads:
-                        thread.start()
+            self._do_later(job)
         return job
 
     def cancel(self, job_id: str) -> Job:
@@ -217,45 +156,54 @@ class Runner:
         return found
 
     def close(self) -> None:
-        """End all that is under way; what is not finished has failed."""
+        """End all that is under way; what is not finished waits for the next process of the service."""
         with self._lock:
-            self._closed = True
-        self.workers.close()
+            self._closed.set()
+        for executor in {self._executor, self.workers}:
+            executor.close()
         for _ in self._threads:
             self._queue.put(None)
         for thread in self._threads:
             thread.join(2.0)
-        self._give_up_waiting()
         self.shelf.close()
 
-    def _give_up_waiting(self) -> None:
+    def _take_up(self) -> None:
         while True:
             try:
-                entry = self._queue.get_nowait()
-            except queue.Empty:
+                for job in self.shelf.take_up():
+                    logger.warning("job %s goes on: the process of the service that did it has ended", job.id)
+                    self._do_later(job)
+                self.shelf.tidy()
+            except (KinematicsError, OSError) as error:
+                logger.warning("jobs that were left cannot be taken up: %s", error)
+            if self._closed.wait(_LOOK_FOR_LEFT):
                 return
-            if entry is not None:
-                self._fail(entry[0], Failure.of(JobInterrupted(_SHUTTING_DOWN)))
+
+    def _do_later(self, job: Job) -> None:
+        self._queue.put(job)
+        with self._lock:
+            if self._closed.is_set() or any(thread.name == "job-0" for thread in self._threads):
+                return
+            threads = [threading.Thread(target=self._serve, name=f"job-{i}", daemon=True) for i in range(self._running)]
+            self._threads += threads
+            for thread in threads:
+                thread.start()
 
     def _serve(self) -> None:
-        while (entry := self._queue.get()) is not None:
-            self._do(*entry)
+        while not self._closed.is_set() and (job := self._queue.get()) is not None:
+            self._do(job)
 
-    def _do(self, job: Job, work: Work) -> None:
-        """A job from its beginning to its end; nothing that goes wrong in it leaves it."""
+    def _do(self, job: Job) -> None:
+        """A job from where it is to its end; nothing that goes wrong in it leaves it."""
         order = Order(time.monotonic() + self._seconds)
         self._orders[job.id] = order
         try:
-            if self._closed:
-                raise Cancelled
-            if self.shelf.change(job, state="running", started=time.time()).is_final:
-                return
-            for name, content in work(Run(job, order, self.workers, self.shelf)).items():
-                self.shelf.write(job.id, name, content)
-            self.shelf.change(job, state="succeeded", progress=1.0)
+            job = self.shelf.begin(job)
+            if not job.is_final:
+                self._done(job, order)
         except (Cancelled, UnknownJob):
-            if self._closed:
-                self._fail(job, Failure.of(JobInterrupted(_SHUTTING_DOWN)))
+            if self._closed.is_set():
+                self._leave(job)
         except OutOfTime:
             self._fail(job, Failure.of(JobTookTooLong(self._seconds)))
         except KinematicsError as error:
@@ -269,6 +217,32 @@ class Runner:
             order.cancelled.set()
             if self._orders.get(job.id) is order:
                 del self._orders[job.id]
+            self._clear(job)
+
+    def _done(self, job: Job, order: Order) -> None:
+        if job.attempts > _ATTEMPTS:
+            raise JobInterrupted(
+                f"it was begun {_ATTEMPTS} times, and each time the service ended before it got further"
+            )
+        request = self.shelf.request(job.id)
+        if not request.is_dir():
+            raise JobInterrupted("what it was asked for is not there any more")
+        run = Run(job, order, self._executor, self.shelf, self.shelf.parts(job.id))
+        for name, content in self._kinds[job.kind](request)(run).items():
+            self.shelf.write(job.id, name, content)
+        self.shelf.change(job, state="succeeded", progress=1.0)
+
+    def _clear(self, job: Job) -> None:
+        """Remove what a job needs no more, if it is over."""
+        with contextlib.suppress(KinematicsError, OSError):
+            now = self.shelf.get(job.id)
+            if now.is_final and now.created == job.created:
+                self.shelf.clear(job.id)
+
+    def _leave(self, job: Job) -> None:
+        """Leave a job to the next process of the service; the end of this one is no fault of it."""
+        with contextlib.suppress(KinematicsError):
+            self.shelf.change(job, state="queued", attempts=0)
 
     def _fail(self, job: Job, failure: Failure) -> None:
         try:

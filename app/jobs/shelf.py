@@ -1,30 +1,35 @@
 """Jobs as folders, which every process of the service reads and writes.
 
 What stands in a folder's `job.json` is the truth: a process that cancels a job writes so there, and the one that does
-it finds that out at its next step. Each process of the service holds a locked file as long as it lives; a job whose
-process is gone has failed, and whoever looks at it first says so. Results stay over a restart, unfinished jobs do not.
+it finds that out at its next step. Beside it stands what was asked for, and what is finished of it. Each process of the
+service holds a locked file as long as it lives; a job whose process is gone waits until another one takes it up.
 """
 
 import fcntl
 import logging
 import os
 import re
+import shutil
 import time
 import uuid
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
-from app.jobs.job import Failure, Job
+from app.jobs.job import Job
+from app.jobs.parts import Parts
 from app.model.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from app.store import folders
 
 JOB_FILE = "job.json"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _OWNERS = ".owners"
+_REQUEST = "request"
+_AT_REST = 60.0
+"""How long a job must be over before others than the process that did it put its folder in order, [s]."""
 _PAUSE = 5
 """After how many seconds it is worth while to ask again where too many jobs wait."""
 
@@ -39,11 +44,15 @@ class Limits:
         kept: Jobs, finished ones included; the oldest finished ones go first.
         kept_bytes: Of all of them.
         unfinished: Jobs that wait or run.
+        job_bytes: Of the finished parts of one job.
+        kept_seconds: How long a finished job is kept, [s].
     """
 
     kept: int = 100
     kept_bytes: int = 2 * 1024**3
     unfinished: int = 16
+    job_bytes: int = 1024**3
+    kept_seconds: float = 30 * 24 * 3600.0
 
 
 class Shelf:
@@ -80,10 +89,16 @@ class Shelf:
             (self._root / _OWNERS / self._owner).unlink(missing_ok=True)
             self._lock = None
 
-    def add(self, kind: str, digest: str, job_id: str | None = None) -> tuple[Job, bool]:
+    def add(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> tuple[Job, bool]:
         """A new job, or the one that stands under its name already for the same request.
 
-        One that the end of its service has interrupted begins anew.
+        One that was given up because its service ended again and again begins anew.
+
+        Args:
+            kind: What it computes.
+            digest: Of the request.
+            request: What is asked for: files of the job's folder, from which it can be done at any time.
+            job_id: Its name; one is made up if left out.
 
         Returns:
             The job, and whether it is new.
@@ -99,14 +114,46 @@ class Shelf:
             if job_id is not None and (found := self._read(job_id)) is not None:
                 if found.digest != digest:
                     raise JobExists(job_id)
-                if not self._was_interrupted(found):
-                    return found, False
+                if not _was_interrupted(found):
+                    return self._as_it_is(found), False
             self._make_room()
             if job_id is not None and self._read(job_id) is not None:
                 folders.remove_folder(self._root, job_id)
             job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owner, time.time())
-            folders.create_folder(self._root, job.id, {JOB_FILE: job.as_bytes()})
+            files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
+            folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
         return job, True
+
+    def take_up(self) -> list[Job]:
+        """The unfinished jobs whose process is gone, the oldest first; from now on they are this process's.
+
+        Raises:
+            StorageFailed: Nothing can be written.
+        """
+        if not any(self._is_left(job) for job in self._jobs()):
+            return []
+        with folders.exclusive(self._root):
+            self._say_alive()
+            taken = [replace(job, owner=self._owner, state="queued") for job in self._jobs() if self._is_left(job)]
+            for job in taken:
+                folders.replace_file(self._root / job.id, JOB_FILE, job.as_bytes())
+        return taken
+
+    def tidy(self) -> None:
+        """Remove finished jobs that are older than they may be, and what others no longer need."""
+        now = time.time()
+        for job in self._jobs():
+            age = now - (job.finished or job.created)
+            with suppress(UnknownJob):
+                if job.is_final and age > self._limits.kept_seconds:
+                    self.remove(job.id)
+                elif job.is_final and age > _AT_REST and self.request(job.id).exists():
+                    self.clear(job.id)
+
+    def clear(self, job_id: str) -> None:
+        """Remove the request and the parts of a job that is over; its results stay."""
+        self.parts(job_id).clear()
+        shutil.rmtree(self.request(job_id), ignore_errors=True)
 
     def get(self, job_id: str) -> Job:
         """A job as it stands.
@@ -117,10 +164,16 @@ class Shelf:
         job = self._read(job_id)
         if job is None:
             raise UnknownJob(job_id)
-        if job.is_final or self._lives(job.owner):
-            return job
-        lost = Failure.of(JobInterrupted("the process of the service that did it has ended"))
-        return self.change(job_id, state="failed", failure=lost)
+        return self._as_it_is(job)
+
+    def begin(self, job: Job) -> Job:
+        """Count that a job is begun, on disk before this returns; a finished one stays as it is.
+
+        Raises:
+            UnknownJob: It was removed meanwhile, or is another process's.
+            StorageFailed: It cannot be written.
+        """
+        return self.change(job, state="running", started=job.started or time.time(), attempts=job.attempts + 1)
 
     def change(self, which: Job | str, **changes: Any) -> Job:
         """Change fields of a job that is not finished; a finished one stays as it is.
@@ -143,11 +196,13 @@ class Shelf:
                 raise UnknownJob(job_id)
             if job.is_final:
                 return job
-            job = replace(job, **changes)
+            job, before = replace(job, **changes), job
             if job.is_final:
                 job = replace(job, finished=time.time())
-            # How far a job is need not outlive the machine.
-            folders.replace_file(self._root / job_id, JOB_FILE, job.as_bytes(), is_durable=job.is_final)
+            if job != before:
+                # How far a job is need not outlive the machine.
+                durable = job.state != before.state
+                folders.replace_file(self._root / job_id, JOB_FILE, job.as_bytes(), is_durable=durable)
         return job
 
     def write(self, job_id: str, name: str, content: Callable[[IO[bytes]], object]) -> None:
@@ -178,16 +233,29 @@ class Shelf:
                 raise UnknownJob(job_id)
             folders.remove_folder(self._root, job_id)
 
+    def request(self, job_id: str) -> Path:
+        """The folder with what a job was asked for; it is there until the job is over."""
+        return self._root / job_id / _REQUEST
+
     def file(self, job_id: str, name: str) -> Path:
         """Where a result of a job is, or will be."""
         return self._root / job_id / name
 
+    def parts(self, job_id: str) -> Parts:
+        """The finished parts of a job."""
+        return Parts(self._root / job_id, self._limits.job_bytes)
+
     def states(self) -> Counter[str]:
         """How many jobs there are, by state."""
-        try:
-            return Counter(job.state for job in self._jobs())
-        except FileNotFoundError:
-            return Counter()
+        return Counter(self._as_it_is(job).state for job in self._jobs())
+
+    def _as_it_is(self, job: Job) -> Job:
+        """A job as it stands: one that nobody does waits."""
+        return replace(job, state="queued") if self._is_left(job) else job
+
+    def _is_left(self, job: Job) -> bool:
+        """Whether a job is not finished and the process that was to do it is gone."""
+        return not (job.is_final or self._lives(job.owner))
 
     def _read(self, job_id: str) -> Job | None:
         if not _NAME.fullmatch(job_id):
@@ -199,6 +267,8 @@ class Shelf:
 
     def _jobs(self) -> list[Job]:
         """All jobs, the oldest first."""
+        if not self._root.is_dir():
+            return []
         found = [self._read(path.name) for path in self._root.iterdir() if not path.name.startswith(".")]
         return sorted((job for job in found if job is not None), key=lambda job: job.created)
 
@@ -209,7 +279,7 @@ class Shelf:
             TooManyJobs: There are too many unfinished ones.
         """
         jobs = self._jobs()
-        unfinished = [job for job in jobs if not job.is_final and self._lives(job.owner)]
+        unfinished = [job for job in jobs if not job.is_final]
         if len(unfinished) >= self._limits.unfinished:
             raise TooManyJobs(len(unfinished), self._limits.unfinished, _PAUSE)
         sizes = {job.id: _size(self._root / job.id) for job in jobs}
@@ -229,12 +299,6 @@ class Shelf:
             self._lock = (owners / self._owner).open("w")
             fcntl.flock(self._lock, fcntl.LOCK_EX)
 
-    def _was_interrupted(self, job: Job) -> bool:
-        """Whether it has no result because its process of the service came to its end before it did."""
-        if job.is_final:
-            return job.failure is not None and job.failure.error == JobInterrupted.__name__
-        return not self._lives(job.owner)
-
     def _lives(self, owner: str) -> bool:
         """Whether a process of the service is there: the system lets go of its lock when it ends."""
         if owner == self._owner:
@@ -249,10 +313,15 @@ class Shelf:
         return False
 
 
+def _was_interrupted(job: Job) -> bool:
+    """Whether it was given up because the processes that did it came to their end before it did."""
+    return job.failure is not None and job.failure.error == JobInterrupted.__name__
+
+
 def _size(folder: Path) -> int:
-    """Bytes of the files in a folder."""
+    """Bytes of the files below a folder."""
     total = 0
-    for path in folder.iterdir():
+    for path in folder.rglob("*"):
         with suppress(OSError):
             total += path.stat().st_size
     return total

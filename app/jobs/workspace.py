@@ -1,20 +1,22 @@
 """The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then what it all tells."""
 
 import pickle
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import orjson
 
-from app.jobs.runner import Files, Run, Work
+from app.jobs.parcel import packed, unpacked
+from app.jobs.run import Files, Run
+from app.jobs.runner import Work
 from app.kinematics.dexterity import Orientations, Over, orientations, shares
 from app.kinematics.sampling import Sampling
 from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
 from app.kinematics.tip_motion import Motion
-from app.kinematics.workspace import Plan, Plane, Wish, plan, sampled
+from app.kinematics.voxels import VoxelTable
+from app.kinematics.workspace import Part, Plan, Plane, Wish, plan, sampled
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.description import Description
@@ -121,9 +123,8 @@ def work_of(asked: Question) -> Work:
     def work(run: Run) -> Files:
         survey = Survey(asked.plan)
         end = _DONE if asked.asked is None else _SAMPLING_SHARE
-        jobs = ((asked.plan, k) for k in range(asked.plan.parts))
-        for part in run.map(sampled, jobs, asked.plan.parts, (0.0, end)):
-            survey.add(part)
+        for part in run.map("samples", _sampled, lambda k: (asked.plan, k), asked.plan.parts, (0.0, end)):
+            survey.add(_part(part))
         found = survey.result(asked.robot, asked.chain)
         dexterity = None if asked.asked is None else _dexterity(run, asked, found)
         table = found.points if found.points is not None else found.voxel_rows(asked.plan)
@@ -147,12 +148,36 @@ def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
     arm = pickle.dumps(_arm(asked))
     size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
 
-    def parts() -> Iterator[tuple[bytes, Array, Indices]]:
-        for first in range(0, len(centres), size):
-            yield arm, centres[first : first + size], found.voxels.first[first : first + size]
+    def part(k: int) -> tuple[bytes, Array, Indices]:
+        cells = slice(k * size, (k + 1) * size)
+        return arm, centres[cells], found.voxels.first[cells]
 
-    count = -(-len(centres) // size)
-    return np.concatenate([np.empty(0), *run.map(_shares, parts(), count, (_SAMPLING_SHARE, _DONE))])
+    parts = run.map("shares", _shares, part, -(-len(centres) // size), (_SAMPLING_SHARE, _DONE))
+    return np.concatenate([np.empty(0), *(unpacked(part)["shares"] for part in parts)])
+
+
+def _sampled(job: tuple[Plan, int]) -> bytes:
+    """Part number k of a plan, in a process of its own; see `sampled`."""
+    part = sampled(job)
+    return packed(
+        numbers=(part.first, part.count, part.best),
+        points=part.points,
+        **asdict(part.voxels),
+        box=(part.lower, part.upper),
+        distances=part.distances,
+        measures=part.measures,
+    )
+
+
+def _part(content: bytes) -> Part:
+    """What `_sampled` has packed."""
+    values = unpacked(content)
+    first, count, best = values["numbers"].tolist()
+    near, far = values["distances"].tolist()
+    least, most, total = values["measures"].tolist()
+    voxels = VoxelTable(*(values[entry.name] for entry in fields(VoxelTable)))
+    lower, upper = values["box"]
+    return Part(first, values.get("points"), voxels, count, lower, upper, (near, far), (least, most, total), best)
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,11 +219,11 @@ def _arm(asked: Question) -> _Arm:
     )
 
 
-def _shares(job: tuple[bytes, Array, Indices]) -> Array:
+def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
     """The dexterity at some voxels, in a process of its own; see `shares`."""
     pickled, centres, numbers = job
     robot, chain, arm = _unpacked(pickled)
-    return shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations)
+    return packed(shares=shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations))
 
 
 @lru_cache(maxsize=2)

@@ -35,6 +35,11 @@ class JobInfo(Answer):
     )
     progress: float = Field(ge=0, le=1, description="From 0 to 1; never smaller than before.")
     created: str = Field(description="When it was asked for, RFC 3339, UTC.")
-    started: str | None = Field(description="When it was begun; null before.")
+    started: str | None = Field(description="When it was begun for the first time; null before.")
     finished: str | None = Field(description="When it came to a final state; null before.")
+    attempts: int = Field(
+        ge=0,
+        description="How often it was begun since it got further: more than once where the service has ended "
+        "meanwhile; after three times it is given up.",
+    )
     error: JobError | None = Field(None, description="Of a failed job.")

@@ -193,19 +193,15 @@ def test_a_failed_job_answers_with_its_problem(client: TestClient) -> None:
     assert answer.json()["allowed"] == job["error"]["facts"]["allowed"]
 
 
-def test_a_job_that_the_end_of_the_service_has_ended_is_asked_for_again(tmp_path: Path) -> None:
+def test_a_job_goes_on_after_the_end_of_the_service(tmp_path: Path) -> None:
     call = {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.1, "orientations": 10, "job_id": "mine"}
     settings = Settings(data_dir=tmp_path, job_processes=1)
     with TestClient(create_app(settings)) as client:
-        running(client, posted(client, call))
+        before = running(client, posted(client, call))["progress"]
     with TestClient(create_app(settings)) as client:
-        answer = client.get("/v1/jobs/mine/result")
-        assert answer.status_code == 409, answer.text
-        assert answer.json()["type"] == "urn:gelenk:job-interrupted"
-        assert "shutting down" in answer.json()["detail"]
-        assert "again" in answer.json()["detail"]
+        assert client.get("/v1/jobs/mine").json()["progress"] >= before
         again = client.post("/v1/robots/panda/workspace", json=call)
-        assert (again.status_code, again.json()["state"]) == (202, "queued")
+        assert (again.status_code, again.json()["state"]) in {(202, "queued"), (202, "running")}
         assert client.delete("/v1/jobs/mine").json()["state"] == "cancelled"
 
 
@@ -256,5 +252,5 @@ def test_every_worker_knows_every_job_and_the_service_leaves_nothing(tmp_path: P
     with TestClient(create_app(Settings(data_dir=tmp_path))) as again:
         assert again.get(f"/v1/jobs/{short['id']}").json()["state"] == "succeeded"
         assert again.get(f"/v1/jobs/{short['id']}/result").status_code == 200
-        end = again.get(f"/v1/jobs/{long[1]}").json()
-        assert (end["state"], end["error"]["type"]) == ("failed", "urn:gelenk:job-interrupted")
+        assert again.get(f"/v1/jobs/{long[1]}").json()["state"] in {"queued", "running"}
+        assert again.delete(f"/v1/jobs/{long[1]}").json()["state"] == "cancelled"

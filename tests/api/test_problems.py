@@ -21,6 +21,7 @@ from app.crew.crew import Crew
 from app.jobs.job import Failure
 from app.jobs.runner import Runner
 from app.jobs.shelf import Limits, Shelf
+from app.jobs.workers import Workers
 from app.kinematics.certify import certify_poses
 from app.model import errors
 from app.model.chain import build_chain
@@ -106,14 +107,14 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidRobotFolder: lambda: read_record(Path("x\0"), "uploaded"),
     errors.UnsupportedJoint: lambda: build_chain(read_urdf(SHIP), "sea", "crane"),
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
-    errors.JobExists: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", digest, "one") for digest in "ab"]),
+    errors.JobExists: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", digest, {}, "one") for digest in "ab"]),
     errors.JobNotFinished: lambda: result_of({}),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
     errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
     errors.JobInterrupted: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobInterrupted("gone"))}),
     errors.ServiceStopping: lambda: on_a_shelf(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
-    errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "") for _ in range(3)]),
+    errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "", {}) for _ in range(3)]),
     errors.ServiceBusy: lambda: by_a_crew(calls.double, 1, LONG, waiting=0),
     errors.TooManyRequests: lambda: of_a_client(share=0),
     errors.DeadlineExceeded: lambda: by_a_crew(calls.sleep, 60.0, 0.1),
@@ -161,17 +162,17 @@ def result_of(state: dict[str, object]) -> None:
     """The result of a job that is in a state, if it ever began."""
 
     def ask(shelf: Shelf) -> None:
-        job, _ = shelf.add("workspace", "")
+        job, _ = shelf.add("workspace", "", {})
         shelf.change(job.id, **state)
-        Runner(shelf, workers=1, running=1, seconds=1.0).result(job.id, "result.json")
+        Runner(shelf, {}, Workers(1), running=1, seconds=1.0).result(job.id, "result.json")
 
     on_a_shelf(ask)
 
 
 def submitted_too_late(shelf: Shelf) -> None:
-    runner = Runner(shelf, workers=1, running=1, seconds=1.0)
+    runner = Runner(shelf, {}, Workers(1), running=1, seconds=1.0)
     runner.close()
-    runner.submit("workspace", "", lambda _: {})
+    runner.submit("workspace", "", {})
 
 
 def refused_by_the_system(number: int) -> None:

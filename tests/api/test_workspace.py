@@ -269,5 +269,5 @@ def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1))) as client:
         assert not (tmp_path / "jobs").exists()
         finished(client, {"samples": 10, "job_id": "mine"})
-        names = sorted(path.name for path in (tmp_path / "jobs" / "mine").iterdir())
+    names = sorted(path.name for path in (tmp_path / "jobs" / "mine").iterdir())
     assert names == ["job.json", "result.json", "result.npy"]

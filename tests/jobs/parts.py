@@ -1,8 +1,14 @@
 """Parts of jobs that do what real ones do not: quick to load in a process of its own."""
 
+import json
 import os
+import signal
 import time
 from pathlib import Path
+from typing import Any
+
+from app.jobs.run import Files, Run
+from app.jobs.runner import Work
 
 
 def double(value: int) -> int:
@@ -35,5 +41,47 @@ def fail(text: str) -> int:
     raise ValueError(text)
 
 
+def note(line: str) -> str:
+    """Leave a line in a file, the part before the colon."""
+    path, _, text = line.partition(":")
+    time.sleep(0.05)
+    with Path(path).open("a") as file:
+        file.write(f"{text}\n")
+    return text
+
+
 def gone(pid: int) -> bool:
     return not Path(f"/proc/{pid}").exists()
+
+
+def told(argument: tuple[str, Any]) -> bytes:
+    """What one of these functions returns, as a part of a job is told."""
+    name, value = argument
+    return repr(globals()[name](value)).encode()
+
+
+def made_by(name: str, values: list[Any]) -> dict[str, bytes]:
+    """The request of a job whose parts are one of these functions of each of some values."""
+    return {"call.json": json.dumps([name, values]).encode()}
+
+
+def fatal(_: Path) -> Work:
+    """The kind of jobs that bring their process of the service down."""
+
+    def work(run: Run) -> Files:
+        list(run.map("all", told, lambda k: ("double", k), 2))
+        os.kill(os.getpid(), signal.SIGKILL)
+        return {}
+
+    return work
+
+
+def of_parts(folder: Path) -> Work:
+    """The kind of such jobs: what comes out is the list of what the functions return."""
+    name, values = json.loads((folder / "call.json").read_text())
+
+    def work(run: Run) -> Files:
+        results = b", ".join(run.map("all", told, lambda k: (name, values[k]), len(values)))
+        return {"result.txt": lambda target: target.write(b"[" + results + b"]")}
+
+    return work

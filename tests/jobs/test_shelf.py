@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ def shelf(tmp_path: Path) -> Iterator[Shelf]:
 
 
 def test_a_job_is_what_it_was_made(shelf: Shelf) -> None:
-    job, is_new = shelf.add("workspace", "digest")
+    job, is_new = shelf.add("workspace", "digest", {})
     assert is_new
     assert shelf.get(job.id) == job
     assert (job.state, job.progress, job.started, job.finished, job.failure) == ("queued", 0.0, None, None, None)
@@ -43,38 +44,38 @@ def test_a_job_is_what_it_was_made(shelf: Shelf) -> None:
 
 
 def test_a_final_state_stays(shelf: Shelf) -> None:
-    job, _ = shelf.add("workspace", "digest")
+    job, _ = shelf.add("workspace", "digest", {})
     cancelled = shelf.change(job.id, state="cancelled")
     assert cancelled.finished is not None
     assert shelf.change(job.id, state="succeeded", progress=1.0) == cancelled == shelf.get(job.id)
 
 
 def test_a_job_that_has_anothers_name_by_now_is_left_alone(shelf: Shelf) -> None:
-    old, _ = shelf.add("workspace", "digest", "mine")
+    old, _ = shelf.add("workspace", "digest", {}, "mine")
     shelf.remove("mine")
-    new, _ = shelf.add("workspace", "digest", "mine")
+    new, _ = shelf.add("workspace", "digest", {}, "mine")
     with pytest.raises(UnknownJob):
         shelf.change(old, state="succeeded")
     assert shelf.get("mine") == new
 
 
 def test_a_name_is_one_request(shelf: Shelf) -> None:
-    job, _ = shelf.add("workspace", "digest", "mine")
-    assert shelf.add("workspace", "digest", "mine") == (job, False)
+    job, _ = shelf.add("workspace", "digest", {}, "mine")
+    assert shelf.add("workspace", "digest", {}, "mine") == (job, False)
     with pytest.raises(JobExists):
-        shelf.add("workspace", "another", "mine")
+        shelf.add("workspace", "another", {}, "mine")
 
 
 @pytest.mark.parametrize("name", ["nobody", "", "..", ".owners", "a/b", "x" * 300, "a\0b", "ü"])
 def test_unknown_names(shelf: Shelf, name: str) -> None:
-    shelf.add("workspace", "digest", "mine")
+    shelf.add("workspace", "digest", {}, "mine")
     for ask in (shelf.get, shelf.remove, shelf.change):
         with pytest.raises(UnknownJob):
             ask(name)
 
 
 def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path) -> None:
-    job, _ = shelf.add("workspace", "digest")
+    job, _ = shelf.add("workspace", "digest", {})
     code = (
         "import sys; from pathlib import Path; from app.jobs.shelf import *\n"
         "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
@@ -85,77 +86,128 @@ def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path)
     assert shelf.get(job.id).state == "cancelled"
 
 
-def test_a_job_has_failed_when_its_process_is_gone(shelf: Shelf, tmp_path: Path) -> None:
-    code = (
-        "import os, sys; from pathlib import Path; from app.jobs.shelf import *\n"
-        "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
-        "print(shelf.add('workspace', 'digest')[0].id, flush=True)\n"
-        "os.kill(os.getpid(), 9)"
-    )
-    run = subprocess.run(
-        [sys.executable, "-c", code, str(tmp_path / "jobs")], capture_output=True, text=True, check=False
-    )
-    job = shelf.get(run.stdout.strip())
-    assert job.state == "failed"
-    assert job.failure is not None
-    assert "ended" in job.failure.detail
-    assert len(list((tmp_path / "jobs" / ".owners").iterdir())) == 1
+LEAVES = (
+    "import os, sys; from pathlib import Path; from app.jobs.shelf import *\n"
+    "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
+    "job, _ = shelf.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
+    "shelf.change(shelf.begin(job), progress=0.5)\n"
+    "os.kill(os.getpid(), 9)"
+)
+TAKES = (
+    "import sys, time; from pathlib import Path; from app.jobs.shelf import *\n"
+    "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
+    "print('ready', flush=True); sys.stdin.readline()\n"
+    "print(len(shelf.take_up()), flush=True); sys.stdin.readline()"
+)
+
+
+def test_a_job_whose_process_is_gone_waits_to_be_taken_up(shelf: Shelf, tmp_path: Path) -> None:
+    root = tmp_path / "jobs"
+    subprocess.run([sys.executable, "-c", LEAVES, str(root)], check=False)
+    job = shelf.get("left")
+    assert (job.state, job.progress, job.attempts) == ("queued", 0.5, 1)
+    assert shelf.states() == {"queued": 1}
+    assert shelf.add("workspace", "digest", {}, "left") == (job, False)
+    assert len(list((root / ".owners").iterdir())) == 2
     shelf.prepare()
-    assert list((tmp_path / "jobs" / ".owners").iterdir()) == []
+    assert len(list((root / ".owners").iterdir())) == 1
+    taken = shelf.take_up()
+    assert [(one.id, one.state, one.progress, one.attempts) for one in taken] == [("left", "queued", 0.5, 1)]
+    assert shelf.take_up() == []
+    assert (shelf.request("left") / "call.json").read_bytes() == b"{}"
+    begun = shelf.begin(taken[0])
+    assert (begun.state, begun.attempts, begun.started) == ("running", 2, job.started)
+
+
+def test_of_many_processes_one_takes_a_job_up(tmp_path: Path) -> None:
+    root = tmp_path / "jobs"
+    subprocess.run([sys.executable, "-c", LEAVES, str(root)], check=False)
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    runs = [subprocess.Popen([sys.executable, "-c", TAKES, str(root)], **pipes) for _ in range(4)]  # type: ignore[call-overload]
+    for run in runs:
+        assert run.stdout.readline() == "ready\n"
+    for run in runs:
+        run.stdin.write("\n")
+        run.stdin.flush()
+    counts = [int(run.stdout.readline()) for run in runs]
+    for run in runs:
+        run.communicate("\n")
+    assert sorted(counts) == [0, 0, 0, 1]
 
 
 def test_two_shelves_of_one_folder_know_that_the_other_lives(tmp_path: Path) -> None:
     with opened(tmp_path) as other:
         with opened(tmp_path) as one:
-            job, _ = one.add("workspace", "digest")
-            other.add("workspace", "digest")
+            job, _ = one.add("workspace", "digest", {})
+            other.add("workspace", "digest", {})
+            running = one.begin(job)
             other.prepare()
-            assert other.get(job.id).state == "queued"
-        assert other.get(job.id).state == "failed"
+            assert other.take_up() == []
+            assert other.get(job.id).state == "running"
+        assert other.get(job.id).state == "queued"
+        assert [taken.id for taken in other.take_up()] == [job.id]
+        with pytest.raises(UnknownJob):
+            one.change(running, progress=0.7)
+
+
+def test_what_is_over_is_put_in_order(tmp_path: Path) -> None:
+    with opened(tmp_path, Limits(kept_seconds=100.0)) as shelf:
+        old, rested, new = (shelf.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
+        for job in (old, rested, new):
+            shelf.parts(job.id).write("all-0", b"part")
+            shelf.change(job, state="cancelled")
+        for job, age in ((old, 101.0), (rested, 99.0)):
+            aged = replace(shelf.get(job.id), finished=time.time() - age)
+            (tmp_path / job.id / JOB_FILE).write_bytes(aged.as_bytes())
+        shelf.tidy()
+        with pytest.raises(UnknownJob):
+            shelf.get(old.id)
+        assert [path.name for path in (tmp_path / rested.id).iterdir()] == [JOB_FILE]
+        assert len(list((tmp_path / new.id).iterdir())) == 3
 
 
 def test_no_more_wait_than_may(tmp_path: Path) -> None:
     with opened(tmp_path, Limits(unfinished=2)) as shelf:
-        first, _ = shelf.add("workspace", "1")
-        shelf.add("workspace", "2")
+        first, _ = shelf.add("workspace", "1", {})
+        shelf.add("workspace", "2", {})
         with pytest.raises(TooManyJobs) as refused:
-            shelf.add("workspace", "3")
+            shelf.add("workspace", "3", {})
         assert (refused.value.unfinished, refused.value.allowed) == (2, 2)
         shelf.change(first.id, state="cancelled")
-        shelf.add("workspace", "3")
+        shelf.add("workspace", "3", {})
 
 
 def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
     with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as shelf:
-        names = [shelf.add("workspace", "x", f"job-{i}")[0].id for i in range(3)]
+        names = [shelf.add("workspace", "x", {}, f"job-{i}")[0].id for i in range(3)]
         for name in names[1:]:
             shelf.change(name, state="succeeded")
-        shelf.add("workspace", "x", "job-3")
+        shelf.add("workspace", "x", {}, "job-3")
         assert shelf.get("job-0").state == "queued", "what is not finished stays"
         assert shelf.get("job-2").state == "succeeded"
         with pytest.raises(UnknownJob):
             shelf.get("job-1")
         shelf.write("job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
         shelf.change("job-3", state="succeeded")
-        shelf.add("workspace", "x", "job-4")
+        shelf.add("workspace", "x", {}, "job-4")
         assert sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith(".")) == ["job-0", "job-4"]
 
 
 def test_what_is_no_job_is_left_aside(shelf: Shelf, tmp_path: Path) -> None:
-    job, _ = shelf.add("workspace", "digest")
+    job, _ = shelf.add("workspace", "digest", {})
     (tmp_path / "jobs" / job.id / JOB_FILE).write_text("{")
     (tmp_path / "jobs" / "stray").mkdir()
     (tmp_path / "jobs" / "file").touch()
     for name in (job.id, "stray", "file"):
         with pytest.raises(UnknownJob):
             shelf.get(name)
-    shelf.add("workspace", "digest")
+    shelf.add("workspace", "digest", {})
 
 
 @pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
 def test_a_failure_is_raised_again_as_it_was(shelf: Shelf, cls: type[errors.KinematicsError]) -> None:
     error = example(cls)
-    job, _ = shelf.add("workspace", "digest")
+    job, _ = shelf.add("workspace", "digest", {})
     failure = shelf.change(job.id, state="failed", failure=Failure.of(error)).failure
     again = shelf.get(job.id).failure
     assert failure is not None

@@ -1,0 +1,66 @@
+"""Finished parts on disk: whole or not there, and no more of them than there may be."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.jobs.parcel import packed, unpacked
+from app.jobs.parts import Parts
+from app.model.errors import StorageFailed, TooLarge, UnknownJob
+
+
+def test_a_part_is_read_as_it_was_written(tmp_path: Path) -> None:
+    parts = Parts(tmp_path, 1000)
+    assert parts.read("all-0") is None
+    parts.write("all-0", b"some bytes")
+    parts.write("all-1", b"")
+    assert (parts.read("all-0"), parts.read("all-1"), parts.read("all-10")) == (b"some bytes", b"", None)
+    assert Parts(tmp_path, 1000).read("all-0") == b"some bytes"
+    parts.clear()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_part_that_is_not_whole_is_read(tmp_path: Path) -> None:
+    parts = Parts(tmp_path, 1000)
+    parts.write("all-0", b"some bytes")
+    (path,) = tmp_path.iterdir()
+    whole = path.read_bytes()
+    for broken in (*(whole[:end] for end in range(len(whole))), bytes(len(whole)), whole[:-1] + b"x", whole + b"x"):
+        path.write_bytes(broken)
+        assert parts.read("all-0") is None, broken
+
+
+def test_they_take_no_more_than_they_may(tmp_path: Path) -> None:
+    Parts(tmp_path, 200).write("all-0", bytes(100))
+    parts = Parts(tmp_path, 200)
+    with pytest.raises(TooLarge) as refused:
+        parts.write("all-1", bytes(100))
+    assert refused.value.allowed == 200
+    assert parts.read("all-1") is None
+    parts.clear()
+    parts.write("all-1", bytes(100))
+
+
+def test_what_cannot_be_kept_says_so(tmp_path: Path) -> None:
+    folder = tmp_path / "job"
+    folder.mkdir()
+    parts = Parts(folder, 1000)
+    (folder / "part-all-0").mkdir()
+    with pytest.raises(StorageFailed):
+        parts.write("all-0", b"x")
+    assert [path.name for path in folder.iterdir()] == ["part-all-0"]
+    (folder / "part-all-0").rmdir()
+    folder.rmdir()
+    with pytest.raises(UnknownJob):
+        parts.write("all-0", b"x")
+
+
+def test_arrays_come_back_to_the_last_bit() -> None:
+    values = np.array([0.1, -0.0, np.inf, np.nan, 5e-324])
+    found = unpacked(packed(values=values, numbers=(1, 2**62), nothing=None))
+    assert set(found) == {"values", "numbers"}
+    assert found["values"].tobytes() == values.tobytes()
+    assert found["numbers"].tolist() == [1, 2**62]
+    with pytest.raises(ValueError, match="allow_pickle"):
+        packed(values=np.array([object()]))
