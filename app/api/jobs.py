@@ -13,12 +13,11 @@ from starlette.responses import StreamingResponse
 
 from app.api.openapi import npy_content, picture_content, problem_responses
 from app.api.payloads import JSON, NPY, PNG, SVG, preferred_type
-from app.api.problems import kind_of
 from app.jobs.job import Job
 from app.jobs.runner import Runner
 from app.jobs.workspace import ARRAY, SUMMARY
 from app.jobs.workspace_picture import picture
-from app.model.errors import UnknownJob
+from app.model.errors import UnknownJob, kind_of
 from app.schemas.jobs import JobInfo
 from app.schemas.workspace import WorkspaceAnswer
 

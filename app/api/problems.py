@@ -4,7 +4,6 @@ A problem never repeats the payload: names from outside are shortened and escape
 """
 
 import logging
-import re
 from collections.abc import Callable, Mapping, Sequence
 from http import HTTPStatus
 from typing import Any
@@ -118,11 +117,6 @@ def status_of(error: type[errors.KinematicsError]) -> HTTPStatus:
     return next(STATUS[ancestor] for ancestor in error.__mro__ if ancestor in STATUS)
 
 
-def kind_of(error: type[Exception]) -> str:
-    """`UnknownFrame` → `unknown-frame`."""
-    return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()
-
-
 def install(app: FastAPI) -> None:
     """Answer every error of the application with a problem."""
     for kind, handler in _HANDLERS:
@@ -139,7 +133,7 @@ def _kinematics(request: Request, error: Exception) -> Response:
     facts = error.facts()
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
-    response = problem(request, status_of(type(error)), kind_of(type(error)), error.detail, facts)
+    response = problem(request, status_of(type(error)), errors.kind_of(type(error)), error.detail, facts)
     if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy):
         response.headers["Retry-After"] = str(error.retry_after)
     return response

@@ -46,6 +46,7 @@
 Not converging, or a target out of reach, is a result with a reason and no error.
 """
 
+import re
 from dataclasses import dataclass, fields
 
 _QUOTED_LENGTH = 80
@@ -61,6 +62,11 @@ def listed(names: tuple[str, ...], most: int = 12) -> str:
     """The first names of a list, quoted, and how many more there are."""
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return (", ".join(quoted(name) for name in names[:most]) or "none") + more
+
+
+def kind_of(error: type[Exception]) -> str:
+    """The name of a class of errors on the wire: `UnknownFrame` → `unknown-frame`."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()
 
 
 @dataclass(eq=False)
@@ -657,3 +663,14 @@ class AuditFailed(KinematicsError):
     def detail(self) -> str:
         """What it breaks."""
         return f"the motion was withheld: it does not pass its audit: {self.reason}"
+
+
+def kinds() -> dict[str, type[KinematicsError]]:
+    """All classes of the tree but its root, by their name on the wire; what others derive from them is none of it."""
+    found: dict[str, type[KinematicsError]] = {}
+    left: list[type[KinematicsError]] = [KinematicsError]
+    while left:
+        children = [child for child in left.pop().__subclasses__() if child.__module__ == __name__]
+        found |= {kind_of(child): child for child in children}
+        left += children
+    return found

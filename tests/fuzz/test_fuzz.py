@@ -1,6 +1,5 @@
 """Some seconds of mutations for each reader, the same ones each time; `./dev fuzz` goes on from there."""
 
-
 import numpy as np
 import pytest
 

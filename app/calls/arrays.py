@@ -1,0 +1,148 @@
+"""Operations on large batches: NumPy in, NumPy out, nothing but numbers on the wire."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any, Concatenate, ParamSpec, TypeVar
+
+import numpy as np
+from pydantic import BaseModel
+
+from app.calls.call import NPY, ROBOT, Call, Reply, Sent, documented
+from app.calls.operations import encoded, segment
+from app.model.arrays import Array
+from app.schemas.dynamics import DynamicsOptions
+from app.schemas.ik import InverseOptions
+from app.schemas.kinematics import ForwardOptions, JacobianOptions
+from app.schemas.manipulability import ManipulabilityOptions
+from app.schemas.singularity import SingularityOptions
+from app.schemas.statics import StaticsOptions
+from app.schemas.trajectory import TrajectoryRequest
+from app.schemas.velocity import VelocityOptions
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Reached:
+    """The inverse of a batch of targets.
+
+    Attributes:
+        joint_positions: Shape (N, n), [rad or m]: of each target a solution, or what comes nearest.
+        unsolved: How many targets have none.
+        unsolved_rows: The first two hundred of them.
+    """
+
+    joint_positions: Array
+    unsolved: int
+    unsolved_rows: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Sampled:
+    """A trajectory at its sample times.
+
+    Attributes:
+        samples: Shape (N, 1 + 3n): time [s], joint positions [rad or m], velocities [1/s of it], accelerations.
+        duration: Of the whole motion, [s].
+        completed_fraction: How much of the way can be done, 0 to 1.
+        failure: Why not all of it, or None.
+    """
+
+    samples: Array
+    duration: float
+    completed_fraction: float
+    failure: str | None
+
+
+def _array(reply: Reply) -> Array:
+    array: Array = np.load(BytesIO(reply.body), allow_pickle=False)
+    return array
+
+
+def _reached(reply: Reply) -> Reached:
+    rows = reply.headers["gelenk-unsolved-rows"]
+    named = tuple(int(row) for row in rows.split(",") if row)
+    return Reached(_array(reply), int(reply.headers["gelenk-unsolved"]), named)
+
+
+def _sampled(reply: Reply) -> Sampled:
+    headers, failure = reply.headers, reply.headers["gelenk-failure"]
+    fraction = float(headers["gelenk-completed-fraction"])
+    return Sampled(_array(reply), float(headers["gelenk-duration"]), fraction, None if failure == "none" else failure)
+
+
+def _packed(array: Array) -> bytes:
+    """Numbers in NumPy's own format; whole ones travel as they are."""
+    stream = BytesIO()
+    np.save(stream, np.ascontiguousarray(array), allow_pickle=False)
+    return stream.getvalue()
+
+
+def _query(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options as parameters: what is left out, or none, is the service's to decide."""
+    return {name: _parameter(value) for name, value in options.items() if value is not None}
+
+
+def _parameter(value: Any) -> Any:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return [str(item) for item in value] if isinstance(value, list | tuple) else str(value)
+
+
+def _batch(
+    name: str, options: Callable[P, BaseModel], field: str, read: Callable[[Reply], T]
+) -> Sent[Concatenate[str, Array, P], T]:
+    """`POST /v1/robots/{robot}/{name}` with an array in both directions.
+
+    Args:
+        name: The operation's.
+        options: What it takes beside the array.
+        field: What the array stands for.
+        read: Makes the answer.
+    """
+
+    def describe(robot: str, array: Array, /, *_: P.args, **fields: P.kwargs) -> Call[T]:
+        path = f"v1/robots/{segment(robot)}/{name}"
+        return Call("POST", path, read, _query(fields), _packed(array), NPY, accept=NPY)
+
+    array = inspect.Parameter("array", inspect.Parameter.POSITIONAL_ONLY, annotation=Array)
+    sentences = f"The operation `{name}` of a batch; the array holds {field}."
+    return Sent(documented(describe, options, sentences, ROBOT, array))
+
+
+def _trajectory(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], Call[Sampled]]:
+    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[Sampled]:
+        return Call("POST", f"v1/robots/{segment(robot)}/trajectory", _sampled, body=encoded(fields), accept=NPY)
+
+    return documented(describe, request, "A motion, planned and judged, as samples alone.", ROBOT)
+
+
+_POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
+
+
+class ArrayOperations:
+    """The operations on a robot that take an array."""
+
+    fk = _batch("fk", ForwardOptions, _POSITIONS, _array)
+    jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, _array)
+    ik = _batch(
+        "ik",
+        InverseOptions,
+        "`targets`, shape (N, 7), position and quaternion x y z w, or (N, 4, 4)",
+        _reached,
+    )
+    velocity = _batch(
+        "velocity",
+        VelocityOptions,
+        "of each configuration the joint positions, velocities and further derivatives, shape (N, k, n), or with "
+        "`inverse` what the API's reference says",
+        _array,
+    )
+    statics = _batch("statics", StaticsOptions, _POSITIONS, _array)
+    dynamics = _batch("dynamics", DynamicsOptions, _POSITIONS, _array)
+    manipulability = _batch("manipulability", ManipulabilityOptions, _POSITIONS, _array)
+    singularities = _batch("singularities", SingularityOptions, _POSITIONS, _array)
+    trajectory = Sent(_trajectory(TrajectoryRequest))
