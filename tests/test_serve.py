@@ -1,5 +1,6 @@
 """The service as a process: it starts, several workers see the same robots, and requests in flight finish."""
 
+import asyncio
 import json
 import os
 import signal
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
+import uvloop
 
 from app import serve
 from app.api.access.keyring import new_key
@@ -117,6 +119,35 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         run.wait(timeout=8)
 
 
+def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
+    """The loop is busy for 5 ms in each turn: a hundred connections one by one would take half a second."""
+    count, turns, at_most = 100, 0, 30
+    connected: list[int] = []
+
+    class Counting(asyncio.Protocol):
+        def connection_made(self, transport: asyncio.BaseTransport) -> None:
+            connected.append(turns)
+            transport.close()
+
+    async def let_in() -> None:
+        loop = asyncio.get_running_loop()
+        listeners = serve.several(socket.create_server((HOST, 0), backlog=count))
+        servers = [await loop.create_server(Counting, sock=listener, backlog=count) for listener in listeners]
+        clients = [socket.create_connection(listeners[0].getsockname()) for _ in range(count)]
+        nonlocal turns
+        while len(connected) < count:
+            time.sleep(0.005)
+            turns += 1
+            await asyncio.sleep(0)
+        for client in clients:
+            client.close()
+        for server in servers:
+            server.close()
+
+    uvloop.run(let_in())
+    assert connected[-1] < at_most
+
+
 def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
     with service(tmp_path, GELENK_ROOT_PATH="/gelenk") as (_, url):
         call = {"joint_positions": [[0.0, 0.0]]}
@@ -145,7 +176,7 @@ def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: s
     """What the server would be started with."""
     found: dict[str, Any] = {}
     monkeypatch.setattr("sys.argv", ["serve", *arguments])
-    monkeypatch.setattr("uvicorn.run", lambda *_, **options: found.update(options))
+    monkeypatch.setattr(serve, "run", lambda **options: found.update(options))
     for variable, value in settings.items():
         monkeypatch.setenv(variable, value)
     serve.main()
