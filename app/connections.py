@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from heapq import nsmallest
 from http import HTTPStatus
+from random import uniform
 from typing import Any
 
 import orjson
@@ -26,8 +27,12 @@ _SLOWEST_BYTES = 32 * 1024
 """A body that takes longer than its time must come at this rate, [bytes/s]."""
 _GRACE_SECONDS = 2.0
 """How long the rest of a body is waited for when the service shuts down."""
-_PAUSE_SECONDS = 1.0
-"""What a refused request is told to wait; its connection is not read from before, or refusing would take all time."""
+_SHORTEST_PAUSE, _LONGEST_PAUSE = 0.5, 1.0
+"""A connection that was refused is not read from for so long, or refusing would take all time, [s].
+
+A refused request is told to wait for a second: who does is read from again by then. Who does not has to wait, a crowd
+of them not all until the same moment: together they would hold up the event loop once a second.
+"""
 _EVICTED = 16
 """Connections that make room together where there are too many."""
 
@@ -205,7 +210,8 @@ class BoundedProtocol(HttpToolsProtocol):
     def _pause(self) -> None:
         if not self.transport.is_closing():
             self.flow.pause_reading()
-            self.loop.call_later(_PAUSE_SECONDS, self._listen)
+            pause = uniform(_SHORTEST_PAUSE, _LONGEST_PAUSE)  # noqa: S311 - nothing secret
+            self.loop.call_later(pause, self._listen)
 
     def _listen(self) -> None:
         if not self.transport.is_closing():
