@@ -44,8 +44,6 @@ from app.jobs.shelf import Limits, Shelf
 from app.jobs.workers import Workers
 from app.settings import Settings
 
-_LOOK_SECONDS = 0.05
-
 DESCRIPTION = """
 A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics, velocities,
 forces, singularities, dynamics, trajectories and workspaces come out, each answer recomputed before it is sent (a
@@ -76,7 +74,6 @@ def create_app(settings: Settings) -> FastAPI:
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         library.prepare()
         runner.begin()
-        readiness.begin()
         starting = asyncio.create_task(_start(readiness, crew))
         async with metrics.publishing():
             yield
@@ -164,10 +161,10 @@ def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:
 
 
 async def _start(readiness: Readiness, crew: Crew) -> None:
-    """Start the crew when the kernels are compiled here: its processes find them in the cache."""
-    while readiness.waiting_for:
-        await asyncio.sleep(_LOOK_SECONDS)
+    """Get ready: first the crew, because what it is copied from compiles the kernels, which are in the cache then."""
     await crew.start()
+    readiness.waiting_for.remove("crew")
+    readiness.begin()
 
 
 def from_environment() -> FastAPI:

@@ -1,19 +1,24 @@
-"""What the process imports of which the crew's and the jobs' processes are copies: everything that a request needs.
-
-It computes one of everything, so that the kernels are in memory. A stop of the service is not for it to follow: its
-copies are to finish first. It ends by itself when the service does.
-"""
+"""What the process imports that all others of the service are copies of: everything that a request needs."""
 
 import gc
 import importlib
-import signal
 
-from app.kinematics.warm import warm_up
+from app.kinematics import warm
 
-signal.signal(signal.SIGTERM, signal.SIG_IGN)
 for module in ("app.main", "app.plots.profiles", "sympy"):
     importlib.import_module(module)
-warm_up()
-# The copies share what is here for as long as nobody writes to it, and the collector of garbage would.
-gc.collect()
-gc.freeze()
+
+
+def warm_up() -> None:
+    """Compute one of everything, so that the kernels are in memory."""
+    warm.warm_up()
+    freeze()
+
+
+def freeze() -> None:
+    """Keep the collector of garbage from what is here: the copies share it for as long as nobody writes to it."""
+    gc.collect()
+    gc.freeze()
+
+
+freeze()

@@ -6,28 +6,23 @@ import contextlib
 import ipaddress
 import os
 import resource
-import socket
 import sys
 import tempfile
 from collections.abc import Iterator
 from functools import partial
 from importlib.util import find_spec
-from typing import Any, cast
+from typing import cast
 
 import uvicorn
-from uvicorn.config import STARTUP_FAILURE
-from uvicorn.supervisors import Multiprocess
 
 from app.api.access.keyring import InvalidKeys, Keyring
 from app.connections import BoundedProtocol, Bounds, Gate
 from app.logs import configuration
 from app.settings import InvalidSetting, Settings
+from app.supervisor import Supervisor
 
 SHUTDOWN_SECONDS = 6
 """How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
-
-LISTENERS = 8
-"""Connections that are let in in one turn of an event loop, each in less than a tenth of a millisecond."""
 
 OPEN_TO_ALL = (
     "at {host} others than this machine could do everything without a key: make keys with `./dev keys` and name their "
@@ -60,48 +55,24 @@ def main() -> None:
     _open_as_many_files_as_allowed()
     print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
     bounds = Bounds(connections=settings.connections, waiting=settings.requests_waiting)
-    with metrics_folder(arguments.workers), contextlib.suppress(KeyboardInterrupt):
-        run(
-            host=arguments.host,
-            port=arguments.port,
-            workers=arguments.workers,
-            loop="uvloop",
-            http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=Gate(bounds))),
-            ws="none",
-            access_log=False,
-            log_config=configuration(settings.log_level),
-            server_header=False,
-            proxy_headers=bool(settings.trusted_proxies),
-            forwarded_allow_ips=list(settings.trusted_proxies),
-            timeout_graceful_shutdown=SHUTDOWN_SECONDS,
-            timeout_worker_healthcheck=60,
-        )
-
-
-def run(**options: Any) -> None:
-    """Serve until told to stop.
-
-    Args:
-        options: Of `uvicorn.Config`.
-    """
-    config = uvicorn.Config("app.main:from_environment", factory=True, **options)
-    listeners = several(config.bind_socket())
-    if config.workers > 1:
-        Multiprocess(config, sockets=listeners).run()
-        return
-    server = uvicorn.Server(config)
-    server.run(listeners)
-    if not server.started:
-        sys.exit(STARTUP_FAILURE)
-
-
-def several(listener: socket.socket) -> list[socket.socket]:
-    """One listening socket as several, all on one queue of connections.
-
-    The event loop takes one connection a turn from each. From a single one it would take a thousand turns until the
-    last of a thousand that have come at once is let in, and in each turn those before it are being answered.
-    """
-    return [listener, *(listener.dup() for _ in range(LISTENERS - 1))]
+    config = uvicorn.Config(
+        "app.main:from_environment",
+        factory=True,
+        host=arguments.host,
+        port=arguments.port,
+        workers=arguments.workers,
+        loop="uvloop",
+        http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=Gate(bounds))),
+        ws="none",
+        access_log=False,
+        log_config=configuration(settings.log_level),
+        server_header=False,
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=list(settings.trusted_proxies),
+        timeout_graceful_shutdown=SHUTDOWN_SECONDS,
+    )
+    with metrics_folder(arguments.workers):
+        Supervisor(config, config.bind_socket()).run()
 
 
 @contextlib.contextmanager

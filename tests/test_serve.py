@@ -16,9 +16,10 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
+import uvicorn
 import uvloop
 
-from app import serve
+from app import serve, supervisor
 from app.api.access.keyring import new_key
 from app.api.access.scopes import Scope
 
@@ -131,7 +132,7 @@ def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
 
     async def let_in() -> None:
         loop = asyncio.get_running_loop()
-        listeners = serve.several(socket.create_server((HOST, 0), backlog=count))
+        listeners = supervisor.several(socket.create_server((HOST, 0), backlog=count))
         servers = [await loop.create_server(Counting, sock=listener, backlog=count) for listener in listeners]
         clients = [socket.create_connection(listeners[0].getsockname()) for _ in range(count)]
         nonlocal turns
@@ -172,15 +173,26 @@ def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
     assert "GELENK_DATA_DRI" in run.stderr
 
 
-def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: str) -> dict[str, Any]:
+def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: str) -> uvicorn.Config:
     """What the server would be started with."""
-    found: dict[str, Any] = {}
+    found: list[uvicorn.Config] = []
+
+    class Caught(Exception):
+        pass
+
+    def catch(config: uvicorn.Config, _: object) -> None:
+        found.append(config)
+        raise Caught
+
     monkeypatch.setattr("sys.argv", ["serve", *arguments])
-    monkeypatch.setattr(serve, "run", lambda **options: found.update(options))
+    monkeypatch.setattr(serve, "Supervisor", catch)
+    monkeypatch.setattr(uvicorn.Config, "bind_socket", lambda _: None)
+    monkeypatch.setattr("logging.config.dictConfig", lambda _: None)
     for variable, value in settings.items():
         monkeypatch.setenv(variable, value)
-    serve.main()
-    return found
+    with pytest.raises(Caught):
+        serve.main()
+    return found[0]
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.0.2.1", "lab.example.org", ""])
@@ -189,16 +201,16 @@ def test_beyond_this_machine_it_wants_keys_or_a_word(host: str, monkeypatch: pyt
         started_with(monkeypatch, "--host", host)
     with pytest.raises(SystemExit, match="without a key"):
         started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="no")
-    assert started_with(monkeypatch, "--host", host, "--open")["host"] == host
-    assert started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="yes")["host"] == host
+    assert started_with(monkeypatch, "--host", host, "--open").host == host
+    assert started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="yes").host == host
     _, key = new_key("anna", [Scope.READ])
     keys = {"GELENK_OPEN_ACCESS": "no", "GELENK_API_KEYS": key.entry()}
-    assert started_with(monkeypatch, "--host", host, **keys)["host"] == host
+    assert started_with(monkeypatch, "--host", host, **keys).host == host
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.8.8", "::1", "localhost"])
 def test_on_this_machine_it_wants_neither(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert started_with(monkeypatch, "--host", host)["host"] == host
+    assert started_with(monkeypatch, "--host", host).host == host
 
 
 def test_keys_that_cannot_be_read_end_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -209,9 +221,9 @@ def test_keys_that_cannot_be_read_end_it(monkeypatch: pytest.MonkeyPatch, tmp_pa
 def test_only_a_trusted_proxy_says_where_a_request_comes_from(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FORWARDED_ALLOW_IPS", "*")
     options = started_with(monkeypatch)
-    assert (options["proxy_headers"], options["forwarded_allow_ips"]) == (False, [])
+    assert (options.proxy_headers, options.forwarded_allow_ips) == (False, [])
     options = started_with(monkeypatch, GELENK_TRUSTED_PROXIES="10.0.0.5")
-    assert (options["proxy_headers"], options["forwarded_allow_ips"]) == (True, ["10.0.0.5"])
+    assert (options.proxy_headers, options.forwarded_allow_ips) == (True, ["10.0.0.5"])
 
 
 def test_keys_over_real_connections(tmp_path: Path) -> None:

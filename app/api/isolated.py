@@ -5,14 +5,14 @@ may or when it dies. One call runs at a time; the others wait, each within its o
 """
 
 import contextlib
+import signal
 import threading
 import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
-from app.jobs.processes import ended, settle, started
+from app.processes.copies import Copy, ended, started
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -27,7 +27,7 @@ class Isolated:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._process: BaseProcess | None = None
+        self._process: Copy | None = None
         self._connection: Connection | None = None
         self._ready = False
         self._closed = False
@@ -65,7 +65,7 @@ class Isolated:
         while not self._lock.acquire(timeout=0.05):
             if (process := self._process) is not None:
                 with contextlib.suppress(ValueError):
-                    process.kill()
+                    process.signal(signal.SIGKILL)
         self._end()
         self._lock.release()
 
@@ -114,7 +114,6 @@ class Isolated:
 
 def serve(connection: Connection) -> None:
     """Answer calls until the other side is gone; what the process runs."""
-    settle()
     connection.send(True)
     while True:
         try:

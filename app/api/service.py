@@ -23,10 +23,10 @@ class Health(BaseModel):
 
 
 class Readiness:
-    """Whether requests are quick yet: the kernels are compiled, or read from their cache."""
+    """Whether requests are quick yet: the kernels are compiled, or read from their cache, and the crew is there."""
 
     def __init__(self) -> None:
-        self.waiting_for: list[str] = ["kernels"]
+        self.waiting_for: list[str] = ["kernels", "crew"]
         self.failure: str | None = None
 
     def begin(self) -> None:
@@ -62,7 +62,7 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
         responses=problem_responses(503),
     )
     async def ready(request: Request) -> Response:
-        """503 with `waiting_for` until the kernels are compiled; with `failure` where that went wrong for good."""
+        """503 with `waiting_for` until the kernels and the crew are there; with `failure` where that went wrong."""
         if not readiness.waiting_for:
             return json_response({"status": "ready"})
         facts = {"waiting_for": readiness.waiting_for, "failure": readiness.failure}

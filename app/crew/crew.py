@@ -16,13 +16,12 @@ import time
 from collections import deque
 from collections.abc import Callable
 from functools import partial
-from multiprocessing.process import BaseProcess
 from typing import Any, TypeAlias, TypeVar
 
 from app.crew import wire
 from app.crew.process import serve
-from app.jobs.processes import ended, started
 from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from app.processes.copies import Copy, ended, started
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -203,7 +202,7 @@ class _Seat:
 
     def __init__(self, memory_bytes: int) -> None:
         self._memory_bytes = memory_bytes
-        self._process: BaseProcess | None = None
+        self._process: Copy | None = None
         self._stream: socket.socket | None = None
         self._is_asked = self._is_closed = False
         self.is_broken = True

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from app.crew import wire
-from app.jobs.processes import settle
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """What came of a call: its result, what it has raised, or that there was not enough memory."""
@@ -34,7 +33,6 @@ def serve(memory_bytes: int, connection: Connection) -> None:
     """
     stream = socket.socket(fileno=os.dup(connection.fileno()))
     connection.close()
-    settle()
     os.nice(_NICENESS)
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()

@@ -13,10 +13,9 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from typing import Any, TypeAlias
 
-from app.jobs.processes import GOODBYE_SECONDS, ended, settle, started
+from app.processes.copies import GOODBYE_SECONDS, Copy, ended, started
 
 _LOOK = 0.05
 """How often a thread that waits for a result looks whether it is still wanted, [s]."""
@@ -115,7 +114,7 @@ class _Seat(threading.Thread):
     def __init__(self, parts: "queue.SimpleQueue[_Part | None]", closed: threading.Event, number: int) -> None:
         super().__init__(name=f"jobs-{number}", daemon=True)
         self._parts, self._closed = parts, closed
-        self._process: BaseProcess | None = None
+        self._process: Copy | None = None
         self._connection: Connection | None = None
         self.start()
 
@@ -196,7 +195,6 @@ class _Seat(threading.Thread):
 
 def serve(connection: Connection) -> None:
     """Do parts until the other side is gone; what a process runs."""
-    settle()
     while True:
         try:
             function, argument = connection.recv()

@@ -323,9 +323,9 @@ def wait_for(condition: Callable[[], bool]) -> None:
 
 
 def workers() -> set[str]:
-    """Processes that come from this one, zombies too; but for the two that multiprocessing keeps for itself."""
+    """Processes that come from this one, zombies too; but for the one that they are copies of."""
     found = {pid for child in children("self") for pid in children(child)}
-    return found | {pid for pid in children("self") if b"multiprocessing." not in command(pid)}
+    return found | {pid for pid in children("self") if b"app.processes" not in command(pid)}
 
 
 def children(pid: str) -> set[str]:

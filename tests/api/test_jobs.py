@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-import multiprocessing
 import os
 import signal
 import threading
@@ -19,6 +18,7 @@ from starlette.testclient import TestClient
 from app.api import jobs as jobs_module
 from app.main import create_app
 from app.settings import Settings
+from tests.test_faults import called
 from tests.test_serve import get, service
 
 SHORT = {"samples": 1000}
@@ -164,11 +164,10 @@ def test_a_cancelled_job_has_no_result_and_is_removed_the_second_time(client: Te
 def test_a_job_goes_on_when_a_process_is_killed(client: TestClient) -> None:
     location = posted(client, {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.25, "orientations": 20})
     running(client, location)
-    processes = [process for process in multiprocessing.active_children() if process.name == "jobs"]
+    processes = called("jobs", os.getpid())
     assert len(processes) >= 1
     for process in processes:
-        assert process.pid is not None
-        os.kill(process.pid, signal.SIGKILL)
+        os.kill(process, signal.SIGKILL)
     assert ended(lambda: client.get(location).json())["state"] == "succeeded"
 
 

@@ -149,7 +149,7 @@ class Metrics:
         if folder := os.environ.get(FOLDER):
             _forget_the_dead(Path(folder))
             registry = CollectorRegistry()
-            MultiProcessCollector(registry, folder)
+            registry.register(_Together(Path(folder)))
         jobs = CollectorRegistry()
         jobs.register(_Jobs(self._jobs()))
         return generate_latest(registry) + generate_latest(jobs)
@@ -174,6 +174,17 @@ class Metrics:
         return Gauge(f"gelenk_{name}", what, labels, registry=self._registry, multiprocess_mode="livesum")
 
 
+class _Together(Collector):
+    """The numbers of all processes; a file that one of them is just about to begin has none yet."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def collect(self) -> Iterator[Metric]:
+        files = [str(path) for path in self._folder.glob("*.db") if _size(path)]
+        yield from MultiProcessCollector.merge(files)
+
+
 class _Jobs(Collector):
     """How many jobs there are, which any process knows."""
 
@@ -191,7 +202,15 @@ def _forget_the_dead(folder: Path) -> None:
     """What a process that is gone had under way is no more; what it had counted stays."""
     for pid in {file.stem.rpartition("_")[2] for file in folder.glob("gauge_live*.db")}:
         if not Path(f"/proc/{pid}").exists():
-            mark_process_dead(int(pid), str(folder))
+            with contextlib.suppress(FileNotFoundError):  # another process was quicker
+                mark_process_dead(int(pid), str(folder))
+
+
+def _size(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except FileNotFoundError:
+        return 0
 
 
 def _resident_bytes() -> int:

@@ -15,6 +15,7 @@ from app.api.access import metrics
 from app.crew.crew import Crew
 from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 from tests.api.conftest import ready_client
+from tests.test_faults import called, wait_for
 from tests.test_serve import get, service
 
 Numbers = dict[tuple[str, frozenset[tuple[str, str]]], float]
@@ -148,35 +149,20 @@ def test_several_processes_are_counted_together_and_a_killed_one_takes_nothing_a
     with service(tmp_path, "--workers", "2", GELENK_CREW_PROCESSES="3") as (run, url):
         for _ in range(40):  # each on a new connection, so that both workers get some
             assert get(f"{url}/v1/robots/planar_2r/fk", "POST", CALL)[0] == 200
-        time.sleep(1.5)  # by then each process has told
+        wait_for(lambda: calls(counted()) == 40.0)  # each process tells every second
         assert {calls(counted()) for _ in range(8)} == {40.0}
         assert number(counted(), "crew_processes") == 6.0
         (folder,) = {
             Path(line.removeprefix("PROMETHEUS_MULTIPROC_DIR="))
-            for line in Path(f"/proc/{workers(run.pid)[0]}/environ").read_text().split("\0")
+            for line in Path(f"/proc/{called('worker', run.pid)[0]}/environ").read_text().split("\0")
             if line.startswith("PROMETHEUS_MULTIPROC_DIR=")
         }
-        os.kill(workers(run.pid)[0], signal.SIGKILL)
-        deadline = time.monotonic() + 60
-        while len(workers(run.pid)) < 2:
-            assert time.monotonic() < deadline
-            time.sleep(0.1)
+        victim = called("worker", run.pid)[0]
+        os.kill(victim, signal.SIGKILL)
+        wait_for(lambda: victim not in called("worker", run.pid) and len(called("worker", run.pid)) == 2)
         for _ in range(10):
             assert get(f"{url}/v1/robots/planar_2r/fk", "POST", CALL)[0] == 200
-        time.sleep(1.5)
+        wait_for(lambda: calls(counted()) == 50.0)
+        (folder / "counter_1.db").touch()  # a process that has just begun
         assert calls(counted()) == 50.0
-        assert folder.is_dir()
     assert not folder.exists()
-
-
-def workers(pid: int) -> list[int]:
-    """Processes of the service that serve: those that hold a file of the metrics."""
-    found = []
-    for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
-        try:
-            maps = Path(f"/proc/{child}/maps").read_text()
-        except OSError:
-            continue
-        if "gauge_livesum" in maps:
-            found.append(int(child))
-    return found

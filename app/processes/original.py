@@ -1,0 +1,184 @@
+"""The process that others are copies of: it loads everything once, copies itself when asked, and does nothing else.
+
+It is asked over a socket that whoever started it has, and each of its copies. A request brings two sockets: the way to
+the copy, and its lifeline, on which the copy's number comes first and its exit code last. Whoever asked holds the other
+end of that; when it is closed, because they are gone for example, the copy is killed. The process itself ends when its
+standard input does, which the one who started it holds, and its copies end with it.
+
+Copies that are asked for before it is told to warm up are there before that: it may take a minute.
+"""
+
+import contextlib
+import ctypes
+import importlib
+import logging
+import os
+import selectors
+import signal
+import socket
+import struct
+import sys
+from collections.abc import Callable
+from functools import partial
+from multiprocessing.connection import Connection
+from typing import NoReturn
+
+LOADED = "app.preload"
+"""The module that is imported first, with a function `warm_up` that computes one of everything."""
+COPY, WARM_UP = b"c", b"w"
+NUMBER = struct.Struct("!i")
+
+_PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15
+
+logger = logging.getLogger("gelenk")
+
+
+def main(control: int) -> None:
+    """Load everything, then do what is asked until the end.
+
+    Args:
+        control: File descriptor of the socket on which requests come.
+    """
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, signal.SIG_IGN)
+    _name("original")
+    loaded = importlib.import_module(LOADED)
+    Original(socket.socket(fileno=control), loaded.warm_up).run()
+
+
+class Original:
+    """Copies this process; it must have no other thread.
+
+    Args:
+        control: Where requests come from.
+        warm_up: Loads what takes longer than the first copies can wait.
+    """
+
+    def __init__(self, control: socket.socket, warm_up: Callable[[], None]) -> None:
+        self._control, self._warm_up = control, warm_up
+        self._lifelines: dict[int, socket.socket] = {}
+        self._selector = selectors.DefaultSelector()
+        self._wakes, self._woken = socket.socketpair()
+        self._goes_on = True
+
+    def run(self) -> None:
+        """Do what is asked until nobody is left to ask."""
+        self._wakes.setblocking(False)
+        signal.set_wakeup_fd(self._wakes.fileno())
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        for source, act in (
+            (sys.stdin, self._stop),
+            (self._control, self._take),
+            (self._woken, self._reap),
+        ):
+            self._selector.register(source, selectors.EVENT_READ, act)
+        while self._goes_on:
+            for key, _ in self._selector.select():
+                key.data()
+
+    def _stop(self) -> None:
+        self._goes_on = False
+
+    def _take(self) -> None:
+        """Take a request."""
+        content, descriptors, _, _ = socket.recv_fds(self._control, 1, 2)
+        if content == WARM_UP:
+            self._get_warm(socket.socket(fileno=descriptors[0]))
+        elif content == COPY:
+            self._copy(descriptors[0], socket.socket(fileno=descriptors[1]))
+
+    def _get_warm(self, asker: socket.socket) -> None:
+        """Load what takes long; the end of its socket tells whoever asked that this is over."""
+        try:
+            self._warm_up()
+        except Exception:
+            logger.exception("the kernels could not be loaded")
+        asker.close()
+
+    def _copy(self, way: int, lifeline: socket.socket) -> None:
+        """A copy; where there is none to be had, its lifeline ends without a word."""
+        parent = os.getpid()
+        try:
+            pid = os.fork()
+        except OSError as error:
+            logger.error("no process could be started: %s", error.strerror)
+            os.close(way)
+            lifeline.close()
+            return
+        if pid == 0:
+            lifeline.close()
+            self._become(way, parent)
+        os.close(way)
+        self._lifelines[pid] = lifeline
+        self._selector.register(lifeline, selectors.EVENT_READ, partial(self._let_go, pid))
+        self._tell(lifeline, pid)
+
+    def _become(self, way: int, parent: int) -> NoReturn:
+        """Do what the other end of the way asks for, and end."""
+        code = 1
+        try:
+            _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == parent:  # else it has ended before that could be said
+                self._forget()
+                connection = Connection(way)
+                name, target = connection.recv()
+                _name(name)
+                target(connection)
+                code = 0
+        except SystemExit as error:
+            code = error.code if isinstance(error.code, int) else 1
+        except (EOFError, OSError):
+            code = 0  # nobody is there any more
+        except BaseException:
+            logger.exception("a process has failed")
+        finally:
+            with contextlib.suppress(Exception):
+                logging.shutdown()
+                sys.stdout.flush()
+            os._exit(code)
+
+    def _forget(self) -> None:
+        """Let go, in a copy, of what the original alone needs."""
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        self._selector.close()
+        for one in (self._control, self._wakes, self._woken, *self._lifelines.values()):
+            one.close()
+        nothing = os.open(os.devnull, os.O_RDONLY)
+        os.dup2(nothing, sys.stdin.fileno())
+        os.close(nothing)
+
+    def _let_go(self, pid: int) -> None:
+        """End a copy whose lifeline was closed; `_reap` tells of it where somebody still listens."""
+        self._selector.unregister(self._lifelines[pid])
+        os.kill(pid, signal.SIGKILL)
+
+    def _reap(self) -> None:
+        """Tell of the copies that have ended."""
+        self._woken.recv(4096)
+        while self._lifelines:
+            pid, status = os.waitpid(-1, os.WNOHANG)
+            if not pid:
+                return
+            lifeline = self._lifelines.pop(pid, None)
+            if lifeline is None:
+                continue
+            with contextlib.suppress(KeyError):
+                self._selector.unregister(lifeline)
+            self._tell(lifeline, os.waitstatus_to_exitcode(status))
+            lifeline.close()
+
+    def _tell(self, lifeline: socket.socket, number: int) -> None:
+        with contextlib.suppress(OSError):
+            lifeline.sendall(NUMBER.pack(number))
+
+
+def _name(name: str) -> None:
+    """Say what this process is; at most eight letters."""
+    _set(_PR_SET_NAME, f"gelenk-{name}".encode("ascii"))
+
+
+def _set(what: int, value: object) -> None:
+    """Tell the system something about this process, where it takes that."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(what, value)

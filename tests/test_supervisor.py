@@ -1,0 +1,104 @@
+"""Workers that end, hang or cannot begin: another one is there within a second, or the service says why not."""
+
+import os
+import signal
+import socket
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import uvicorn
+
+from app.supervisor import STARTUP_FAILURE, _Seat
+from tests.raw_http import processes
+from tests.test_faults import QUICK, called, children, is_alive, wait_for
+from tests.test_serve import HOST, free_port, get, service
+
+WORKERS, CREW = 2, 2
+KILLS = 5
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[int, str]]:
+    with service(tmp_path_factory.mktemp("data"), "--workers", "2", GELENK_CREW_PROCESSES="2") as (run, url):
+        wait_for(lambda: is_whole(run.pid))
+        yield run.pid, url
+
+
+def is_whole(pid: int) -> bool:
+    return len(called("worker", pid)) == WORKERS and len(called("crew", pid)) == WORKERS * CREW
+
+
+def test_a_killed_worker_is_replaced_within_a_second(running: tuple[int, str]) -> None:
+    """With its crew, whose processes end with it; and nobody who asks meanwhile is refused."""
+    pid, url = running
+    seconds = []
+    for _ in range(KILLS):
+        victim, crews = called("worker", pid)[0], set(called("crew", pid))
+        os.kill(victim, signal.SIGKILL)
+        killed = time.monotonic()
+        wait_for(
+            lambda victim=victim, crews=crews: (
+                is_whole(pid) and victim not in called("worker", pid) and len(crews - set(called("crew", pid))) == CREW
+            )
+        )
+        seconds.append(time.monotonic() - killed)
+        assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
+    assert min(seconds) < 1.0, statistics.median(seconds)
+
+
+def test_the_process_that_is_copied_is_replaced_with_all_its_copies(running: tuple[int, str]) -> None:
+    pid, url = running
+    (original,) = children(pid)
+    copies = children(original)
+    os.kill(original, signal.SIGKILL)
+    wait_for(lambda: not any(is_alive(one) for one in copies), 5.0)
+    wait_for(lambda: is_whole(pid))
+    assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
+
+
+def test_no_worker_outlives_the_supervisor(running: tuple[int, str]) -> None:
+    """The last test with this service."""
+    pid, url = running
+    everything = list(processes(pid))
+    assert len(everything) == 2 + WORKERS * (1 + CREW)
+    os.kill(pid, signal.SIGKILL)
+    wait_for(lambda: not any(is_alive(one) for one in everything), 5.0)
+    with pytest.raises(OSError, match="refused"):
+        get(f"{url}/healthz")
+
+
+def test_a_service_that_cannot_begin_ends_and_says_why(tmp_path: Path) -> None:
+    environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path), "GELENK_CATALOGUE_DIR": str(tmp_path / "none")}
+    command = [sys.executable, "-m", "app.serve", "--port", str(free_port())]
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode == STARTUP_FAILURE
+    assert str(tmp_path / "none") in run.stderr
+    assert "could not begin to serve" in run.stderr
+
+
+def test_a_worker_that_hangs_is_killed_unless_the_supervisor_was_stopped_itself(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GELENK_DATA_DIR", str(tmp_path))
+    config = uvicorn.Config("app.main:from_environment", factory=True, log_config=None)
+    seat = _Seat()
+    with socket.create_server((HOST, 0)) as listener:
+        seat.take(config, "worker")
+        seat.serve(listener)
+        try:
+            worker = seat._worker
+            assert worker is not None
+            os.kill(worker.pid, signal.SIGSTOP)
+            for later, is_forgiving in ((59.0, False), (61.0, True), (61.0 + 59.0, False)):
+                seat.look(time.monotonic() + later, is_forgiving)
+                assert is_alive(worker.pid)
+            seat.look(time.monotonic() + 61.0 + 61.0, is_forgiving=False)
+            assert not is_alive(worker.pid)
+            assert not seat.cannot_begin
+        finally:
+            seat.leave(0.0)
