@@ -2,7 +2,7 @@
 
 import asyncio
 import os
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 
@@ -34,7 +34,7 @@ from app.api.jobs import jobs_router
 from app.api.operations import Setup
 from app.api.remote import Remote
 from app.api.robots import robots_router, upload_routes
-from app.api.routes import Application
+from app.api.routes import Application, Operation
 from app.api.service import Readiness, service_router
 from app.api.workspace import SampleLimits, workspace_route, workspace_work
 from app.crew.crew import Crew
@@ -67,7 +67,8 @@ def create_app(settings: Settings) -> FastAPI:
     crew = Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
-    runner = _runner(settings)
+    operations = setup.operations()
+    runner = _runner(settings, operations)
     readiness, metrics = Readiness(), Metrics(library.catalogue_names, crew, runner.shelf.states)
 
     @asynccontextmanager
@@ -121,8 +122,8 @@ def create_app(settings: Settings) -> FastAPI:
         *(time_law_route, spline_route, time_scaling_route),
     ):
         app.router.routes.append(course_route(remote, size))
-    for operation in setup.operations():
-        handler = operation.computation.handler(operation.name, remote)
+    for operation in operations:
+        handler = operation.computation.handler(operation.name, remote, runner)
         app.operations[operation.name] = handler
         app.router.routes.append(operation.route(handler, size))
     samples = SampleLimits(settings.max_job_samples, most)
@@ -136,7 +137,7 @@ def create_app(settings: Settings) -> FastAPI:
     return app
 
 
-def _runner(settings: Settings) -> Runner:
+def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
     """What does the jobs."""
     kept = Limits(
         kept=settings.kept_jobs,
@@ -146,6 +147,7 @@ def _runner(settings: Settings) -> Runner:
         kept_seconds=settings.kept_job_days * 24 * 3600.0,
     )
     kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
+    kinds |= {long.kind: long.work for operation in operations if (long := operation.computation.long) is not None}
     workers = Workers(settings.job_processes)
     shelf = Shelf(settings.data_dir / "jobs", kept)
     return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds)

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Mapping
-from datetime import UTC, datetime
 from typing import Annotated, Any, Literal
 
 import orjson
@@ -11,14 +10,18 @@ from starlette.background import BackgroundTask
 from starlette.requests import Request
 from starlette.responses import StreamingResponse
 
-from app.api.openapi import npy_content, picture_content, problem_responses
-from app.api.payloads import JSON, NPY, PNG, SVG, preferred_type
+from app.api.job_info import NO_STORE, job_content, job_response
+from app.api.long_work import HEADERS, RESULTS, headers_of
+from app.api.openapi import csv_content, npy_content, picture_content, problem_responses
+from app.api.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type
 from app.jobs.job import Job
 from app.jobs.runner import Runner
-from app.jobs.workspace import ARRAY, SUMMARY
+from app.jobs.workspace import ARRAY, KIND, SUMMARY
 from app.jobs.workspace_picture import picture
-from app.model.errors import UnknownJob, kind_of
+from app.model.errors import InvalidArray, UnknownJob
+from app.schemas.ik import InverseAnswer
 from app.schemas.jobs import JobInfo
+from app.schemas.trajectory_answer import TrajectoryAnswer
 from app.schemas.workspace import WorkspaceAnswer
 
 EVENT_STREAM = "text/event-stream"
@@ -28,8 +31,9 @@ HEARTBEAT_SECONDS = 15.0
 """After how long without news a stream sends a comment, so that nothing on the way takes it for dead."""
 
 _PIECE = 256 * 1024
+EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), "trajectory": (CSV,)}
+"""Media types that a kind of job has a result in beside JSON and npy."""
 _PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
-_NO_STORE = {"Cache-Control": "no-store"}
 
 JobPath = Annotated[
     str, Path(description="Name of a job.", openapi_examples={"panda-workspace": {"value": "panda-workspace"}})
@@ -83,23 +87,25 @@ def jobs_router(runner: Runner) -> APIRouter:
         if first.is_final and last_event_id == _event_id(first):
             return Response(status_code=204)
         return StreamingResponse(
-            _events(runner, first, request.scope.get("state", {})), media_type=EVENT_STREAM, headers=_NO_STORE
+            _events(runner, first, request.scope.get("state", {})), media_type=EVENT_STREAM, headers=NO_STORE
         )
 
     @router.get(
         "/{job}/result",
         operation_id="get_job_result",
         summary="What came out of a job",
-        response_model=WorkspaceAnswer,
+        response_model=WorkspaceAnswer | InverseAnswer | TrajectoryAnswer,
         responses={
             200: {
                 "content": {
                     **npy_content(
-                        "The array, columns as `array.columns` of the JSON has them: (N, 4) x y z measure of a cloud, "
-                        "(M, 5) x y z samples best_measure of a grid, (M, 6) with the share of a dexterity map."
+                        "Of a workspace the array, columns as `array.columns` of the JSON has them: (N, 4) x y z "
+                        "measure of a cloud, (M, 5) x y z samples best_measure of a grid, (M, 6) with the share of a "
+                        "dexterity map. Of the others what the call itself answers with, headers included."
                     ),
+                    **csv_content("Of a trajectory what the call itself answers with."),
                     **picture_content(
-                        "The workspace from the front, the side and above, or in its plane, coloured by the measure or "
+                        "A workspace from the front, the side and above, or in its plane, coloured by the measure or "
                         "the dexterity."
                     ),
                 }
@@ -108,16 +114,19 @@ def jobs_router(runner: Runner) -> APIRouter:
         },
     )
     def get_result(job: JobPath, request: Request) -> Response:
-        """A summary as JSON, the array as npy, or a picture, by `Accept`; of a failed job its problem.
+        """Of a workspace a summary as JSON, the array as npy, or a picture, by `Accept`; of any other job the answer.
+
+        That of an operation is byte for byte what it answers with at once. A failed job answers with its problem.
 
         One that was given up because the service ended each time that it was begun is a 409: it has to be asked for
         again.
         """
-        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, SVG, PNG))
+        offered = (JSON, NPY, *EXTRA.get(runner.shelf.get(job).kind, ()))
+        wanted = preferred_type(request.headers.get("accept", ""), offered)
         if wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
             return Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
-        return _file_response(runner, job, ARRAY if wanted == NPY else SUMMARY, wanted)
+        return _file_response(runner, job, wanted)
 
     @router.delete(
         "/{job}",
@@ -134,36 +143,6 @@ def jobs_router(runner: Runner) -> APIRouter:
         return job_response(runner.cancel(job))
 
     return router
-
-
-def job_response(job: Job, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    """A job as it travels."""
-    return Response(orjson.dumps(_content(job)), status, {**_NO_STORE, **(headers or {})}, JSON)
-
-
-def _content(job: Job) -> dict[str, Any]:
-    failure = job.failure
-    content: dict[str, Any] = {
-        "id": job.id,
-        "kind": job.kind,
-        "state": job.state,
-        "progress": job.progress,
-        "created": _moment(job.created),
-        "started": _moment(job.started),
-        "finished": _moment(job.finished),
-        "attempts": job.attempts,
-        "error": None,
-    }
-    if failure is not None:
-        kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
-        content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
-    return content
-
-
-def _moment(seconds: float | None) -> str | None:
-    if seconds is None:
-        return None
-    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 def _event_id(job: Job) -> str:
@@ -183,7 +162,7 @@ async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIt
         if (event_id := f"{job.state} {job.progress}") != told:
             told, quiet = event_id, 0.0
             name = "finished" if job.is_final else "progress"
-            yield f"event: {name}\nid: {_event_id(job)}\ndata: {orjson.dumps(_content(job)).decode()}\n\n"
+            yield f"event: {name}\nid: {_event_id(job)}\ndata: {orjson.dumps(job_content(job)).decode()}\n\n"
         elif quiet >= HEARTBEAT_SECONDS:
             quiet = 0.0
             yield ": still there\n\n"
@@ -197,17 +176,18 @@ async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIt
             return
 
 
-def _file_response(runner: Runner, job_id: str, name: str, media_type: str) -> Response:
+def _file_response(runner: Runner, job_id: str, media_type: str) -> Response:
     """A file that a job has left behind, piece by piece: once open, it is there to its end."""
-    path = runner.result(job_id, name)
+    path = runner.result(job_id, RESULTS[media_type])
     try:
         stream = path.open("rb")
     except FileNotFoundError:
-        raise UnknownJob(job_id) from None
-    headers = {**_NO_STORE, "Content-Length": str(path.stat().st_size)}
+        runner.shelf.get(job_id)
+        raise InvalidArray(NO_ARRAY) from None
+    headers = headers_of(runner.result(job_id, HEADERS), media_type)
     return StreamingResponse(
         iter(lambda: stream.read(_PIECE), b""),
-        media_type=media_type,
-        headers=headers,
+        media_type=f"{CSV}; header=present" if media_type == CSV else media_type,
+        headers={**NO_STORE, **headers, "Content-Length": str(path.stat().st_size)},
         background=BackgroundTask(stream.close),
     )

@@ -3,18 +3,38 @@
 from http import HTTPStatus
 from typing import Annotated, Any
 
-from fastapi import FastAPI, Path
+from fastapi import FastAPI, Header, Path
 from fastapi.openapi.utils import get_openapi
 
 from app.api.access.scopes import SCHEME, security_of
 from app.api.payloads import CSV, NPY, PNG, SVG
 from app.api.problems import MEDIA_TYPE
+from app.schemas.jobs import JobInfo
 from app.schemas.problem import Problem
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
 UploadedRobotPath = Annotated[
     str, Path(description="Name of an uploaded robot.", openapi_examples={"my_planar_arm": {"value": "my_planar_arm"}})
 ]
+
+PreferHeader = Annotated[
+    str | None,
+    Header(
+        description="With `respond-async` (RFC 7240) the answer is a job's; any other preference is left aside.",
+        openapi_examples={"at once": {"value": "wait=10"}, "as a job": {"value": "respond-async"}},
+    ),
+]
+
+JOB_BEGUN: dict[int | str, dict[str, Any]] = {
+    202: {
+        "model": JobInfo,
+        "description": "A job, as `Prefer: respond-async` asks for",
+        "headers": {
+            "Location": {"description": "Of the job.", "schema": {"type": "string"}},
+            "Preference-Applied": {"description": "`respond-async`.", "schema": {"type": "string"}},
+        },
+    }
+}
 
 BY_THE_CREW = (429, 500, 503, 504)
 """Statuses of whatever a process of the crew may have to answer."""

@@ -24,6 +24,8 @@ from app.schemas.common import Payload
 MAX_MEMBERS = 1_000_000
 """Members of objects in a body: each unknown one would be a validation error of its own."""
 
+NO_ARRAY = "what this call asks for does not fit into one array: leave `Accept` out for JSON"
+
 MAX_PARAMETERS = 1000
 """Parameters in a query: enough for the frames of the largest robot, one by one."""
 

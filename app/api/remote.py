@@ -53,6 +53,10 @@ class Remote:
         TALLY.set(reply[3])
         return Passed(reply)
 
+    async def told(self, request: Request, errand: Errand, inquiry: Inquiry) -> bytes:
+        """What an errand has to tell this process; raises as `answer` does."""
+        return b"".join((await self._reply(request, errand, inquiry))[2])
+
     async def resident(self, request: Request, name: str) -> LoadedRobot:
         """A robot in this process, for quick calls; one from outside has been loaded by the crew before, which lived.
 

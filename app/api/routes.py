@@ -23,8 +23,11 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api import problems
 from app.api.errand import Desk, Inquiry, buffers
+from app.api.long_work import LongWork, submitted
 from app.api.openapi import (
     BY_THE_CREW,
+    JOB_BEGUN,
+    PreferHeader,
     RobotPath,
     csv_content,
     json_example,
@@ -35,6 +38,7 @@ from app.api.openapi import (
 from app.api.payloads import (
     CSV,
     JSON,
+    NO_ARRAY,
     NPY,
     PNG,
     SVG,
@@ -46,9 +50,11 @@ from app.api.payloads import (
     read_npy,
     read_query,
 )
+from app.api.preference import wants_answer_later
 from app.api.problems import UnsupportedMediaType
 from app.api.remote import INLINE_BYTES, Remote
 from app.api.tally import TALLY, Tally
+from app.jobs.runner import Runner
 from app.model.arrays import Array
 from app.model.errors import InvalidArray, InvalidField
 from app.schemas.common import Answer, Payload
@@ -176,6 +182,7 @@ class Computation(Generic[_Request]):
         attempt: The operation where it is quick; None when called if it is not.
         picture: What an image of the answer shows, where there is one; it is drawn in a thread.
         table: What the answer holds as CSV, where there is one.
+        long: How it is done as a job, where it can be.
     """
 
     run: Callable[[LoadedRobot, _Request], Outcome]
@@ -186,13 +193,15 @@ class Computation(Generic[_Request]):
     attempt: Callable[[LoadedRobot, _Request], Outcome | None] | None = None
     picture: str | None = None
     table: str | None = None
+    long: LongWork[_Request] | None = None
 
-    def handler(self, name: str, remote: Remote) -> Handler:
-        """What answers its requests: on the event loop where that is quick, else an errand to the crew.
+    def handler(self, name: str, remote: Remote, runner: Runner) -> Handler:
+        """What answers its requests: on the event loop where that is quick, else an errand to the crew, or a job.
 
         Args:
             name: The operation's.
             remote: Who runs errands.
+            runner: Who does jobs.
         """
         errand = OperationErrand(name)
         offered = (JSON, NPY, *((CSV,) if self.table else ()), *((SVG, PNG) if self.picture else ()))
@@ -202,6 +211,10 @@ class Computation(Generic[_Request]):
             npy_in, wanted = _is_npy(request, taken), request.preferred(offered)
             pieces = await request.pieces()
             robot, query = request.path_params["robot"], request.scope["query_string"].decode("latin-1")
+            if self.long is not None and wants_answer_later(request.scope["headers"]):
+                inquiry = Inquiry(buffers(pieces), robot, query, npy_in)
+                planned = await remote.told(request, PlanErrand(name), inquiry)
+                return await submitted(runner, self.long.kind, request, planned)
             if request.length <= INLINE_BYTES:
                 call = self._parse(query, b"".join(pieces), npy_in)
                 if wanted not in _PICTURES and not self.is_heavy(call):
@@ -217,6 +230,13 @@ class Computation(Generic[_Request]):
         loaded, call = library.get(inquiry.robot), self._parse(inquiry.query, inquiry.body, inquiry.npy)
         return self._told(call, self.run(loaded, call), inquiry.wanted)
 
+    def planned(self, library: Library, inquiry: Inquiry) -> Response:
+        """What a job is done from that answers a request."""
+        if self.long is None:
+            raise NotImplementedError
+        loaded = library.get(inquiry.robot)
+        return self.long.planned(loaded, self._parse(inquiry.query, inquiry.body, inquiry.npy))
+
     def _told(self, call: _Request, outcome: Outcome, wanted: str) -> Response:
         """The answer; what the metrics count of it is left behind."""
         batch = len(getattr(call, self.array_field)) if self.array_field else 0
@@ -229,7 +249,8 @@ class Computation(Generic[_Request]):
                 raise InvalidField("query", "parameters go with an npy body; a JSON call has them as fields")
             return read_json(self.request, body)
         options = read_query(self.options, QueryParams(query))
-        call = self.request.model_construct(**{**dict(options), self.array_field: read_npy(body)})
+        given = options.model_fields_set | {self.array_field}
+        call = self.request.model_construct(given, **{**dict(options), self.array_field: read_npy(body)})
         return cast(_Request, call)
 
 
@@ -242,6 +263,17 @@ class OperationErrand:
     def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
         """The answer."""
         return desk.computations[self.name].answer(desk.library, inquiry)
+
+
+@dataclass(frozen=True, slots=True)
+class PlanErrand:
+    """To check a request that a job is to answer, by the operation's name."""
+
+    name: str
+
+    def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
+        """What the job is done from."""
+        return desk.computations[self.name].planned(desk.library, inquiry)
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,25 +305,41 @@ class Operation:
 
         def endpoint(robot: str, call: Any) -> Any: ...
 
-        endpoint.__annotations__ = {"robot": RobotPath, "call": self.computation.request, "return": self.answer}
+        def endpoint_or_job(robot: str, call: Any, prefer: str | None = None) -> Any: ...
+
+        long = self.computation.long
+        described: Callable[..., Any] = endpoint if long is None else endpoint_or_job
+        described.__annotations__ = {"robot": RobotPath, "call": self.computation.request, "return": self.answer}
+        if long is not None:
+            described.__annotations__["prefer"] = PreferHeader
         shapes = npy_content(self.npy_answer) | csv_content(self.computation.table)
         body = json_example(self.example) | ({} if self.npy_body is None else npy_content(self.npy_body))
         return DocumentedRoute(
             f"/v1/robots/{{robot}}/{self.name}",
-            endpoint,
+            described,
             handler,
             max_body_bytes,
             methods=["POST"],
             operation_id=self.operation_id,
             summary=self.summary,
-            description=inspect.getdoc(self.computation.run),
+            description="\n\n".join(filter(None, (inspect.getdoc(self.computation.run), _job_note(long)))),
             tags=["Kinematics"],
             responses={
                 200: {"content": {**shapes, **picture_content(self.computation.picture)}},
                 **problem_responses(400, 404, 413, 415, 422),
+                **({} if long is None else {**JOB_BEGUN, **problem_responses(507)}),
             },
             openapi_extra={"requestBody": {"content": body}},
         )
+
+
+def _job_note(long: LongWork[Any] | None) -> str | None:
+    if long is None:
+        return None
+    return (
+        "With `Prefer: respond-async` the call is checked, and a job gives the same answer: 202 with its address in "
+        f"`Location`. Then there may be {long.more}."
+    )
 
 
 def _is_npy(request: BoundedRequest, taken: Sequence[str]) -> bool:
@@ -309,7 +357,7 @@ def _response(outcome: Outcome, wanted: str) -> Response:
             raise InvalidField("Accept", "what this call asks for cannot be drawn: leave the header out for JSON")
         return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
     if outcome.array is None:
-        raise InvalidArray("what this call asks for does not fit into one array: leave `Accept` out for JSON")
+        raise InvalidArray(NO_ARRAY)
     if wanted == CSV and outcome.columns is not None:
         return csv_response(outcome.columns, *outcome.array())
     return npy_response(*outcome.array())

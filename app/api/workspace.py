@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 from starlette.responses import Response
 
-from app.api.jobs import job_response
+from app.api.job_info import job_response
 from app.api.openapi import RobotPath, json_example, problem_responses
 from app.api.payloads import JSON, BoundedRequest, read_json
 from app.api.problems import UnsupportedMediaType
 from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
-from app.jobs.robot_files import robot_files, robot_of
+from app.jobs.robot_files import robot_files, robot_of, robot_text
 from app.jobs.runner import Runner, Work
 from app.jobs.workspace import KIND, Question, question, work_of
 from app.kinematics.survey import POINT_COLUMNS
@@ -120,9 +120,10 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
 
 def workspace_work(folder: Path) -> Work:
     """What does the job of a request, by the folder that it is kept in."""
-    name, robot = robot_of(folder)
+    text = robot_text(folder)
+    robot = robot_of(text)
     call = read_json(WorkspaceRequest, (folder / _CALL).read_bytes())
-    return work_of(_question(name, robot, robot.chain(call.base_frame, call.tip_frame), call))
+    return work_of(_question(text.name, robot, robot.chain(call.base_frame, call.tip_frame), call))
 
 
 def _question(name: str, robot: Robot, chain: Chain, call: WorkspaceRequest) -> Question:

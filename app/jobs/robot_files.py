@@ -1,6 +1,8 @@
 """The robot of a job, kept with its request: whatever becomes of the robot meanwhile, the job goes on with this one."""
 
+from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
 import orjson
 
@@ -9,6 +11,20 @@ from app.model.urdf import read_urdf
 
 _URDF, _ABOUT = "robot.urdf", "robot.json"
 _ENCODING = "utf-8", "surrogatepass"
+
+
+class RobotText(NamedTuple):
+    """A robot as it travels to other processes.
+
+    Attributes:
+        name: What it is called.
+        urdf: What it is read from.
+        ends: Base and tip of its default chain.
+    """
+
+    name: str
+    urdf: bytes
+    ends: tuple[str, str]
 
 
 def robot_files(name: str, robot: Robot, urdf: str) -> dict[str, bytes]:
@@ -22,11 +38,17 @@ def robot_files(name: str, robot: Robot, urdf: str) -> dict[str, bytes]:
     return {_URDF: urdf.encode(*_ENCODING), _ABOUT: orjson.dumps([name, *robot.default_chain])}
 
 
-def robot_of(folder: Path) -> tuple[str, Robot]:
-    """The name and the robot that a request was kept with.
+def robot_text(folder: Path) -> RobotText:
+    """The robot that a request was kept with.
 
     Raises:
         OSError: It cannot be read.
     """
     name, base_frame, tip_frame = orjson.loads((folder / _ABOUT).read_bytes())
-    return name, Robot(read_urdf((folder / _URDF).read_bytes().decode(*_ENCODING)), (base_frame, tip_frame))
+    return RobotText(name, (folder / _URDF).read_bytes(), (base_frame, tip_frame))
+
+
+@lru_cache(maxsize=2)
+def robot_of(text: RobotText) -> Robot:
+    """The robot, ready for computation; built once for all parts of a job that a process computes."""
+    return Robot(read_urdf(text.urdf.decode(*_ENCODING)), text.ends)

@@ -16,6 +16,10 @@ MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000
 """Targets of a call that follows a method step by step, in Python."""
 
+MAX_JOB_TARGETS = 4_000_000
+MAX_JOB_STEPWISE = 100_000
+"""The same of a call that is answered by a job."""
+
 Targets = Annotated[
     list[Pose],
     Field(

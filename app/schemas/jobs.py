@@ -29,7 +29,7 @@ class JobInfo(Answer):
     """A job."""
 
     id: str
-    kind: Literal["workspace"]
+    kind: Literal["workspace", "ik", "trajectory"]
     state: Literal["queued", "running", "succeeded", "failed", "cancelled"] = Field(
         description="The last three are final."
     )

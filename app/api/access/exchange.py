@@ -2,14 +2,15 @@
 
 import re
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from random import getrandbits
 
 from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
 from app.api.access.directory import Operation
-from app.api.access.scopes import Scope
+from app.api.access.scopes import AS_JOBS, Scope
+from app.api.preference import wants_answer_later
 from app.api.tally import Tally
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
@@ -54,6 +55,8 @@ class Exchange:
         given = headers.get(b"x-request-id", b"")
         request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
         scope["request_id"] = request_id
+        if b"prefer" in headers and operation.name in AS_JOBS and wants_answer_later(scope["headers"]):
+            operation = replace(operation, scope=Scope.WRITE)
         return cls(scope, operation, robot, headers, request_id, time.perf_counter())
 
     @property

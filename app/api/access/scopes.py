@@ -21,6 +21,8 @@ OPEN_PATHS = frozenset(
 )
 """Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
 WRITING = frozenset({"add_robot", "replace_robot", "remove_robot", "workspace", "cancel_job"})
+AS_JOBS = frozenset({"inverse_kinematics", "trajectory"})
+"""What asks, unless a job is to answer it: that is kept, and needs `write`."""
 ADMINISTERING = frozenset({"metrics"})
 QUESTIONS = frozenset({"Kinematics", "DH tables", "Course"})
 """Tags of operations that keep nothing, whatever their method, unless they are named above."""

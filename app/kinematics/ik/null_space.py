@@ -68,6 +68,7 @@ def settle(
     best = qs.copy()
     values = _value(chain, targets, best, objective, task)
     sizes = np.full(len(qs), 0.5)
+    moving = np.ones(len(qs), dtype=bool)
     for _ in range(_ROUNDS):
         if is_over(deadline):
             break
@@ -75,11 +76,13 @@ def settle(
         steps *= -sizes[:, None]
         longest = np.abs(steps).max(axis=1, initial=0.0)
         steps /= np.maximum(1.0, longest / _LONGEST_STEP)[:, None]
-        if longest.max(initial=0.0) < 1e-9:
+        # Each for itself: where one comes to rest must not depend on which others it is together with.
+        moving &= longest >= 1e-9
+        if not moving.any():
             break
         trial, errors = _corrected(chain, targets, _up_to_limits(best, steps, bounds), task, bounds)
         after = _value(chain, targets, trial, objective, task)
-        better = (after < values) & (errors < 1e-10)
+        better = moving & (after < values) & (errors < 1e-10)
         best[better], values[better] = trial[better], after[better]
         sizes = np.where(better, 1.5 * sizes, 0.3 * sizes)
     return best

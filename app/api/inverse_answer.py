@@ -1,0 +1,137 @@
+"""The answer of inverse kinematics as it travels."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from app.api.inverse_request import task_of
+from app.kinematics.ik.result import Failure, InverseKinematics, Path, SolutionBranches
+from app.kinematics.kernels import chain_poses
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.poses import Poses
+from app.schemas.ik import InverseRequest
+from app.schemas.pose import PoseFormat, pose_list
+
+_ROWS_NAMED = 200
+"""Unsolved rows that a header names: proxies allow headers of a few kilobytes."""
+
+
+def table(chain: Chain, result: InverseKinematics) -> Array:
+    """One configuration a target, the solution or what comes nearest; shape (N, n)."""
+    rows = np.empty((len(result), len(chain)))
+    solved = np.diff(result.firsts) > 0
+    rows[solved] = result.qs
+    for i, failure in result.failures.items():
+        rows[i] = failure.nearest
+    return rows
+
+
+def unsolved_headers(unsolved: Sequence[int]) -> dict[str, str]:
+    """The headers that tell which rows of the table are no solutions."""
+    rows = ",".join(map(str, unsolved[:_ROWS_NAMED]))
+    return {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": rows}
+
+
+def told(chain: Chain, call: InverseRequest, closed_form: str | None, results: list[Any]) -> dict[str, Any]:
+    """The whole answer; the results come last, so that they can be written as they come."""
+    return {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "task": task_of(call).directions,
+        "closed_form": closed_form,
+        "results": results,
+    }
+
+
+def closed_form_of(result: InverseKinematics) -> str | None:
+    """The name of the closed form, where the chain has one that was used."""
+    return None if result.branches is None else result.branches.form.name
+
+
+def told_results(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -> list[dict[str, Any]]:
+    """What came of each target."""
+    solutions = [
+        {
+            "joint_positions": q,
+            "position_error": position_error,
+            "orientation_error": orientation_error,
+            "method": result.method,
+            "iterations": iterations,
+            "restarts": restarts,
+            "branch": None,
+        }
+        for q, position_error, orientation_error, iterations, restarts in zip(
+            result.qs.tolist(),
+            result.position_errors.tolist(),
+            result.orientation_errors.tolist(),
+            result.iterations.tolist(),
+            result.restarts.tolist(),
+            strict=True,
+        )
+    ]
+    if result.branches is not None:
+        _name_branches(solutions, result.branches, result.qs)
+    firsts = result.firsts.tolist()
+    entries: list[dict[str, Any]] = [
+        {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": None}
+        for i, status in enumerate(result.statuses)
+    ]
+    for i, failure in result.failures.items():
+        entries[i].update(_failure(chain, pose_format, failure))
+    if result.complete is not None:
+        for entry, complete in zip(entries, result.complete, strict=True):
+            entry["complete"] = complete
+    if result.paths is not None:
+        for entry, path in zip(entries, result.paths, strict=True):
+            entry.update(_path(path))
+    return entries
+
+
+def _name_branches(solutions: list[dict[str, Any]], branches: SolutionBranches, qs: Array) -> None:
+    """Say of each solution of a closed form which branch it is, and what a singularity leaves free."""
+    form = branches.form
+    for solution, code, free in zip(solutions, branches.codes.tolist(), branches.free.tolist(), strict=True):
+        if code >= 0:
+            solution["method"], solution["branch"] = form.method, form.branch(code)
+            if free:
+                solution["free_joints"] = form.free_joints(free)
+    if form.has_free_elbow:
+        for solution, angle in zip(solutions, form.elbow_angles(qs).tolist(), strict=True):
+            solution["elbow_angle"] = angle
+
+
+def _failure(chain: Chain, pose_format: PoseFormat, failure: Failure) -> dict[str, Any]:
+    nearest = Poses(*chain_poses(chain.flat, failure.nearest[None]))
+    entry: dict[str, Any] = {
+        "reason": failure.reason,
+        "nearest": {
+            "joint_positions": failure.nearest.tolist(),
+            "pose": pose_list(nearest, pose_format)[0],
+            "position_error": failure.position_error,
+            "orientation_error": failure.orientation_error,
+        },
+    }
+    if failure.blocking_joints:
+        entry["blocking_joints"] = failure.blocking_joints
+    if failure.unserved_directions is not None:
+        entry["unserved_directions"] = failure.unserved_directions.tolist()
+    return entry
+
+
+def _path(path: Path) -> dict[str, Any]:
+    entry: dict[str, Any] = {"stop_reason": path.stop_reason}
+    if path.trace is not None:
+        entry["trace"] = [
+            {
+                "error": iterate.error,
+                "min_singular_value": iterate.min_singular_value,
+                "step_length": iterate.step_length,
+                "method": iterate.method,
+                "joint_positions": iterate.joint_positions.tolist(),
+            }
+            for iterate in path.trace
+        ]
+    return entry

@@ -1,0 +1,144 @@
+"""Inverse kinematics as a job: some targets a part, each answered as if it were the only one."""
+
+from collections.abc import Iterator
+from functools import lru_cache
+from io import BytesIO
+from pathlib import Path
+from typing import IO, TypeAlias
+
+import numpy as np
+import orjson
+
+from app.api.inverse_answer import closed_form_of, table, told, told_results, unsolved_headers
+from app.api.inverse_request import Bounds, asked, is_stepwise, options_of
+from app.api.long_work import HEADERS, RESULTS, LongWork, headers_file
+from app.api.payloads import JSON, NPY, read_json
+from app.jobs.parcel import packed, unpacked
+from app.jobs.robot_files import RobotText, robot_of, robot_text
+from app.jobs.run import Files, Run
+from app.jobs.runner import Work
+from app.kinematics.ik.solve import inverse_kinematics
+from app.model.arrays import Array
+from app.model.errors import InvalidField
+from app.model.poses import Poses
+from app.schemas.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, InverseRequest
+from app.store.records import LoadedRobot
+
+KIND = "ik"
+
+_CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
+_BOUNDS = Bounds(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
+_PART, _PART_OF_MANY = 4096, 128
+"""Targets of a part: of one solution each by search or closed form, and of what takes longer."""
+
+_STAGE = "targets"
+_SOLVED = 0.95
+"""Progress when nothing is missing but to write it down."""
+
+_Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
+"""The robot, the call, the targets as rows of 12, where to start."""
+
+
+def inverse_work() -> LongWork[InverseRequest]:
+    """How inverse kinematics are done as a job."""
+    more = (
+        f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
+        "as many numbers in the answer as there is room for; it goes without `time_limit`, as each target is looked "
+        "for to the end"
+    )
+    return LongWork(KIND, _request, _work, more)
+
+
+def _request(loaded: LoadedRobot, call: InverseRequest) -> dict[str, bytes]:
+    """The files of a checked call; targets and seeds are arrays from here on."""
+    if "time_limit" in call.model_fields_set:
+        raise InvalidField(
+            "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
+        )
+    chain, targets, seeds = asked(loaded, call, _BOUNDS)
+    ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
+    rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
+    rows = np.column_stack((targets.positions, targets.rotations.reshape(-1, 9)))
+    return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(seeds)}
+
+
+def _npy(array: Array) -> bytes:
+    target = BytesIO()
+    np.lib.format.write_array(target, np.ascontiguousarray(array), allow_pickle=False)
+    return target.getvalue()
+
+
+def _work(folder: Path) -> Work:
+    """What does the job, by the folder of its request."""
+    text, content = robot_text(folder), (folder / _CALL).read_bytes()
+    call = read_json(InverseRequest, content)
+    # Read from disk as they are needed: a million targets are a hundred megabytes.
+    targets, seeds = (np.load(folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))
+    quick = call.solutions == "one" and call.objective is None and not is_stepwise(call)
+    size = _PART if quick else _PART_OF_MANY
+    count = max(1, -(-len(targets) // size))
+
+    def part(k: int) -> _Part:
+        rows = slice(k * size, (k + 1) * size)
+        return text, content, np.array(targets[rows]), np.array(seeds if len(seeds) == 1 else seeds[rows])
+
+    def work(run: Run) -> Files:
+        forms, unsolved = set(), []
+        for k, found in enumerate(run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED))):
+            values = unpacked(found)
+            forms.add(values["form"].tobytes())
+            unsolved += (k * size + values["unsolved"]).tolist()
+        (form,) = forms
+        chain = robot_of(text).chain(call.base_frame, call.tip_frame)
+        frame = orjson.dumps(told(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
+        files: Files = {RESULTS[JSON]: lambda target: _write_json(target, frame, run.finished(_STAGE, count))}
+        if call.solutions == "all" or call.trace:
+            return files
+        shape, headers = (len(targets), len(chain)), headers_file({NPY: unsolved_headers(unsolved)})
+        return {
+            **files,
+            RESULTS[NPY]: lambda target: _write_npy(target, shape, run.finished(_STAGE, count)),
+            HEADERS: lambda target: target.write(headers),
+        }
+
+    return work
+
+
+def solved_part(job: _Part) -> bytes:
+    """What comes of some targets, in a process of its own: as JSON, as rows of a table, and which are not solved."""
+    text, content, rows, seeds = job
+    robot, call = robot_of(text), _call(content)
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    targets = Poses(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:]).reshape(-1, 3, 3))
+    result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
+    results = orjson.dumps(told_results(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
+    return packed(
+        form=np.frombuffer(orjson.dumps(closed_form_of(result)), np.uint8),
+        results=np.frombuffer(results, np.uint8),
+        unsolved=np.array(list(result.failures), dtype=np.int64),
+        rows=None if call.solutions == "all" or call.trace else table(chain, result),
+    )
+
+
+@lru_cache(maxsize=2)
+def _call(content: bytes) -> InverseRequest:
+    return read_json(InverseRequest, content)
+
+
+def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None:
+    """The answer, its results part by part in the place of the empty list that it ends with."""
+    target.write(frame[:-2])
+    separator = b""
+    for part in parts:
+        results = unpacked(part)["results"].tobytes()[1:-1]
+        if results:
+            target.write(separator + results)
+            separator = b","
+    target.write(frame[-2:])
+
+
+def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]) -> None:
+    """All rows, part by part."""
+    np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
+    for part in parts:
+        target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())
