@@ -39,6 +39,7 @@ from app.api.service import Readiness, service_router
 from app.api.workspace import SampleLimits, workspace_route, workspace_work
 from app.crew.crew import Crew
 from app.jobs import workspace
+from app.jobs.cluster import Cluster
 from app.jobs.runner import Kind, Runner
 from app.jobs.shelf import Limits, Shelf
 from app.jobs.workers import Workers
@@ -129,7 +130,7 @@ def create_app(settings: Settings) -> FastAPI:
     samples = SampleLimits(settings.max_job_samples, most)
     app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
-    app.include_router(service_router(readiness, metrics))
+    app.include_router(service_router(readiness, metrics, lambda: runner.failure))
     documentation.install(app)
     studio.install(app)
     openapi.describe(app, has_keys=bool(settings.api_keys))
@@ -150,7 +151,8 @@ def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
     kinds |= {long.kind: long.work for operation in operations if (long := operation.computation.long) is not None}
     workers = Workers(settings.job_processes)
     shelf = Shelf(settings.data_dir / "jobs", kept)
-    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds)
+    executor = Cluster(settings.ray_address) if settings.ray_address else workers
+    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds, executor)
 
 
 def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:

@@ -47,6 +47,8 @@ class Settings:
         kept_job_days: How long a finished job is kept, [days] (`GELENK_KEPT_JOB_DAYS`).
         job_bytes: Bytes of the finished parts of one job, which it goes on from after a restart (`GELENK_JOB_BYTES`).
         job_seconds: How long a job may run in one go, [s] (`GELENK_JOB_SECONDS`).
+        ray_address: Head of a Ray cluster that computes the jobs' parts, `host:port`; this machine must be one of its
+            own. Empty for processes of this machine (`GELENK_RAY_ADDRESS`).
         max_job_samples: Most configurations of a workspace (`GELENK_MAX_JOB_SAMPLES`).
         api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty where none are needed
             (`GELENK_API_KEYS`).
@@ -79,6 +81,7 @@ class Settings:
     kept_job_days: int = 30
     job_bytes: int = 1024**3
     job_seconds: int = 600
+    ray_address: str = ""
     max_job_samples: int = 10_000_000
     api_keys: str = ""
     open_access: bool = False
@@ -109,6 +112,7 @@ class Settings:
 _Value: TypeAlias = Path | str | int | tuple[str, ...]
 _HOST = re.compile(r"\*|(\*\.)?[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
 _ORIGIN = re.compile(r"\*|https?://([a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\])(:\d{1,5})?")
+_HEAD = re.compile(r"([A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\]):\d{1,5}")
 _ENDPOINT = re.compile(r"https?://[A-Za-z0-9.\[\]:-]+(/[\x21-\x7e]*)?")
 _LISTS = {
     "trusted_hosts": (_HOST, "lab.example.org or *.example.org, without a port"),
@@ -138,7 +142,9 @@ def _parse(variable: str, name: str, text: str) -> _Value:
         raise InvalidSetting(f"{variable} must be one of {', '.join(LEVELS)}")
     if name == "otlp_endpoint" and not _ENDPOINT.fullmatch(text):
         raise InvalidSetting(f"{variable} must be a URL such as http://127.0.0.1:4318")
-    if name in {"api_keys", "log_level", "otlp_endpoint"}:
+    if name == "ray_address" and not _HEAD.fullmatch(text):
+        raise InvalidSetting(f"{variable} must be the host and the port of a cluster's head, such as 10.0.0.5:6379")
+    if name in {"api_keys", "log_level", "otlp_endpoint", "ray_address"}:
         return text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")

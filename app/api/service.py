@@ -3,6 +3,7 @@
 import asyncio
 import gc
 import threading
+from collections.abc import Callable
 from http import HTTPStatus
 
 from fastapi import APIRouter, Request
@@ -45,8 +46,14 @@ class Readiness:
             raise
 
 
-def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
-    """Health, readiness and metrics."""
+def service_router(readiness: Readiness, metrics: Metrics, jobs_failure: Callable[[], str | None]) -> APIRouter:
+    """Health, readiness and metrics.
+
+    Args:
+        readiness: Of the kernels.
+        metrics: What is told.
+        jobs_failure: Why jobs cannot be done, where that is so.
+    """
     router = APIRouter(tags=["Service"])
 
     @router.get("/healthz", operation_id="health", summary="Does the process live?", response_model=Health)
@@ -62,10 +69,15 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
         responses=problem_responses(503),
     )
     async def ready(request: Request) -> Response:
-        """503 with `waiting_for` until the kernels and the crew are there; with `failure` where that went wrong."""
-        if not readiness.waiting_for:
+        """503 with `waiting_for`: `crew` and `kernels` until these are there, `jobs` while no cluster computes them.
+
+        `failure` says what has gone wrong with them.
+        """
+        no_jobs = jobs_failure()
+        if not readiness.waiting_for and no_jobs is None:
             return json_response({"status": "ready"})
-        facts = {"waiting_for": readiness.waiting_for, "failure": readiness.failure}
+        waiting_for = [*readiness.waiting_for, *(["jobs"] if no_jobs else [])]
+        facts = {"waiting_for": waiting_for, "failure": readiness.failure or no_jobs}
         response = problem(
             request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", "the service is still getting ready", facts
         )

@@ -32,8 +32,15 @@ class Executor(Protocol):
     def count(self) -> int:
         """How many at once."""
 
+    @property
+    def failure(self) -> str | None:
+        """Why none can be computed, where that is so."""
+
+    def prepare(self) -> None:
+        """Be ready for parts, if that is possible now."""
+
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Have a part done; see `Workers.submit`."""
+        """Have a part done; see `Workers.submit`. One that is cancelled is not begun, or is ended."""
 
     def close(self) -> None:
         """End whatever is under way; later parts are refused."""
@@ -85,16 +92,34 @@ class Run:
             Exception: Whatever the function raises.
         """
         waiting: deque[bytes | Future[bytes]] = deque()
+        try:
+            yield from self._mapped(waiting, stage, function, argument, count, span)
+        finally:
+            for part in waiting:
+                if not isinstance(part, bytes):
+                    part.cancel()
+
+    def _mapped(
+        self,
+        waiting: deque["bytes | Future[bytes]"],
+        stage: str,
+        function: Callable[[_Argument], bytes],
+        argument: Callable[[int], _Argument],
+        count: int,
+        span: tuple[float, float],
+    ) -> Iterator[bytes]:
+        """See `map`; what is handed out is in `waiting`."""
         for k in range(count):
             while len(waiting) < _AHEAD * self.executor.count and k + len(waiting) < count:
                 number = k + len(waiting)
                 kept = self.parts.read(f"{stage}-{number}")
                 waiting.append(self.executor.submit(function, argument(number), self.order) if kept is None else kept)
-            part = waiting.popleft()
+            part = waiting[0]
             if not isinstance(part, bytes):
                 part = self._waited(part)
                 self.parts.write(f"{stage}-{k}", part)
                 self._is_further = True
+            waiting.popleft()
             self.report(span[0] + (span[1] - span[0]) * (k + 1) / count)
             yield part
 

@@ -76,6 +76,11 @@ class Runner:
         thread.start()
         self._threads.append(thread)
 
+    @property
+    def failure(self) -> str | None:
+        """Why no job can be done at present, where that is so."""
+        return self._executor.failure
+
     def submit(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> Job:
         """Have a job done, or find that it was asked for already.
 
@@ -168,6 +173,7 @@ class Runner:
         self.shelf.close()
 
     def _take_up(self) -> None:
+        self._executor.prepare()
         while True:
             try:
                 for job in self.shelf.take_up():
@@ -176,6 +182,7 @@ class Runner:
                 self.shelf.tidy()
             except (KinematicsError, OSError) as error:
                 logger.warning("jobs that were left cannot be taken up: %s", error)
+            self._executor.prepare()
             if self._closed.wait(_LOOK_FOR_LEFT):
                 return
 

@@ -70,6 +70,12 @@ class Workers:
         """The processes there are."""
         return [pid for seat in self._seats if (pid := seat.pid) is not None]
 
+    failure = None
+    """They are always there."""
+
+    def prepare(self) -> None:
+        """They are started by the first part."""
+
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
         """Have a part done.
 
@@ -104,7 +110,7 @@ class Workers:
                 part = self._parts.get_nowait()
             except queue.Empty:
                 return
-            if part is not None:
+            if part is not None and part[3].set_running_or_notify_cancel():
                 part[3].set_exception(Cancelled())
 
 
@@ -134,6 +140,8 @@ class _Seat(threading.Thread):
             if part is None:
                 break
             function, argument, order, future = part
+            if not future.set_running_or_notify_cancel():
+                continue
             try:
                 future.set_result(self._done(function, argument, order))
             except BaseException as error:

@@ -50,6 +50,20 @@ def note(line: str) -> str:
     return text
 
 
+def mark(folder: str) -> int:
+    """Leave the number of this process in a folder, and take a while."""
+    (Path(folder) / str(os.getpid())).touch()
+    time.sleep(0.3)
+    return 7
+
+
+def linger(folder: str) -> int:
+    """The same for very long."""
+    mark(folder)
+    time.sleep(60.0)
+    return 7
+
+
 def gone(pid: int) -> bool:
     return not Path(f"/proc/{pid}").exists()
 

@@ -35,7 +35,10 @@ if __name__ == "__main__":
 class Threads:
     """Computes parts in this very process, which is there sooner than others."""
 
-    count = 2
+    count, failure = 2, None
+
+    def prepare(self) -> None:
+        pass
 
     def __init__(self) -> None:
         self._pool = ThreadPoolExecutor(self.count)

@@ -1,0 +1,183 @@
+"""Parts of jobs on a Ray cluster: the very results of this machine's processes, whatever is killed meanwhile."""
+
+import importlib.util
+import os
+import signal
+import time
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from starlette.testclient import TestClient
+
+from app.jobs.cluster import Cluster
+from app.jobs.job import Job
+from app.jobs.runner import Runner
+from app.jobs.shelf import Limits, Shelf
+from app.jobs.workers import Cancelled, Order, Workers
+from app.main import create_app
+from app.model.errors import JobFailed
+from app.settings import Settings
+from tests.jobs.parts import gone, made_by, of_parts, told
+from tests.jobs.ray_cluster import cluster
+from tests.test_serve import HOST, free_port
+
+NPY = "application/x-npy"
+SOON = 60.0
+
+with_ray = pytest.mark.skipif(importlib.util.find_spec("ray") is None, reason="there is no Ray for this Python")
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with cluster() as address:
+        yield address
+
+
+@pytest.fixture
+def runner(address: str, tmp_path: Path) -> Iterator[Runner]:
+    kinds = {"parts": of_parts}
+    made = Runner(Shelf(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
+    yield made
+    made.close()
+
+
+def submitted(runner: Runner, function: str, values: list[Any]) -> Job:
+    return runner.submit("parts", "x", made_by(function, values))
+
+
+def ended(runner: Runner, job: Job) -> Job:
+    deadline = time.monotonic() + SOON
+    while not (now := runner.shelf.get(job.id)).is_final:
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    return now
+
+
+def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> None:
+    address = f"{HOST}:{free_port()}"
+    reason = f"the Ray cluster at {address} cannot be reached: Connection refused"
+    with TestClient(create_app(Settings(data_dir=tmp_path, ray_address=address))) as client:
+        deadline = time.monotonic() + SOON
+        while (answer := client.get("/readyz")).json().get("waiting_for") != ["jobs"]:
+            assert time.monotonic() < deadline, answer.text
+            time.sleep(0.05)
+        assert (answer.status_code, answer.json()["failure"]) == (503, reason)
+        location = client.post("/v1/robots/panda/workspace", json={"samples": 10}).headers["location"]
+        while (job := client.get(location).json())["state"] in {"queued", "running"}:
+            time.sleep(0.02)
+        assert (job["state"], job["error"]["detail"]) == ("failed", reason)
+        assert client.get("/healthz").status_code == 200
+
+
+@pytest.mark.slow
+@with_ray
+def test_results_are_those_of_this_machine_bit_for_bit(address: str, tmp_path: Path) -> None:
+    """A million samples, a map of dexterity, whose second stage needs the first, and inverse kinematics."""
+    rng, targets = np.random.default_rng(2), BytesIO()
+    quaternions = rng.normal(size=(20_000, 4))
+    quaternions /= np.linalg.norm(quaternions, axis=1, keepdims=True)
+    np.save(targets, np.column_stack((rng.uniform(0.2, 0.5, (20_000, 3)), quaternions)))
+    calls: list[tuple[str, dict[str, Any]]] = [
+        ("workspace", {"json": {"samples": 1_000_000, "random_seed": 4}}),
+        ("workspace", {"json": {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.2, "orientations": 10}}),
+        (
+            "ik?max_iterations=200",
+            {"content": targets.getvalue(), "headers": {"Content-Type": NPY, "Prefer": "respond-async"}},
+        ),
+    ]
+    results: list[list[tuple[bytes, bytes]]] = []
+    for place in ("", address):
+        settings = Settings(data_dir=tmp_path / (place or "here"), ray_address=place)
+        with TestClient(create_app(settings)) as client:
+            results.append([answered(client, f"/v1/robots/panda/{path}", call) for path, call in calls])
+    assert results[0] == results[1]
+
+
+def answered(client: TestClient, url: str, call: dict[str, Any]) -> tuple[bytes, bytes]:
+    """The result of a job in both forms."""
+    answer = client.post(url, **call)
+    assert answer.status_code == 202, answer.text
+    location, deadline = answer.headers["location"], time.monotonic() + SOON
+    while (job := client.get(location).json())["state"] in {"queued", "running"}:
+        assert time.monotonic() < deadline, job
+        time.sleep(0.05)
+    assert job["state"] == "succeeded", job
+    result = f"{location}/result"
+    return client.get(result).content, client.get(result, headers={"Accept": NPY}).content
+
+
+@pytest.mark.slow
+@with_ray
+def test_a_part_whose_process_is_killed_is_computed_again(runner: Runner, tmp_path: Path) -> None:
+    marks = tmp_path / "marks"
+    marks.mkdir()
+    job = submitted(runner, "mark", [str(marks)] * 12)
+    killed: set[int] = set()
+    deadline = time.monotonic() + SOON
+    while len(killed) < 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+        for pid in {int(path.name) for path in marks.iterdir()} - killed:
+            assert "ray::" in Path(f"/proc/{pid}/cmdline").read_text()
+            os.kill(pid, signal.SIGKILL)
+            killed.add(pid)
+    assert ended(runner, job).state == "succeeded"
+    assert runner.result(job.id, "result.txt").read_text() == repr([7] * 12)
+    assert len(list(marks.iterdir())) > len(killed), "other processes have taken their place"
+
+
+@pytest.mark.slow
+@with_ray
+def test_what_goes_wrong_on_the_cluster_is_told_as_it_would_be_here(runner: Runner) -> None:
+    assert runner.failure is not None
+    assert ended(runner, submitted(runner, "double", [1, 2])).state == "succeeded"
+    assert runner.failure is None
+    for function, reason in (("fail", "ValueError"), ("die", "has died")):
+        job = ended(runner, submitted(runner, function, [3]))
+        assert job.state == "failed"
+        with pytest.raises(JobFailed, match=reason):
+            runner.result(job.id, "result.txt")
+
+
+@pytest.mark.slow
+@with_ray
+def test_a_cancelled_job_leaves_the_cluster_at_once(runner: Runner, tmp_path: Path) -> None:
+    marks = tmp_path / "marks"
+    marks.mkdir()
+    job = submitted(runner, "linger", [str(marks)] * 8)
+    deadline = time.monotonic() + SOON
+    while len(pids := [int(path.name) for path in marks.iterdir()]) < 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert runner.cancel(job.id).state == "cancelled"
+    assert ended(runner, submitted(runner, "double", [4])).state == "succeeded"
+    while not all(gone(pid) for pid in pids):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    assert len(list(marks.iterdir())) == 2, "what was not begun never is"
+
+
+@pytest.mark.slow
+@with_ray
+def test_the_end_of_the_driver_fails_what_is_under_way_and_nothing_else(address: str) -> None:
+    computes = Cluster(address)
+    order = Order(time.monotonic() + SOON)
+    try:
+        assert computes.submit(told, ("double", 1), order).result(SOON) == b"2"
+        under_way = computes.submit(told, ("sleep", 30.0), order)
+        assert computes._process is not None
+        assert computes._process.pid is not None
+        os.kill(computes._process.pid, signal.SIGKILL)
+        with pytest.raises(ChildProcessError, match="was lost"):
+            under_way.result(SOON)
+        assert computes.failure is not None
+        assert computes.submit(told, ("double", 2), order).result(SOON) == b"4"
+        assert computes.failure is None
+    finally:
+        computes.close()
+    with pytest.raises(Cancelled):
+        computes.submit(told, ("double", 2), order)
