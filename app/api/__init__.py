@@ -1,7 +1,7 @@
 """HTTP only: parse, call the core, shape the answer.
 
 - `problems`: every error as RFC 9457; the one table from error class to status.
-- `payloads`: bodies in: JSON and NumPy's npy, strictly.
+- `payloads`, `npy`: bodies in and answers out: JSON and NumPy's npy, strictly.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
 - `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.

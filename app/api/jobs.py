@@ -35,6 +35,19 @@ EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), "trajectory": (CSV,)}
 """Media types that a kind of job has a result in beside JSON and npy."""
 _PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
 
+_EVENT = {
+    "type": "object",
+    "properties": {
+        "event": {"enum": ["progress", "finished"]},
+        "id": {"type": "string", "description": "What a browser sends as `Last-Event-ID` when it connects again."},
+        "data": {
+            "type": "string",
+            "contentMediaType": JSON,
+            "contentSchema": {"$ref": f"#/components/schemas/{JobInfo.__name__}"},
+        },
+    },
+    "required": ["event", "id", "data"],
+}
 JobPath = Annotated[
     str, Path(description="Name of a job.", openapi_examples={"panda-workspace": {"value": "panda-workspace"}})
 ]
@@ -72,7 +85,7 @@ def jobs_router(runner: Runner) -> APIRouter:
         summary="A job's progress as it goes on",
         response_class=StreamingResponse,
         responses={
-            200: {"content": {EVENT_STREAM: {"schema": {"type": "string"}}}, "description": "Server-sent events"},
+            200: {"content": {EVENT_STREAM: {"itemSchema": _EVENT}}, "description": "Server-sent events"},
             204: {"description": "The last event was received before"},
             **problem_responses(404, 422),
         },

@@ -1,12 +1,12 @@
-"""Bodies in, answers out: JSON and NumPy's npy, strictly; and in which of its shapes an answer is wanted."""
+"""Bodies in, answers out: JSON, strictly; and in which of its shapes an answer is wanted."""
 
 import csv
 import json
 import math
 import re
 from collections.abc import AsyncGenerator, Iterable, Sequence
-from io import BytesIO, StringIO
-from typing import Any, Literal, TypeVar
+from io import StringIO
+from typing import Any, TypeVar
 
 import numpy as np
 import orjson
@@ -18,7 +18,7 @@ from starlette.types import Receive, Scope, Send
 
 from app.api.problems import InvalidPayload
 from app.model.arrays import Array
-from app.model.errors import InvalidArray, TooLarge, quoted
+from app.model.errors import TooLarge, quoted
 from app.schemas.common import Payload
 
 MAX_MEMBERS = 1_000_000
@@ -45,23 +45,6 @@ One that is cut ends with the bytes: if it were none, each quote in it would be 
 _FIRST = 64 * 1024
 """Bytes of a large body that tell at once whether names come more than once."""
 _LINE_END = "\r\n"
-
-_NPY_VERSIONS = {(1, 0), (2, 0), (3, 0)}
-_NPY_LONGEST_HEADER = 10_000
-_NPY_KEYS = {"descr", "fortran_order", "shape"}
-_NPY_ORDERS = {"True", "False"}
-_NPY_BLANK = r"[ \t\r\n\f]*"
-_NPY_ENTRY = re.compile(
-    r"""('\w+'|"\w+")B:B(\[[^\]]*\]|\([^()]*\)|'[^']*'|"[^"]*"|\w+)B""".replace("B", _NPY_BLANK), re.ASCII
-)
-_NPY_HEADER = re.compile(
-    r"\{B(?:E(?:,BE)*(?:,B)?)?\}B".replace("B", _NPY_BLANK).replace("E", _NPY_ENTRY.pattern), re.ASCII
-)
-_NPY_SIZE = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
-_NPY_SHAPE = re.compile(
-    r"\(B(?:SL?B,B)*(?:SL?B)?\)".replace("B", _NPY_BLANK).replace("S", f"(?:{_NPY_SIZE.pattern})"), re.ASCII
-)
-_NPY_NUMBERS = re.compile(r"""['"]([<>=|]?(?:f[248]|[iu][1248]))['"]""", re.ASCII)
 
 _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
 _ANYTHING = frozenset({b"", b"*/*", b"application/json"})
@@ -211,13 +194,6 @@ def _encoded(array: Array) -> Iterable[bytes]:
         yield orjson.dumps(np.ascontiguousarray(array[i : i + step]), option=orjson.OPT_SERIALIZE_NUMPY)
 
 
-def npy_response(array: Array, headers: dict[str, str]) -> Response:
-    """An array as npy."""
-    buffer = BytesIO()
-    np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
-    return Response(buffer.getvalue(), headers=headers, media_type=NPY)
-
-
 def read_json(model: type[_Model], body: bytes) -> _Model:
     """A payload, checked.
 
@@ -283,60 +259,3 @@ def read_query(model: type[_Model], query: QueryParams) -> _Model:
         return model.model_validate(values, strict=False)
     except ValidationError as error:
         raise InvalidPayload.of(error) from None
-
-
-def read_npy(body: bytes) -> Array:
-    """The array in an npy body, as native float64.
-
-    The header is checked against the bytes that are there before anything is allocated, and no object is unpickled.
-
-    Raises:
-        InvalidArray: Not npy, not numbers, or not as many bytes as its header says.
-    """
-    header, start = _npy_header(body)
-    kind = _NPY_NUMBERS.fullmatch(header["descr"])
-    if kind is None:
-        raise InvalidArray(
-            f"the array holds {quoted(header['descr'])}; allowed are integers and floats of up to 64 bits"
-        )
-    dtype = np.dtype(kind[1])
-    shape = tuple(int(size) for size in _NPY_SIZE.findall(header["shape"]))
-    if not shape:
-        raise InvalidArray("the array is a single number; its first dimension counts the entries")
-    if len(shape) > 4 or any(size > len(body) for size in shape):
-        raise InvalidArray("the array's shape does not go with the bytes of the body")
-    count = math.prod(shape)
-    if len(body) - start != count * dtype.itemsize:
-        raise InvalidArray(f"the array of shape {shape} needs {count * dtype.itemsize} bytes, no more, no fewer")
-    flat = np.frombuffer(body, dtype, count, start)
-    # A copy, because an array over received bytes is read-only: for the kernels that would be a type of its own.
-    order: Literal["C", "F"] = "F" if header["fortran_order"] == "True" else "C"
-    return np.array(flat.reshape(shape, order=order), dtype=np.float64, order="C")
-
-
-def _npy_header(body: bytes) -> tuple[dict[str, str], int]:
-    """What the header of an npy body says, word for word, and where the data start.
-
-    NumPy has a header read as Python, whose compiler then writes its warnings about a stranger's text to our log.
-    """
-    magic, version = body[:6], tuple(body[6:8])
-    if magic != b"\x93NUMPY" or len(body) < 12:
-        raise InvalidArray("the body is not npy: it begins otherwise")
-    if version not in _NPY_VERSIONS:
-        raise InvalidArray("the version of the npy body is not 1.0, 2.0 or 3.0")
-    start = 10 if version == (1, 0) else 12
-    end = start + int.from_bytes(body[8:start], "little")
-    if end > min(len(body), _NPY_LONGEST_HEADER):
-        raise InvalidArray(
-            f"the header of the npy body must end before byte {_NPY_LONGEST_HEADER}, and before the body"
-        )
-    text = body[start:end].decode("latin-1")
-    entries = _NPY_ENTRY.findall(text) if _NPY_HEADER.fullmatch(text) else []
-    header = {key[1:-1]: value for key, value in entries}
-    if (
-        set(header) != _NPY_KEYS
-        or not _NPY_SHAPE.fullmatch(header["shape"])
-        or header["fortran_order"] not in _NPY_ORDERS
-    ):
-        raise InvalidArray("the header of the npy body is not a dictionary of descr, fortran_order and shape")
-    return header, end

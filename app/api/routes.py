@@ -24,6 +24,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.api import problems
 from app.api.errand import Desk, Inquiry, buffers
 from app.api.long_work import LongWork, submitted
+from app.api.npy import npy_response, read_npy
 from app.api.openapi import (
     BY_THE_CREW,
     JOB_BEGUN,
@@ -45,9 +46,7 @@ from app.api.payloads import (
     BoundedRequest,
     csv_response,
     json_response,
-    npy_response,
     read_json,
-    read_npy,
     read_query,
 )
 from app.api.preference import wants_answer_later

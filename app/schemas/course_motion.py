@@ -27,13 +27,15 @@ def _no_underflow(value: float) -> float:
 
 
 Coordinate = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST), AfterValidator(_no_underflow)]
+_CoordinateList = Annotated[list[Coordinate], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True)]
 Coordinates = Annotated[
-    list[Coordinate], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True), BeforeValidator(one_joint)
+    _CoordinateList, BeforeValidator(one_joint, json_schema_input_type=Coordinate | _CoordinateList)
 ]
 """One number a joint; a number alone stands for a list of one."""
 
 Bound = Annotated[float, Field(ge=1e-9, le=1e9)]
-Bounds = Annotated[list[Bound], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True), BeforeValidator(one_joint)]
+_BoundList = Annotated[list[Bound], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True)]
+Bounds = Annotated[_BoundList, BeforeValidator(one_joint, json_schema_input_type=Bound | _BoundList)]
 Time = Annotated[float, Field(ge=-1e6, le=1e6), AfterValidator(_no_underflow)]
 Duration = Annotated[float, Field(ge=1e-6, le=1e6)]
 

@@ -19,11 +19,8 @@ from app.schemas.course_motion import (
 
 Law: TypeAlias = Literal["cubic", "quintic", "septic", "4-3-4", "trapezoidal", "parabolic_blends"]
 
-BlendTimes = Annotated[
-    list[Annotated[float, Field(ge=1e-6, le=1e6)]],
-    Field(min_length=1, max_length=MAX_KNOTS, fail_fast=True),
-    BeforeValidator(one_joint),
-]
+_BlendTimeList = Annotated[list[Duration], Field(min_length=1, max_length=MAX_KNOTS, fail_fast=True)]
+BlendTimes = Annotated[_BlendTimeList, BeforeValidator(one_joint, json_schema_input_type=Duration | _BlendTimeList)]
 
 
 class TimeLawRequest(SampledRequest):

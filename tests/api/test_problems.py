@@ -13,8 +13,8 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
+from app.api.npy import read_npy
 from app.api.operations import Setup
-from app.api.payloads import read_npy
 from app.api.problems import status_of
 from app.api.remote import Remote
 from app.crew.crew import Crew

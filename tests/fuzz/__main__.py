@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 import warnings
+from collections import Counter
 from pathlib import Path
 
 from tests.fuzz import NAMES
@@ -21,7 +22,7 @@ FOLDER = Path(".fuzz")
 _MEMORY = Path("/dev/shm")  # noqa: S108 - where archives are unpacked, if it is there: a disk would be what is timed
 _COMPILED = ("app.model.poses", "app.kinematics.kernels", "app.kinematics.lanes")
 """Modules of functions that numba compiles: with traces in them it cannot."""
-_TELL_EVERY = 5000
+_TELL_EVERY = 50_000
 
 
 def main() -> None:
@@ -71,8 +72,12 @@ def fuzz_led(name: str, runs: int, seconds: int, seed: int) -> None:
             return bytes(atheris.Mutate(data, max_size))
         return target.mutations(number).mutated(data)[:max_size]
 
+    taken: Counter[bool] = Counter()
+
     def judge(data: bytes) -> None:
-        target.judge(data)
+        taken[target.judge(data)] += 1
+        if taken.total() % _TELL_EVERY == 0:
+            print(f"{name}: {taken.total()} inputs, {taken[True]} of them taken", flush=True)
 
     limit = [f"-runs={runs}"] if runs else [f"-max_total_time={seconds}"]
     options = [f"-seed={seed}", "-timeout=20", "-rss_limit_mb=3000", "-max_len=20000", "-print_final_stats=1"]

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.api.payloads import npy_response, read_json, read_npy
+from app.api.npy import npy_response, read_npy
+from app.api.payloads import read_json
 from app.api.problems import InvalidPayload, status_of
 from app.kinematics.certify import certify_table
 from app.kinematics.forward import forward_kinematics
