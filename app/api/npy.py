@@ -64,7 +64,8 @@ def read_npy(body: bytes) -> Array:
     flat = np.frombuffer(body, dtype, count, start)
     # A copy, because an array over received bytes is read-only: for the kernels that would be a type of its own.
     order: Literal["C", "F"] = "F" if header["fortran_order"] == "True" else "C"
-    return np.array(flat.reshape(shape, order=order), dtype=np.float64, order="C")
+    with np.errstate(invalid="ignore"):  # NumPy warns of a signalling NaN; no field takes any
+        return np.array(flat.reshape(shape, order=order), dtype=np.float64, order="C")
 
 
 def _header(body: bytes) -> tuple[dict[str, str], int]:

@@ -184,6 +184,9 @@ WRONG_FOR_THE_CHAIN = (
         for name, value in (("NaN", np.nan), ("infinity", np.inf), ("minus infinity", -np.inf))
     ),
     RefusedNpy("NaN in half precision", saved(np.array([[np.nan, 0.0]], dtype=np.float16)), ("finite",)),
+    RefusedNpy(
+        "a signalling NaN of 32 bits", npy(described("'<f4'", shape="(1, 2)"), b"\1\0\x80\x7f" * 2), ("finite",)
+    ),
     RefusedNpy("a signalling NaN", npy(described(shape="(1, 2)"), b"\x01\0\0\0\0\0\xf0\x7f" * 2), ("finite",)),
 )
 """An array, but no configurations of two joints."""

@@ -68,9 +68,14 @@ def fuzz_led(name: str, runs: int, seconds: int, seed: int) -> None:
         (corpus / hashlib.sha1(data, usedforsecurity=False).hexdigest()).write_bytes(data)
 
     def mutated(data: bytes, max_size: int, number: int) -> bytes:
-        if number % 2:
-            return bytes(atheris.Mutate(data, max_size))
-        return target.mutations(number).mutated(data)[:max_size]
+        mutator = target.mutations(number)
+        match number % 4:
+            case 0:
+                return mutator.mutated(data)[:max_size]
+            case 1:  # from a seed: of what has been reached already, most is refused
+                return next(mutator.inputs())[:max_size]
+            case _:
+                return bytes(atheris.Mutate(data, max_size))
 
     taken: Counter[bool] = Counter()
 
