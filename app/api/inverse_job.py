@@ -11,7 +11,7 @@ import orjson
 
 from app.api.inverse_answer import closed_form_of, table, told, told_results, unsolved_headers
 from app.api.inverse_request import Bounds, asked, is_stepwise, options_of
-from app.api.long_work import HEADERS, RESULTS, LongWork, headers_file
+from app.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from app.api.payloads import JSON, NPY, read_json
 from app.jobs.parcel import packed, unpacked
 from app.jobs.robot_files import RobotText, robot_of, robot_text
@@ -113,8 +113,8 @@ def solved_part(job: _Part) -> bytes:
     result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
     results = orjson.dumps(told_results(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
-        form=np.frombuffer(orjson.dumps(closed_form_of(result)), np.uint8),
-        results=np.frombuffer(results, np.uint8),
+        form=as_bytes(orjson.dumps(closed_form_of(result))),
+        results=as_bytes(results),
         unsolved=np.array(list(result.failures), dtype=np.int64),
         rows=None if call.solutions == "all" or call.trace else table(chain, result),
     )

@@ -10,6 +10,7 @@ from starlette.background import BackgroundTask
 from starlette.requests import Request
 from starlette.responses import StreamingResponse
 
+from app.api import trajectory_job
 from app.api.job_info import NO_STORE, job_content, job_response
 from app.api.long_work import HEADERS, RESULTS, headers_of
 from app.api.openapi import csv_content, npy_content, picture_content, problem_responses
@@ -31,7 +32,7 @@ HEARTBEAT_SECONDS = 15.0
 """After how long without news a stream sends a comment, so that nothing on the way takes it for dead."""
 
 _PIECE = 256 * 1024
-EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), "trajectory": (CSV,)}
+EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), trajectory_job.KIND: (CSV,)}
 """Media types that a kind of job has a result in beside JSON and npy."""
 _PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
 

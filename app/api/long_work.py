@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 import orjson
+from numpy.typing import NDArray
 from starlette.requests import Request
 from starlette.responses import Response
 
@@ -48,7 +49,12 @@ class LongWork(Generic[_Request]):
     def planned(self, loaded: LoadedRobot, call: _Request) -> Response:
         """All files of the request, in one."""
         files = {**robot_files(loaded.record.name, loaded.robot, loaded.urdf), **self.request(loaded, call)}
-        return Response(packed(**{name: np.frombuffer(content, np.uint8) for name, content in files.items()}))
+        return Response(packed(**{name: as_bytes(content) for name, content in files.items()}))
+
+
+def as_bytes(content: bytes) -> NDArray[np.uint8]:
+    """Bytes as an array, to be packed with others."""
+    return np.frombuffer(content, np.uint8)
 
 
 async def submitted(runner: Runner, kind: str, request: Request, planned: bytes) -> Response:

@@ -178,13 +178,22 @@ def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) 
         array: Shape (N, columns).
         headers: Of the answer.
     """
+    body = csv_head(columns) + b"".join(csv_rows(array))
+    return Response(body, headers=headers, media_type=f"{CSV}; header=present")
+
+
+def csv_head(columns: Sequence[str]) -> bytes:
+    """The row of names."""
     names = StringIO()
     csv.writer(names, lineterminator=_LINE_END).writerow(columns)
-    end = _LINE_END.encode()
-    rows = [piece[2:-2].replace(b"],[", end) + end for piece in _encoded(array)]
     # A lone surrogate in a joint's name has no bytes of its own.
-    body = names.getvalue().encode(errors="replace") + b"".join(rows)
-    return Response(body, headers=headers, media_type=f"{CSV}; header=present")
+    return names.getvalue().encode(errors="replace")
+
+
+def csv_rows(array: Array) -> Iterable[bytes]:
+    """The other rows, some at a time; array of shape (N, columns)."""
+    end = _LINE_END.encode()
+    return (piece[2:-2].replace(b"],[", end) + end for piece in _encoded(array))
 
 
 def _encoded(array: Array) -> Iterable[bytes]:

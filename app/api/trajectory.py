@@ -3,37 +3,21 @@
 from typing import Any
 
 from app.api.routes import Computation, Operation, Outcome, PictureFormat
-from app.api.trajectory_answer import (
-    columns,
-    table,
-    told_audit,
-    told_failure,
-    told_limits,
-    told_poses,
-    told_samples,
-    told_segments,
-)
-from app.api.trajectory_limits import limit_notes
-from app.api.trajectory_request import Asked, asked, shortest_duration
-from app.api.trajectory_samples import check_samples, sample_times
-from app.kinematics.forward import forward_kinematics
+from app.api.trajectory_job import trajectory_work
+from app.api.trajectory_planned import Bounds, Planned
+from app.api.trajectory_samples import MAX_SAMPLES
 from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import TooLarge
-from app.model.robot import Robot
 from app.schemas.trajectory import TrajectoryRequest
 from app.schemas.trajectory_answer import TrajectoryAnswer
 from app.store.records import LoadedRobot
-from app.trajectory.plan import plan
-from app.trajectory.problem import Trajectory
 
-_NUMBERS_A_POSE = 16
 _MOST_NAME = 16
 """Characters of a robot's name in a title, which has room for 48."""
 
 
 def trajectory_operation(max_answer_numbers: int) -> Operation:
     """The operation `trajectory`, none of whose answers holds more numbers than given."""
+    bounds = Bounds(MAX_SAMPLES, max_answer_numbers)
 
     def trajectory(loaded: LoadedRobot, call: TrajectoryRequest) -> Outcome:
         """A motion from rest to rest through segments: joints, lines, circles and splines of the tip.
@@ -55,25 +39,16 @@ def trajectory_operation(max_answer_numbers: int) -> Operation:
         With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
         as profiles of position, velocity, acceleration and jerk.
         """
-        chain = loaded.robot.chain(call.base_frame, call.tip_frame)
-        question = asked(loaded.robot, chain, call)
-        numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
-        check_samples(shortest_duration(question.problem), call.sample_period, numbers, max_answer_numbers)
-        found = plan(loaded.robot, chain, question.problem)
-
-        def times() -> Array:
-            check_samples(found.motion.duration, call.sample_period, numbers, max_answer_numbers)
-            return sample_times(found.motion.duration, call.sample_period)
+        planned = Planned.of(loaded.robot, call, bounds)
 
         def content() -> dict[str, Any]:
-            if call.coefficients and found.motion.coefficients.size > max_answer_numbers:
-                raise TooLarge("numbers in the answer", found.motion.coefficients.size, max_answer_numbers)
-            return _content(loaded.robot, chain, call, question, found, times())
+            times = planned.times()
+            return planned.told(planned.told_samples(times), planned.certificate(times))
 
-        def picture(kind: PictureFormat) -> bytes:
-            return _picture(loaded, chain, question, found, kind)
+        def array() -> tuple[Array, dict[str, str]]:
+            return planned.table(planned.times()), planned.headers
 
-        return Outcome(content, lambda: (table(found.motion, times()), _headers(found)), picture, columns(chain))
+        return Outcome(content, array, lambda kind: _picture(loaded, planned, kind), planned.columns)
 
     return Operation(
         name="trajectory",
@@ -83,6 +58,7 @@ def trajectory_operation(max_answer_numbers: int) -> Operation:
             run=trajectory,
             request=TrajectoryRequest,
             is_heavy=lambda _: True,
+            long=trajectory_work(max_answer_numbers),
             picture="Position, velocity, acceleration and jerk of each joint over time, with the limits; the segments "
             "are marked.",
             table="A row of names, `time`, `q_…`, `qd_…` and `qdd_…` of each joint, then a row a sample: [s], "
@@ -112,46 +88,11 @@ def trajectory_operation(max_answer_numbers: int) -> Operation:
     )
 
 
-def _content(
-    robot: Robot, chain: Chain, call: TrajectoryRequest, question: Asked, found: Trajectory, times: Array
-) -> dict[str, Any]:
-    answer: dict[str, Any] = {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
-        "duration": found.motion.duration,
-        "completed_fraction": found.completed_fraction,
-        "failure": told_failure(found),
-        **told_samples(found.motion, times),
-        "tip_poses": None,
-        "segments": told_segments(found, question.segment_bounds, coefficients=call.coefficients),
-        "audit": told_audit(found.audit),
-        "limits": told_limits(question.bounds.limits),
-        "limit_sources": question.bounds.sources,
-        "notes": limit_notes(chain, question.own, question.segment_bounds),
-        "certificate": None,
-    }
-    if call.compare_timing:
-        answer["timing"] = found.timing
-    if call.tip_poses:
-        forward = forward_kinematics(robot, chain, found.motion.at(times))
-        answer["tip_poses"] = told_poses(forward.poses, call.pose_format)
-        answer["certificate"] = forward.certificate
-    return answer
-
-
-def _headers(found: Trajectory) -> dict[str, str]:
-    return {
-        "Gelenk-Duration": repr(found.motion.duration),
-        "Gelenk-Completed-Fraction": repr(found.completed_fraction),
-        "Gelenk-Failure": "none" if found.failure is None else found.failure.reason,
-    }
-
-
-def _picture(loaded: LoadedRobot, chain: Chain, question: Asked, found: Trajectory, kind: PictureFormat) -> bytes:
+def _picture(loaded: LoadedRobot, planned: Planned, kind: PictureFormat) -> bytes:
     # Matplotlib takes a third of a second to load.
     from app.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
 
+    chain, question, found = planned.chain, planned.question, planned.found
     spans = []
     for report in found.segments:
         limits = question.segment_bounds[report.index].limits

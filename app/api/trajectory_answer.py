@@ -45,13 +45,6 @@ def columns(chain: Chain) -> list[str]:
     return ["time", *(f"{quantity}_{name}" for quantity in ("q", "qd", "qdd") for name in chain.joint_names)]
 
 
-def told_samples(motion: PiecewisePolynomial, times: Array) -> dict[str, Any]:
-    """The samples, for the wire."""
-    names = ("joint_positions", "joint_velocities", "joint_accelerations")
-    rows = (json_rows(values) for values in samples(motion, times))
-    return {"times": json_rows(times), **dict(zip(names, rows, strict=True))}
-
-
 def told_poses(poses: Poses, pose_format: PoseFormat) -> orjson.Fragment:
     """Poses as JSON, encoded some at a time."""
 

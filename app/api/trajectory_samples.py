@@ -8,6 +8,8 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 
 MAX_SAMPLES = 100_000
+MAX_JOB_SAMPLES = 500_000
+"""The same of a call that is answered by a job."""
 _NEARLY = 1e-6
 """Share of a period that would be too short a time between the last two samples."""
 
@@ -24,20 +26,18 @@ def sample_count(duration: float, period: float) -> int:
     return _before_end(duration, period) + 1
 
 
-def check_samples(duration: float, period: float, numbers: int, allowed: int) -> None:
-    """Refuse more samples than `MAX_SAMPLES`, or than an answer may hold.
+def check_samples(duration: float, period: float, most: int) -> None:
+    """Refuse more samples than there may be.
 
     Args:
         duration: Of the motion, or what it lasts at least, [s].
         period: From sample to sample, [s].
-        numbers: Of one sample.
-        allowed: Numbers in an answer.
+        most: How many there may be; at least 2.
 
     Raises:
         InvalidField: There are more; it says what period there may be.
     """
-    most = min(MAX_SAMPLES, max(2, allowed // max(1, numbers)))
-    if duration / period <= 2.0 * MAX_SAMPLES and sample_count(duration, period) <= most:
+    if duration / period <= 2.0 * most and sample_count(duration, period) <= most:
         return
     least = duration / (most - 1)
     # Rounded up, so that what is said is enough.

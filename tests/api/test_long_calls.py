@@ -19,7 +19,7 @@ from app.main import create_app
 from app.model.arrays import Array
 from app.settings import Settings
 
-JSON, NPY = "application/json", "application/x-npy"
+JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
 LATER = {"Prefer": "respond-async"}
 
 
@@ -108,7 +108,10 @@ POSTURE = [0.1, -0.4, 0.2, -1.9, 0.1, 1.5, 0.3]
         ("ur5", 6, {"method": "newton", "trace": True, "max_iterations": 20}),
         ("panda", 7, {"objective": "posture", "posture": POSTURE, "max_iterations": 400}),
         ("panda", 7, {"objective": "manipulability", "max_iterations": 400, "pose_format": "matrix"}),
-        ("panda", 7, {"seeds": "each", "max_iterations": 40, "method": "damped_least_squares"}),
+        pytest.param(
+            *("panda", 7, {"seeds": "each", "max_iterations": 40, "method": "damped_least_squares"}),
+            marks=pytest.mark.slow,
+        ),
         ("panda", 7, {"seeds": "each", "max_iterations": 400}),
     ],
     ids=["all", "newton", "posture", "manipulability", "steps from own seeds", "search from own seeds"],
@@ -120,6 +123,46 @@ def test_some_targets_as_json(client: TestClient, robot: str, joints: int, optio
         options = {**options, "seeds": np.random.default_rng(6).uniform(-1.0, 1.0, (len(Ts), joints)).tolist()}
     fits = (JSON,) if options.get("solutions") == "all" or options.get("trace") else (JSON, NPY)
     same(client, f"/v1/robots/{robot}/ik", fits, json={"targets": told_poses(Ts), **options})
+
+
+MOTION: dict[str, Any] = {
+    "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
+    "segments": [
+        {"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]},
+        {"type": "line", "target": {"position": [0.5, 0.2, 0.4], "rpy": [3.1, 0.0, 0.3]}, "blend_radius": 0.02},
+        {"type": "line", "target": {"position": [0.5, -0.1, 0.4], "rpy": [3.1, 0.0, 0.0]}},
+    ],
+    "tip_frame": "panda_link8",
+}
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"law": "trapezoidal", "sample_period": 0.0003, "pose_format": "rpy"},
+        {"law": "jerk_limited", "sample_period": 0.01, "coefficients": True, "compare_timing": True},
+        pytest.param({"law": "quintic", "sample_period": 0.0004, "tip_poses": False}, marks=pytest.mark.slow),
+        {"law": "cubic", "segments": [{"type": "line", "target": {"position": [3.0, 0.0, 0.0], "rpy": [0, 0, 0]}}]},
+    ],
+    ids=["several parts", "all there is to tell", "without poses", "out of reach"],
+)
+def test_trajectories(client: TestClient, options: dict[str, Any]) -> None:
+    same(client, "/v1/robots/panda/trajectory", (JSON, NPY, CSV), json={**MOTION, **options})
+
+
+@pytest.mark.slow
+def test_a_trajectory_may_have_more_samples_and_no_more(client: TestClient) -> None:
+    call = {**MOTION, "law": "quintic", "duration": 12.0, "sample_period": 1e-4, "tip_poses": False}
+    refused = client.post("/v1/robots/panda/trajectory", json=call)
+    assert (refused.status_code, refused.json()["field"]) == (422, "sample_period")
+    answer = client.post("/v1/robots/panda/trajectory", json={**call, "sample_period": 2e-5}, headers=LATER)
+    assert (answer.status_code, answer.json()["field"]) == (422, "sample_period")
+    assert "500000 are allowed" in answer.json()["detail"]
+    result = finished(client, client.post("/v1/robots/panda/trajectory", json=call, headers=LATER))
+    rows = np.load(BytesIO(client.get(result, headers={"Accept": NPY}).content))
+    assert rows.shape == (120_001, 22)
+    assert rows[-1, 0] == pytest.approx(12.0, abs=1e-12)
+    np.testing.assert_allclose(np.diff(rows[:, 1:8], axis=0), 1e-4 * rows[:-1, 8:15], atol=1e-7)
 
 
 def test_no_targets(client: TestClient) -> None:

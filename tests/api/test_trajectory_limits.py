@@ -117,15 +117,13 @@ def test_samples_are_multiples_of_the_period(period: float) -> None:
     assert (np.diff(times) > 0.4 * period).all()
 
 
-@pytest.mark.parametrize(("duration", "numbers", "allowed"), [(1e6, 30, 10**9), (1e300, 1, 10**9), (10.0, 1000, 10**6)])
-def test_too_many_samples_are_refused_with_the_period_that_is_allowed(
-    duration: float, numbers: int, allowed: int
-) -> None:
+@pytest.mark.parametrize(("duration", "most"), [(1e6, 100_000), (1e300, 100_000), (10.0, 1000), (10.0, 2)])
+def test_too_many_samples_are_refused_with_the_period_that_is_allowed(duration: float, most: int) -> None:
     with pytest.raises(InvalidField) as caught:
-        check_samples(duration, 1e-6, numbers, allowed)
+        check_samples(duration, 1e-6, most)
     assert caught.value.field == "sample_period"
     least = float(caught.value.reason.split()[-2])
-    check_samples(duration, least, numbers, allowed)
+    check_samples(duration, least, most)
     if least < 1.0:
         with pytest.raises(InvalidField):
-            check_samples(duration, least - 2e-6, numbers, allowed)
+            check_samples(duration, least - 2e-6, most)

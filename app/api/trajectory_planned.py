@@ -1,0 +1,181 @@
+"""A trajectory that is planned, and what is told of it: as a whole, or of some of its samples."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import orjson
+
+from app.api.payloads import json_rows
+from app.api.trajectory_answer import (
+    columns,
+    samples,
+    table,
+    told_audit,
+    told_failure,
+    told_limits,
+    told_poses,
+    told_segments,
+)
+from app.api.trajectory_limits import limit_notes
+from app.api.trajectory_request import Asked, asked, shortest_duration
+from app.api.trajectory_samples import check_samples, sample_times
+from app.kinematics.certify import Certificate
+from app.kinematics.forward import forward_kinematics
+from app.kinematics.kernels import chain_poses
+from app.model.arrays import Array
+from app.model.chain import Chain
+from app.model.errors import TooLarge
+from app.model.poses import Poses
+from app.model.robot import Robot
+from app.schemas.trajectory import TrajectoryRequest
+from app.trajectory.plan import plan
+from app.trajectory.problem import Trajectory
+
+_NUMBERS_A_POSE = 16
+SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
+"""Fields of the answer that have an entry for each sample."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """How much may be asked in one call.
+
+    Attributes:
+        samples: Of the motion.
+        numbers: In the samples, or in the polynomials.
+    """
+
+    samples: int
+    numbers: int
+
+    def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
+        """Refuse more samples than these.
+
+        Args:
+            call: Says how often.
+            chain: Of the motion.
+            duration: Of the motion, or what it lasts at least, [s].
+
+        Raises:
+            InvalidField: There are more; it says what period there may be.
+        """
+        numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
+        check_samples(duration, call.sample_period, min(self.samples, max(2, self.numbers // numbers)))
+
+
+def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chain, Asked]:
+    """The chain of a call, and what the core is asked: as far as a call can be judged before it is planned.
+
+    Raises:
+        InvalidInput: The field, and what is wrong with it.
+    """
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    question = asked(robot, chain, call)
+    bounds.check(call, chain, shortest_duration(question.problem))
+    return chain, question
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A trajectory that is planned.
+
+    Attributes:
+        robot: The robot.
+        chain: Base and tip.
+        call: What was asked for.
+        question: What the core was asked.
+        found: What came of it.
+        bounds: Of what may be told.
+    """
+
+    robot: Robot
+    chain: Chain
+    call: TrajectoryRequest
+    question: Asked
+    found: Trajectory
+    bounds: Bounds
+
+    @classmethod
+    def of(cls, robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> "Planned":
+        """Plan a trajectory.
+
+        Raises:
+            InvalidInput: The field, and what is wrong with it.
+            AuditFailed: The motion is not what it should be.
+        """
+        chain, question = checked(robot, call, bounds)
+        return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
+
+    @property
+    def columns(self) -> list[str]:
+        """What the table's columns are called."""
+        return columns(self.chain)
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What says beside a table what came of the motion."""
+        found = self.found
+        return {
+            "Gelenk-Duration": repr(found.motion.duration),
+            "Gelenk-Completed-Fraction": repr(found.completed_fraction),
+            "Gelenk-Failure": "none" if found.failure is None else found.failure.reason,
+        }
+
+    def times(self) -> Array:
+        """When the motion is sampled; shape (N,), [s].
+
+        Raises:
+            InvalidField: So often that there are too many samples.
+        """
+        self.bounds.check(self.call, self.chain, self.found.motion.duration)
+        return sample_times(self.found.motion.duration, self.call.sample_period)
+
+    def table(self, times: Array) -> Array:
+        """Time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
+        return table(self.found.motion, times)
+
+    def told_samples(self, times: Array) -> dict[str, orjson.Fragment]:
+        """Of each field in `SAMPLED` that is wanted the entries at some times, as JSON."""
+        rows = [times, *samples(self.found.motion, times)]
+        told = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
+        if self.call.tip_poses:
+            poses = Poses(*chain_poses(self.chain.flat, self.found.motion.at(times)))
+            told["tip_poses"] = told_poses(poses, self.call.pose_format)
+        return told
+
+    def certificate(self, times: Array) -> Certificate | None:
+        """How far the tip's poses at these times are from Pinocchio's, where they are told.
+
+        Raises:
+            CertificationFailed: Too far.
+        """
+        if not self.call.tip_poses:
+            return None
+        return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
+
+    def told(self, sampled: Mapping[str, orjson.Fragment], certificate: Certificate | None) -> dict[str, Any]:
+        """The whole answer.
+
+        Raises:
+            TooLarge: The polynomials that are asked for hold too many numbers.
+        """
+        found, bounds = self.found, self.question.bounds
+        if self.call.coefficients and found.motion.coefficients.size > self.bounds.numbers:
+            raise TooLarge("numbers in the answer", found.motion.coefficients.size, self.bounds.numbers)
+        answer: dict[str, Any] = {
+            "joint_names": self.chain.joint_names,
+            "base_frame": self.chain.base_frame,
+            "tip_frame": self.chain.tip_frame,
+            "duration": found.motion.duration,
+            "completed_fraction": found.completed_fraction,
+            "failure": told_failure(found),
+            **{name: sampled.get(name) for name in SAMPLED},
+            "segments": told_segments(found, self.question.segment_bounds, coefficients=self.call.coefficients),
+            "audit": told_audit(found.audit),
+            "limits": told_limits(bounds.limits),
+            "limit_sources": bounds.sources,
+            "notes": limit_notes(self.chain, self.question.own, self.question.segment_bounds),
+            "certificate": certificate,
+        }
+        return answer | ({"timing": found.timing} if self.call.compare_timing else {})
