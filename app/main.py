@@ -19,6 +19,7 @@ from app.api.access.keys import KeyCheck
 from app.api.access.metrics import Metrics
 from app.api.access.origins import Origins
 from app.api.access.tracing import TracedId, exporter_variables, telemetry
+from app.api.bodies import Bodies
 from app.api.compare import compare_route
 from app.api.course_components import component_routes
 from app.api.course_fly_over import fly_over_route
@@ -56,7 +57,7 @@ chain's joints from base to tip. Errors are `application/problem+json`.
 """
 
 
-def create_app(settings: Settings) -> FastAPI:
+def create_app(settings: Settings) -> Application:
     """The application.
 
     Args:
@@ -87,6 +88,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     app = Application(
         settings.max_body_bytes,
+        Bodies(max(settings.held_body_bytes, settings.max_body_bytes)),
         is_traced=bool(settings.otlp_endpoint),
         telemetry=telemetry(bool(settings.otlp_endpoint)),
         title="Gelenk",

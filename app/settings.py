@@ -27,6 +27,8 @@ class Settings:
         catalogue_dir: The robots that come with the project (`GELENK_CATALOGUE_DIR`).
         root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
         max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
+        held_body_bytes: Large request bodies of each worker process that come in or wait for their answer, together;
+            one of the largest has room in any case (`GELENK_HELD_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
         crew_processes: Processes of each worker process for what may take long (`GELENK_CREW_PROCESSES`).
         crew_waiting: Requests that may wait for one of these; more are refused (`GELENK_CREW_WAITING`).
@@ -65,6 +67,7 @@ class Settings:
     catalogue_dir: Path = field(default_factory=lambda: Path(__file__).resolve().parent.parent / "robots")
     root_path: str = ""
     max_body_bytes: int = 64 * 1024 * 1024
+    held_body_bytes: int = 512 * 1024 * 1024
     max_answer_numbers: int = 20_000_000
     crew_processes: int = field(default_factory=lambda: max(2, min(8, os.cpu_count() or 1)))
     crew_waiting: int = 200

@@ -2,6 +2,7 @@
 
 - `problems`: every error as RFC 9457; the one table from error class to status.
 - `payloads`, `npy`: bodies in and answers out: JSON and NumPy's npy, strictly.
+- `bodies`: how many bytes of large bodies are held at a time.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
 - `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import AsyncGenerator, Iterable, Sequence
 from io import StringIO
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 import orjson
@@ -16,6 +16,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
+from app.api.bodies import SMALL, Bodies
 from app.api.problems import InvalidPayload
 from app.model.arrays import Array
 from app.model.errors import TooLarge, quoted
@@ -53,16 +54,30 @@ _Model = TypeVar("_Model", bound=Payload)
 
 
 class BoundedRequest(Request):
-    """A request whose body is read no further than allowed, whoever reads it.
+    """A request whose body is read no further than allowed, whoever reads it; left as a context, it holds none.
 
     It does its own reading of headers and body, both plainer than Starlette's, because every call pays for them.
+
+    Args:
+        scope: As the server has it.
+        receive: What gives the body.
+        send: What takes an answer.
+        max_bytes: Of the body.
+        bodies: Those that the process holds.
     """
 
-    def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int) -> None:
+    def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int, bodies: Bodies) -> None:
         super().__init__(scope, receive, send)
-        self._max_bytes = max_bytes
-        self._count = 0
+        self._max_bytes, self._bodies = max_bytes, bodies
+        self._count = self._held = 0
         self._fields: dict[bytes, bytes] = dict(scope["headers"])
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bodies.held -= self._held
+        self._held = 0
 
     @property
     def media_type(self) -> str:
@@ -89,6 +104,7 @@ class BoundedRequest(Request):
 
         Raises:
             TooLarge: It is larger than allowed, or says so.
+            NoRoomForBody: Other large bodies take all the room there is.
             ClientDisconnect: The caller has left.
         """
         pieces, more = [], True
@@ -108,18 +124,23 @@ class BoundedRequest(Request):
         """The next piece of the body, and whether there is more."""
         if self._count == 0:
             announced = self._fields.get(b"content-length", b"0")
-            self._check(int(announced) if announced.isdigit() else 0)
+            self._check_size(int(announced) if announced.isdigit() else 0)
         message = await self.receive()
         if message["type"] == "http.disconnect":
             raise ClientDisconnect
         chunk: bytes = message.get("body", b"")
         self._count += len(chunk)
-        self._check(self._count)
+        self._check_size(self._count)
+        if self._count > SMALL:
+            self._bodies.held += self._count - self._held
+            self._held = self._count
         return chunk, message.get("more_body", False)
 
-    def _check(self, count: int) -> None:
+    def _check_size(self, count: int) -> None:
         if count > self._max_bytes:
             raise TooLarge("bytes in the body", count, self._max_bytes)
+        if count > SMALL:
+            self._bodies.check_room(count - self._held)
 
 
 def preferred_type(accept: str, offered: Sequence[str]) -> str:

@@ -39,6 +39,7 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
     errors.TooManyRequests: HTTPStatus.TOO_MANY_REQUESTS,
     errors.ServiceBusy: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.NoRoomForBody: HTTPStatus.SERVICE_UNAVAILABLE,
     errors.DeadlineExceeded: HTTPStatus.GATEWAY_TIMEOUT,
     errors.WorkerCrashed: HTTPStatus.INTERNAL_SERVER_ERROR,
     errors.WorkerOutOfMemory: HTTPStatus.INTERNAL_SERVER_ERROR,
@@ -134,8 +135,10 @@ def _kinematics(request: Request, error: Exception) -> Response:
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
     response = problem(request, status_of(type(error)), errors.kind_of(type(error)), error.detail, facts)
-    if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy):
+    if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy | errors.NoRoomForBody):
         response.headers["Retry-After"] = str(error.retry_after)
+        # Its connection is listened to again when it was told to come back: see `connections`.
+        request.scope.setdefault("state", {})["refused"] = not isinstance(error, errors.TooManyJobs)
     return response
 
 

@@ -14,7 +14,7 @@ from app.api.payloads import JSON, BoundedRequest
 from app.api.problems import UnsupportedMediaType
 from app.api.tally import TALLY
 from app.crew.crew import Crew
-from app.model.errors import InvalidField, ServiceBusy, ServiceStopping, TooManyRequests
+from app.model.errors import InvalidField, ServiceStopping, TooManyRequests
 from app.store.library import Library
 from app.store.records import LoadedRobot
 
@@ -71,14 +71,6 @@ class Remote:
         return await asyncio.to_thread(self._library.get, name)
 
     async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
-        try:
-            return await self._share_of(request, errand, inquiry)
-        except (ServiceBusy, TooManyRequests):
-            # Its connection is listened to again when it was told to come back: see `connections`.
-            request.scope.setdefault("state", {})["refused"] = True
-            raise
-
-    async def _share_of(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
         client = client_of(request)
         if client is not None and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.crew.retry_after)

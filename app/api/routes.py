@@ -22,6 +22,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.api import problems
+from app.api.bodies import Bodies
 from app.api.errand import Desk, Inquiry, buffers
 from app.api.long_work import LongWork, submitted
 from app.api.npy import npy_response, read_npy
@@ -85,8 +86,10 @@ class DocumentedRoute(APIRoute):
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
+        bodies: Bodies = scope["app"].bodies
         try:
-            response = await self._handler(BoundedRequest(scope, receive, send, self._max_body_bytes))
+            with BoundedRequest(scope, receive, send, self._max_body_bytes, bodies) as request:
+                response = await self._handler(request)
         except ClientDisconnect:
             return
         await response(scope, receive, send)
@@ -100,9 +103,10 @@ class Application(FastAPI):
     requests come in, and leads to `answer`.
     """
 
-    def __init__(self, max_body_bytes: int, is_traced: bool = False, **description: Any) -> None:
+    def __init__(self, max_body_bytes: int, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
         super().__init__(**description)
         self._max_body_bytes, self._is_traced = max_body_bytes, is_traced
+        self.bodies = bodies
         self.operations: dict[str, Handler] = {}
         self.door: ASGIApp = self.answer
 
@@ -125,9 +129,9 @@ class Application(FastAPI):
             handler = self.operations.get(match["operation"]) if match else None
             if match and handler:
                 scope["path_params"] = {"robot": match["robot"]}
-                request = BoundedRequest(scope, receive, send, self._max_body_bytes)
                 try:
-                    response = await handler(request)
+                    with BoundedRequest(scope, receive, send, self._max_body_bytes, self.bodies) as request:
+                        response = await handler(request)
                 except ClientDisconnect:
                     return
                 except Exception as error:

@@ -585,6 +585,22 @@ class ServiceBusy(KinematicsError):
 
 
 @dataclass(eq=False)
+class NoRoomForBody(KinematicsError):
+    """So many large bodies are held that another one has to be sent later."""
+
+    allowed: int
+    retry_after: int = 1
+
+    @property
+    def detail(self) -> str:
+        """How many bytes there may be, and when to come back."""
+        return (
+            f"the large bodies of all requests may have {self.allowed} bytes at a time, and with this one they would "
+            f"have more: send it again in {self.retry_after} s"
+        )
+
+
+@dataclass(eq=False)
 class TooManyRequests(KinematicsError):
     """A client has so many requests at work that another one has to be asked for later."""
 

@@ -13,6 +13,7 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
+from app.api.bodies import Bodies
 from app.api.npy import read_npy
 from app.api.operations import Setup
 from app.api.problems import status_of
@@ -116,6 +117,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
     errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "", {}) for _ in range(3)]),
     errors.ServiceBusy: lambda: by_a_crew(calls.double, 1, LONG, waiting=0),
+    errors.NoRoomForBody: lambda: Bodies(1).check_room(2),
     errors.TooManyRequests: lambda: of_a_client(share=0),
     errors.DeadlineExceeded: lambda: by_a_crew(calls.sleep, 60.0, 0.1),
     errors.WorkerCrashed: lambda: by_a_crew(calls.leave, 3, LONG),
