@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Callable
 
-from tests.benchmarks import batch, ik, ik_all, load, quality, requests, start, trajectory, volume, workspace
+from tests.benchmarks import batch, ik, ik_all, load, quality, requests, soak, start, trajectory, volume, workspace
 from tests.benchmarks.table import Row, show
 
 BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
@@ -17,7 +17,11 @@ BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
     "trajectory": trajectory.measure,
     "start": start.measure,
 }
-ON_REQUEST: dict[str, Callable[[], list[Row]]] = {"solvers-few": ik.measure_few, "load": load.measure}
+ON_REQUEST: dict[str, Callable[[], list[Row]]] = {
+    "solvers-few": ik.measure_few,
+    "load": load.measure,
+    "soak": soak.measure,
+}
 GROUPS = {"ik": ["solvers", "quality", "batch", "requests", "volume"]}
 
 
