@@ -1,0 +1,118 @@
+"""Robots to upload in each form, which tell by what comes back which one it is; and a call of the service."""
+
+import io
+import json
+import random
+import zipfile
+from dataclasses import dataclass
+from http.client import HTTPConnection
+from typing import Any, Literal
+from urllib.parse import urlsplit
+
+_URDF = """<robot name="r"><link name="base"/><link name="tip">{mesh}</link><joint name="j" type="continuous">
+<parent link="base"/><child link="tip"/><origin xyz="0 0 {number}"/><axis xyz="0 0 1"/></joint></robot>"""
+_MESH = '<visual><geometry><mesh filename="package://arm/part.stl"/></geometry></visual>'
+_BOUNDARY = "gelenk"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What has come back."""
+
+    status: int
+    body: bytes
+
+    @property
+    def content(self) -> Any:
+        """The body as JSON."""
+        return json.loads(self.body)
+
+
+def ask(url: str, path: str, method: str = "GET", body: bytes | None = None, kind: str = "application/json") -> Answer:
+    """One call on a connection of its own.
+
+    Raises:
+        OSError: There is no answer.
+        HTTPException: There is half of one.
+    """
+    connection = HTTPConnection(urlsplit(url).netloc, timeout=60)
+    try:
+        connection.request(method, path, body, {"Content-Type": kind} if body is not None else {})
+        answer = connection.getresponse()
+        return Answer(answer.status, answer.read())
+    finally:
+        connection.close()
+
+
+def read(url: str, path: str) -> Answer:
+    """What is there.
+
+    Raises:
+        OSError: There is no answer, or one that says that the service could not look.
+    """
+    answer = ask(url, path)
+    if answer.status >= 500:
+        raise OSError(f"{path}: {answer.status} {answer.body[:200]!r}")
+    return answer
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A robot as it is uploaded.
+
+    Attributes:
+        form: How.
+        number: Which one.
+    """
+
+    form: Literal["urdf", "zip", "dh"]
+    number: int
+
+    def send(self, url: str, name: str, is_new: bool) -> Answer:
+        """Add it, or put it in the place of another one."""
+        path, method = ("/v1/robots", "POST") if is_new else (f"/v1/robots/{name}", "PUT")
+        named = {"name": name} if is_new else {}
+        if self.form == "zip":
+            return ask(url, path, method, self._form(named), f"multipart/form-data; boundary={_BOUNDARY}")
+        content = {"dh": self._table()} if self.form == "dh" else {"urdf": self._urdf()}
+        return ask(url, path, method, json.dumps(named | content).encode())
+
+    def is_what(self, url: str, name: str) -> bool:
+        """Whether the robot of a name is this one to the last byte: its table, or its URDF and its mesh.
+
+        Raises:
+            OSError: As `read`.
+        """
+        if self.form == "dh":
+            robot = read(url, f"/v1/robots/{name}")
+            return robot.status == 200 and robot.content["dh"] is not None and self._is_table(robot.content["dh"])
+        urdf = read(url, f"/v1/robots/{name}/urdf")
+        if (urdf.status, urdf.body) != (200, self._urdf().encode()):
+            return False
+        mesh = read(url, f"/v1/robots/{name}/meshes/meshes/part.stl")
+        return (mesh.status, mesh.body) == (200, self._mesh()) if self.form == "zip" else mesh.status == 404
+
+    def _table(self) -> dict[str, Any]:
+        row = {"type": "revolute", "a": float(self.number), "alpha": 0.0, "d": 0.0, "theta": 0.0}
+        return {"convention": "standard", "joints": [row]}
+
+    def _is_table(self, table: dict[str, Any]) -> bool:
+        return [row["a"] for row in table["joints"]] == [float(self.number)]
+
+    def _urdf(self) -> str:
+        return _URDF.format(number=self.number, mesh=_MESH if self.form == "zip" else "")
+
+    def _mesh(self) -> bytes:
+        return random.Random(self.number).randbytes(200_000)
+
+    def _form(self, fields: dict[str, str]) -> bytes:
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w") as archive:
+            archive.writestr("arm.urdf", self._urdf())
+            archive.writestr("meshes/part.stl", self._mesh())
+        parts = [f'name="{name}"\r\n\r\n{value}'.encode() for name, value in fields.items()]
+        parts.append(b'name="archive"; filename="r.zip"\r\n\r\n' + file.getvalue())
+        lines = b"".join(
+            f"--{_BOUNDARY}\r\nContent-Disposition: form-data; ".encode() + part + b"\r\n" for part in parts
+        )
+        return lines + f"--{_BOUNDARY}--\r\n".encode()
