@@ -11,7 +11,9 @@ import os
 import time
 from collections import deque
 from collections.abc import AsyncIterator, Callable, Iterator, Mapping, Sequence
+from functools import cache
 from pathlib import Path
+from typing import TypeVar
 
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, generate_latest
 from prometheus_client.metrics_core import GaugeMetricFamily, Metric
@@ -34,6 +36,8 @@ _GATHERED = 64
 """Requests that are counted together; it takes a quarter of a millisecond."""
 _LEFT = 499
 
+_Metric = TypeVar("_Metric", Counter, Histogram)
+
 
 class Metrics:
     """The numbers of this process, and of all.
@@ -49,8 +53,7 @@ class Metrics:
         self._robots, self._crew, self._jobs = set(robots[:MOST_ROBOTS]), crew, jobs
         self._in_flight = 0
         self._over: deque[Exchange] = deque()
-        self._children: dict[tuple[str, str], Histogram] = {}
-        self._answered: dict[tuple[str, int], Counter] = {}
+        self._bound = cache(_labelled)
         self._told: dict[Counter, float] = {}
         by_robot = "operation", "robot"
         self._seconds = self._histogram("request_seconds", "From the request's head to the answer's end.", by_robot)
@@ -89,27 +92,19 @@ class Metrics:
 
     def _count(self, exchange: Exchange) -> None:
         operation, robot = exchange.operation.name, self._label(exchange)
-        labels = operation, robot
-        seconds = self._children.get(labels)
-        if seconds is None:
-            seconds = self._children[labels] = self._seconds.labels(operation, robot)
-        seconds.observe(exchange.seconds)
-        answered = operation, exchange.status or _LEFT
-        answers = self._answered.get(answered)
-        if answers is None:
-            answers = self._answered[answered] = self._answers.labels(operation, str(answered[1]))
-        answers.inc()
+        self._bound(self._seconds, operation, robot).observe(exchange.seconds)
+        self._bound(self._answers, operation, exchange.status or _LEFT).inc()
         if exchange.tally is not None:
             self._count_call(exchange.tally, operation, robot)
 
     def _count_call(self, tally: Tally, operation: str, robot: str) -> None:
         if tally.batch:
-            self._batch.labels(operation, robot).observe(tally.batch)
+            self._bound(self._batch, operation, robot).observe(tally.batch)
         if tally.verdicts:
             for verdict, count in tally.verdicts.items():
-                self._targets.labels(robot, verdict).inc(count)
-            self._solutions.labels(robot).inc(tally.solutions)
-            self._iterations.labels(robot).inc(tally.iterations)
+                self._bound(self._targets, robot, verdict).inc(count)
+            self._bound(self._solutions, robot).inc(tally.solutions)
+            self._bound(self._iterations, robot).inc(tally.iterations)
 
     def publish(self) -> None:
         """Tell how much is over, and how much under way, in this process."""
@@ -196,6 +191,11 @@ class _Jobs(Collector):
         for state, count in sorted(self._states.items()):
             family.add_metric([state], count)
         yield family
+
+
+def _labelled(metric: _Metric, *labels: str | int) -> _Metric:
+    """A metric under its labels, of which there is a bounded number."""
+    return metric.labels(*labels)
 
 
 def _forget_the_dead(folder: Path) -> None:
