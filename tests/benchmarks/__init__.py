@@ -5,6 +5,7 @@
 - `batch`: pose + Jacobian by the kernels against a Python loop over Pinocchio.
 - `requests`: one `fk` over HTTP against an empty endpoint, one `ik` against one `fk`.
 - `volume`: large batches over HTTP, end to end, with the server's peak memory.
+- `jobs`: the same jobs by the processes of this machine and by a Ray cluster on it, their results compared.
 - `start`: from `./dev serve` to ready.
 - `ik`: all but the last.
 """

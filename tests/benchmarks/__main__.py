@@ -3,7 +3,20 @@
 import sys
 from collections.abc import Callable
 
-from tests.benchmarks import batch, ik, ik_all, load, quality, requests, soak, start, trajectory, volume, workspace
+from tests.benchmarks import (
+    batch,
+    ik,
+    ik_all,
+    jobs,
+    load,
+    quality,
+    requests,
+    soak,
+    start,
+    trajectory,
+    volume,
+    workspace,
+)
 from tests.benchmarks.table import Row, show
 
 BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
@@ -14,6 +27,7 @@ BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
     "requests": requests.measure,
     "volume": volume.measure,
     "workspace": workspace.measure,
+    "jobs": jobs.measure,
     "trajectory": trajectory.measure,
     "start": start.measure,
 }

@@ -44,8 +44,8 @@ def _add_empty(app: FastAPI) -> None:
 
 
 @contextmanager
-def running(factory: str, ready_path: str) -> Iterator[Running]:
-    """Serve one of the applications above just as the service is served."""
+def running(factory: str, ready_path: str, **settings: str) -> Iterator[Running]:
+    """Serve one of the applications above just as the service is served, with further variables in its environment."""
     port = free_port()
     with tempfile.TemporaryDirectory() as data_dir:
         command = [
@@ -53,7 +53,7 @@ def running(factory: str, ready_path: str) -> Iterator[Running]:
             *("--loop", "uvloop", "--http", "httptools", "--no-access-log", "--no-server-header"),
             *("--log-level", "warning"),
         ]
-        with subprocess.Popen(command, env={**os.environ, "GELENK_DATA_DIR": data_dir}) as process:
+        with subprocess.Popen(command, env={**os.environ, "GELENK_DATA_DIR": data_dir, **settings}) as process:
             try:
                 wait_for(f"http://{HOST}:{port}{ready_path}")
                 yield Running(port, process.pid)
