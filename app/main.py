@@ -71,7 +71,8 @@ def create_app(settings: Settings) -> Application:
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
     operations = setup.operations()
     runner = _runner(settings, operations)
-    readiness, metrics = Readiness(), Metrics(library.catalogue_names, crew, runner.shelf.states)
+    metrics = Metrics(library.catalogue_names, crew, runner.shelf.states)
+    readiness = Readiness(crew, settings.data_dir, lambda: runner.failure)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -132,7 +133,7 @@ def create_app(settings: Settings) -> Application:
     samples = SampleLimits(settings.max_job_samples, most)
     app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
-    app.include_router(service_router(readiness, metrics, lambda: runner.failure))
+    app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
     openapi.describe(app, has_keys=bool(settings.api_keys))
@@ -169,7 +170,6 @@ def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:
 async def _start(readiness: Readiness, crew: Crew) -> None:
     """Get ready: first the crew, because what it is copied from compiles the kernels, which are in the cache then."""
     await crew.start()
-    readiness.waiting_for.remove("crew")
     readiness.begin()
 
 

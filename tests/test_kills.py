@@ -208,11 +208,11 @@ def strays(data: Path) -> list[Path]:
 def test_nothing_acknowledged_is_lost(tmp_path: Path, kills: int) -> None:
     chance = random.Random(kills)
     service = Service(tmp_path)
-    service.start()
     writers, reader = [Writer(number, service.url) for number in range(WRITERS)], Reader(service.url)
     turns = [what for what, times in _TURNS.items() for _ in range(max(1, times * kills // 20))][: kills - 1]
     chance.shuffle(turns)
     try:
+        service.start()
         for thread in (*writers, reader):
             thread.start()
         for what in turns:
@@ -228,6 +228,8 @@ def test_nothing_acknowledged_is_lost(tmp_path: Path, kills: int) -> None:
         judge(service, writers, reader)
         assert strays(tmp_path) == []
     finally:
+        for thread in (*writers, reader):
+            thread.stop()
         service.kill()
     told = {name: sum(getattr(one, name) for one in writers) for name in ("acknowledged", "interrupted", "looks")}
     print(f"{kills} kills, {told}, jobs {sum(len(writer.jobs) for writer in writers)}")

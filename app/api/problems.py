@@ -52,6 +52,8 @@ _MOST_ERRORS = 20
 _MOST_NAMES = 64
 _MOST_TEXT = 2000
 _MOST_BYTES = 6000
+_LATER = "10"
+"""Seconds after which it is worth while to ask again where nobody can tell how long it takes."""
 
 logger = logging.getLogger("gelenk")
 
@@ -139,6 +141,8 @@ def _kinematics(request: Request, error: Exception) -> Response:
         response.headers["Retry-After"] = str(error.retry_after)
         # Its connection is listened to again when it was told to come back: see `connections`.
         request.scope.setdefault("state", {})["refused"] = not isinstance(error, errors.TooManyJobs)
+    elif response.status_code == HTTPStatus.SERVICE_UNAVAILABLE:
+        response.headers["Retry-After"] = _LATER
     return response
 
 

@@ -39,6 +39,7 @@ from app.schemas.robots import (
     RobotSummary,
 )
 from app.store.archive import unpacked
+from app.store.folders import writing
 from app.store.library import Library, RobotUpload
 from app.store.records import LoadedRobot, Record
 
@@ -223,13 +224,17 @@ async def _receive(request: BoundedRequest, remote: Remote, name: str | None) ->
         return await remote.answer(request, Keep(name, root_path), inquiry)
     if given != MULTIPART:
         raise UnsupportedMediaType(given, (JSON, MULTIPART))
-    async with request.form(max_files=1, max_fields=8, max_part_size=64 * 1024) as form:
+    with writing():
+        form = await request.form(max_files=1, max_fields=8, max_part_size=64 * 1024)
+    try:
         archive = form.get("archive")
         fields = {key: value for key, value in form.multi_items() if key != "archive"}
         text = (NewArchive if name is None else ArchiveReplacement).model_validate(fields)
         if not isinstance(archive, UploadFile):
             raise InvalidArchive("the form must have a file in the field `archive`")
         pieces = await asyncio.to_thread(lambda: list(iter(lambda: archive.file.read(_PIECE), b"")))
+    finally:
+        await form.close()
     return await remote.answer(request, Keep(name, root_path, text), Inquiry(buffers(pieces)))
 
 
@@ -251,7 +256,7 @@ class Keep:
         """The robot as it is kept now."""
         if self.form is None:
             return self._kept(desk.library, _from_json(inquiry.body, self.name))
-        with unpacked(BytesIO(inquiry.body)) as content:
+        with unpacked(BytesIO(inquiry.body), root=desk.library.uploads) as content:
             upload = RobotUpload(
                 name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
                 format="urdf",

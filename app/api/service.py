@@ -2,9 +2,12 @@
 
 import asyncio
 import gc
+import math
 import threading
+import time
 from collections.abc import Callable
 from http import HTTPStatus
+from pathlib import Path
 
 from fastapi import APIRouter, Request
 from pydantic import BaseModel
@@ -14,7 +17,12 @@ from app.api.access.metrics import Metrics
 from app.api.openapi import problem_responses
 from app.api.payloads import json_response
 from app.api.problems import problem
+from app.crew.crew import Crew
 from app.kinematics.warm import warm_up
+from app.store import folders
+
+_LOOK_SECONDS = 1.0
+"""How long what is known of the disk is good for."""
 
 
 class Health(BaseModel):
@@ -24,11 +32,39 @@ class Health(BaseModel):
 
 
 class Readiness:
-    """Whether requests are quick yet: the kernels are compiled, or read from their cache, and the crew is there."""
+    """Whether all is there that requests need: the kernels compiled, or read from their cache; the crew; the disk.
 
-    def __init__(self) -> None:
-        self.waiting_for: list[str] = ["kernels", "crew"]
+    Args:
+        crew: Who answers what may take long.
+        data_dir: Where uploads and jobs are kept.
+        jobs_failure: Why jobs cannot be done, where that is so.
+
+    Attributes:
+        failure: Why the kernels will never be there.
+    """
+
+    def __init__(self, crew: Crew, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
+        self._crew, self._data_dir, self._jobs_failure = crew, data_dir, jobs_failure
+        self._has_kernels = False
+        self._looked = -math.inf
+        self._storage: str | None = None
         self.failure: str | None = None
+
+    async def missing(self) -> dict[str, str]:
+        """What is not ready, each with the reason."""
+        found = {}
+        if not self._has_kernels:
+            found["kernels"] = self.failure or "they are being compiled"
+        if self._crew.is_short:
+            found["crew"] = "processes are being started"
+        if no_jobs := self._jobs_failure():
+            found["jobs"] = no_jobs
+        if time.monotonic() > self._looked + _LOOK_SECONDS:
+            self._looked = time.monotonic()
+            self._storage = await asyncio.to_thread(folders.why_not, self._data_dir)
+        if self._storage is not None:
+            found["storage"] = f"the data folder cannot be written to: {self._storage}"
+        return found
 
     def begin(self) -> None:
         """Get ready in a thread of its own, so that the process answers meanwhile."""
@@ -40,20 +76,14 @@ class Readiness:
             # What stands now stays: the collector of garbage need not look through it again and again.
             gc.collect()
             gc.freeze()
-            self.waiting_for.remove("kernels")
+            self._has_kernels = True
         except Exception as error:
             self.failure = f"{type(error).__name__}: {error}"
             raise
 
 
-def service_router(readiness: Readiness, metrics: Metrics, jobs_failure: Callable[[], str | None]) -> APIRouter:
-    """Health, readiness and metrics.
-
-    Args:
-        readiness: Of the kernels.
-        metrics: What is told.
-        jobs_failure: Why jobs cannot be done, where that is so.
-    """
+def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
+    """Health, readiness and metrics."""
     router = APIRouter(tags=["Service"])
 
     @router.get("/healthz", operation_id="health", summary="Does the process live?", response_model=Health)
@@ -69,17 +99,18 @@ def service_router(readiness: Readiness, metrics: Metrics, jobs_failure: Callabl
         responses=problem_responses(503),
     )
     async def ready(request: Request) -> Response:
-        """503 with `waiting_for`: `crew` and `kernels` until these are there, `jobs` while no cluster computes them.
+        """503 with `waiting_for` as long as something is not ready, and `reasons`; `failure` says what has gone wrong.
 
-        `failure` says what has gone wrong with them.
+        `kernels`: compiled at the first start. `crew`: processes for what takes long. `jobs`: no cluster computes them.
+        `storage`: nothing can be kept, the disk is full or read-only; what is there can still be read.
         """
-        no_jobs = jobs_failure()
-        if not readiness.waiting_for and no_jobs is None:
+        missing = await readiness.missing()
+        if not missing:
             return json_response({"status": "ready"})
-        waiting_for = [*readiness.waiting_for, *(["jobs"] if no_jobs else [])]
-        facts = {"waiting_for": waiting_for, "failure": readiness.failure or no_jobs}
+        facts = {"waiting_for": list(missing), "reasons": missing, "failure": readiness.failure or missing.get("jobs")}
+        told = "; ".join(f"{name}: {reason}" for name, reason in missing.items())
         response = problem(
-            request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", "the service is still getting ready", facts
+            request, HTTPStatus.SERVICE_UNAVAILABLE, "not-ready", f"the service is not ready: {told}", facts
         )
         if readiness.failure is None:
             response.headers["Retry-After"] = "1"

@@ -32,6 +32,8 @@ _PATIENCE = 0.05
 """A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""
 _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _SMOOTHING = 0.1
+_MOMENT = 1.0
+"""How long processes may be missing until that is worth to be told, [s]."""
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
 """A function, its argument, and how many seconds it may take."""
@@ -61,7 +63,8 @@ class Crew:
         self._seats: list[_Seat] = []
         self._renewals: set[asyncio.Task[None]] = set()
         self._seconds_a_call = 0.0
-        self._closed = False
+        self._whole_until = -math.inf
+        self._is_begun = self._closed = False
 
     @property
     def queue_length(self) -> int:
@@ -78,10 +81,16 @@ class Crew:
         """Seconds until the queue will have been worked off, as far as can be told."""
         return max(1, math.ceil(self._seconds_a_call * (len(self._turns) + 1) / self.size))
 
+    @property
+    def is_short(self) -> bool:
+        """Whether processes are missing, and not only for the moment that it takes to replace one."""
+        return not self._seats or (bool(self._renewals) and time.monotonic() > self._whole_until + _MOMENT)
+
     async def start(self) -> None:
         """Start all processes, and return when they are there."""
         self._fill()
         await asyncio.gather(*self._renewals)
+        self._is_begun = True
 
     async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
         """The function's result; cancelling this ends the call.
@@ -179,6 +188,8 @@ class Crew:
         self._idle.append(seat)
 
     def _renew(self, seat: "_Seat") -> None:
+        if not self._renewals and self._is_begun:
+            self._whole_until = time.monotonic()
         renewal = asyncio.get_running_loop().create_task(self._renewed(seat))
         self._renewals.add(renewal)
         renewal.add_done_callback(self._renewals.discard)

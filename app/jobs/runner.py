@@ -67,6 +67,7 @@ class Runner:
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
         self._orders: dict[str, Order] = {}
+        self._unsaid: dict[str, tuple[Job, Failure]] = {}
         self._closed = threading.Event()
 
     def begin(self) -> None:
@@ -179,6 +180,7 @@ class Runner:
                 for job in self.shelf.take_up():
                     logger.warning("job %s goes on: the process of the service that did it has ended", job.id)
                     self._do_later(job)
+                self._say_again()
                 self.shelf.tidy()
             except (KinematicsError, OSError) as error:
                 logger.warning("jobs that were left cannot be taken up: %s", error)
@@ -252,7 +254,21 @@ class Runner:
             self.shelf.change(job, state="queued", attempts=0)
 
     def _fail(self, job: Job, failure: Failure) -> None:
+        """Say that a job has failed; where the disk does not even take that, as soon as it does."""
+        with contextlib.suppress(KinematicsError, OSError):
+            self.shelf.parts(job.id).clear()  # it is room that may be lacking
         try:
             self.shelf.change(job, state="failed", failure=failure)
+        except UnknownJob:
+            return
         except KinematicsError as error:
             logger.warning("job %s: %s", job.id, error.detail)
+            self._unsaid[job.id] = job, failure
+
+    def _say_again(self) -> None:
+        """Say of those jobs that they have failed of which it could not be said before."""
+        for job, failure in list(self._unsaid.values()):
+            with contextlib.suppress(UnknownJob):
+                self.shelf.change(job, state="failed", failure=failure)
+            del self._unsaid[job.id]
+            self._clear(job)

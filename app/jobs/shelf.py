@@ -220,6 +220,9 @@ class Shelf:
                     os.fsync(target.fileno())
             except FileNotFoundError:
                 raise UnknownJob(job_id) from None
+            except OSError:
+                (self._root / job_id / name).unlink(missing_ok=True)
+                raise
 
     def remove(self, job_id: str) -> None:
         """Remove a job and its results.

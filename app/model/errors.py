@@ -463,12 +463,23 @@ class StorageFailed(KinematicsError):
 
     @property
     def detail(self) -> str:
-        """What the system says."""
-        return f"the disk does not take it, so that it is not safely kept: {self.reason}"
+        """What the system says, and what is to be done."""
+        return (
+            f"the data folder cannot be written to, so that nothing was kept: {self.reason}; whoever runs the service "
+            "has to make it writable, and what is there can be read meanwhile"
+        )
 
 
 class StorageFull(StorageFailed):
     """There is no room on the disk."""
+
+    @property
+    def detail(self) -> str:
+        """What the system says, and what is to be done."""
+        return (
+            f"there is no room for it, so that nothing was kept: {self.reason}; remove robots or jobs that are not "
+            "needed, or ask whoever runs the service for more room, and send it again"
+        )
 
 
 @dataclass(eq=False)

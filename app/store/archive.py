@@ -13,13 +13,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
-from pathlib import PurePosixPath
-from tempfile import TemporaryFile
+from pathlib import Path, PurePosixPath
 from typing import IO, BinaryIO
 
 from app.model.errors import InvalidArchive, TooLarge, quoted
 from app.model.xml import MAX_BYTES
-from app.store.folders import Stretch, writing
+from app.store.folders import Stretch, nameless
 
 MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
@@ -49,12 +48,13 @@ class UnpackedRobot:
 
 
 @contextmanager
-def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[UnpackedRobot]:
+def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None) -> Iterator[UnpackedRobot]:
     """Unpack an archive for as long as the context lasts.
 
     Args:
         file: The zip.
         max_unpacked: Bytes that may come out of it.
+        root: The folder on whose disk it is unpacked; that for temporary files if left out.
 
     Raises:
         InvalidArchive: Not a zip, not one URDF, or an entry that has no place in one.
@@ -66,7 +66,7 @@ def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED) -> Iterator[Unpac
         archive = zipfile.ZipFile(file)
     except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
         raise InvalidArchive("the file is not a zip archive") from error
-    with archive, writing(), TemporaryFile() as store:
+    with archive, nameless(root) as store:
         yield _unpack(archive, store, max_unpacked)
 
 

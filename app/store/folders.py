@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import IO, TypeAlias
 
 from app.model.errors import StorageFailed, StorageFull
@@ -22,6 +23,7 @@ _NEW = ".new-"
 _OLD = ".old-"
 _LOCK = ".lock"
 _PIECE = 1024 * 1024
+_PROBE = 64 * 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,33 @@ def writing() -> Iterator[None]:
     except OSError as error:
         kind = StorageFull if error.errno in {errno.ENOSPC, errno.EDQUOT} else StorageFailed
         raise kind(os.strerror(error.errno or 0)) from error
+
+
+def why_not(root: Path) -> str | None:
+    """Why nothing can be written below `root`, which is made if missing; None where something was, and is gone."""
+    try:
+        with nameless(root) as file:
+            file.write(bytes(_PROBE))
+            file.flush()
+    except StorageFailed as error:
+        return error.reason
+    return None
+
+
+@contextmanager
+def nameless(root: Path | None) -> Iterator[IO[bytes]]:
+    """A file on the disk of `root` for as long as the context lasts: without a name, gone with the process too.
+
+    Where no folder is given, it is on the disk for temporary files.
+
+    Raises:
+        StorageFailed: See `writing`.
+    """
+    with writing():
+        if root is not None:
+            _make(root)
+        with TemporaryFile(prefix=_NEW, dir=root) as file:
+            yield file
 
 
 @contextmanager

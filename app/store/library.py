@@ -74,10 +74,13 @@ class Library:
     Args:
         catalogue: Folder of the robots that come with the project.
         uploads: Folder of all others; made when first written to.
+
+    Attributes:
+        uploads: The latter.
     """
 
     def __init__(self, catalogue: Path, uploads: Path) -> None:
-        self._uploads = uploads
+        self.uploads = uploads
         found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
         self._catalogue = {record.name: record for record in found if record is not None}
         self._loaded: OrderedDict[str, LoadedRobot] = OrderedDict()
@@ -85,11 +88,11 @@ class Library:
 
     def prepare(self) -> None:
         """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is."""
-        if not self._uploads.is_dir():
+        if not self.uploads.is_dir():
             return
         try:
-            with folders.exclusive(self._uploads):
-                folders.sweep(self._uploads)
+            with folders.exclusive(self.uploads):
+                folders.sweep(self.uploads)
                 for folder in self._folders():
                     folders.sweep(folder)
                     self._remove_stale_versions(folder)
@@ -178,15 +181,15 @@ class Library:
                 return False
             raise RobotExists(upload.name)
         file, version = _robot_file(upload)
-        with folders.exclusive(self._uploads):
-            folders.sweep(self._uploads)
-            folder = self._uploads / upload.name
+        with folders.exclusive(self.uploads):
+            folders.sweep(self.uploads)
+            folder = self.uploads / upload.name
             if folder.exists():
                 if not _holds(folder, file):
                     raise RobotExists(upload.name)
                 return False
             contents = {f"{version}/{path}": content for path, content in _contents(upload).items()}
-            folders.create_folder(self._uploads, upload.name, {ROBOT_FILE: _as_bytes(file), **contents})
+            folders.create_folder(self.uploads, upload.name, {ROBOT_FILE: _as_bytes(file), **contents})
         return True
 
     def replace(self, upload: RobotUpload) -> None:
@@ -200,7 +203,7 @@ class Library:
         """
         folder = self._writable(upload.name)
         file, version = _robot_file(upload)
-        with folders.exclusive(self._uploads):
+        with folders.exclusive(self.uploads):
             self._writable(upload.name)
             folders.sweep(folder)
             folders.create_folder(folder, version, _contents(upload))
@@ -219,18 +222,18 @@ class Library:
             StorageFailed: It cannot be removed.
         """
         self._writable(name)
-        with folders.exclusive(self._uploads):
+        with folders.exclusive(self.uploads):
             self._writable(name)
-            folders.sweep(self._uploads)
-            folders.remove_folder(self._uploads, name)
+            folders.sweep(self.uploads)
+            folders.remove_folder(self.uploads, name)
         with self._lock:
             self._loaded.pop(name, None)
 
     def _folders(self) -> list[Path]:
         """The folders that may be uploaded robots."""
-        if not self._uploads.is_dir():
+        if not self.uploads.is_dir():
             return []
-        names = (path for path in self._uploads.iterdir() if _NAME.fullmatch(path.name))
+        names = (path for path in self.uploads.iterdir() if _NAME.fullmatch(path.name))
         return sorted(path for path in names if path.name not in self._catalogue and path.is_dir())
 
     def _remove_stale_versions(self, folder: Path) -> None:
@@ -248,7 +251,7 @@ class Library:
         """The folder of an uploaded robot; asked before the lock, which makes the root, and again while holding it."""
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
-        folder = self._uploads / name
+        folder = self.uploads / name
         if not _NAME.fullmatch(name) or not folder.is_dir():
             raise self._unknown(name)
         return folder
@@ -256,7 +259,7 @@ class Library:
     def _record(self, name: str) -> Record:
         if name in self._catalogue:
             return self._catalogue[name]
-        record = read_record(self._uploads / name, "uploaded") if _NAME.fullmatch(name) else None
+        record = read_record(self.uploads / name, "uploaded") if _NAME.fullmatch(name) else None
         if record is None:
             raise self._unknown(name)
         return record
