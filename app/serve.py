@@ -50,6 +50,8 @@ def main() -> None:
         sys.exit(
             "GELENK_OTLP_ENDPOINT needs the extra `tracing`: install requirements-tracing.lock, as ./dev serve does"
         )
+    if settings.ray_address and find_spec("ray") is None:
+        sys.exit("GELENK_RAY_ADDRESS needs the extra `ray`: install requirements-ray.lock, as ./dev serve does")
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
     _open_as_many_files_as_allowed()

@@ -12,6 +12,7 @@ import os
 import pickle
 import socket
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError
 from functools import cache, partial
@@ -36,6 +37,9 @@ _QUIET = {
 }
 """Nothing is reported to anyone, and nothing is looked for."""
 
+_SIZE, _SIZE_SECONDS = -1, 10.0
+"""In the place of a part's number: how many processors the cluster has by now; and how often that is looked at, [s]."""
+
 _Task: TypeAlias = tuple[Callable[[Any], Any], Any]
 
 
@@ -59,7 +63,7 @@ class Cluster:
 
     @property
     def count(self) -> int:
-        """Processors of the cluster when it was last asked."""
+        """Processors of the cluster, as far as is known."""
         return self._count
 
     def prepare(self) -> None:
@@ -136,6 +140,9 @@ class Cluster:
                 number, succeeded, result = connection.recv()
             except (OSError, EOFError):
                 break
+            if number == _SIZE:
+                self._count = max(1, result)
+                continue
             with self._lock:
                 future = self._futures.pop(number, None)
             # One that was cancelled in this moment takes no result.
@@ -194,7 +201,7 @@ class _Driver:
 
             ray.init(self._address, configure_logging=False, log_to_driver=False, namespace="gelenk")
             compute = ray.remote(max_retries=_RETRIES, num_cpus=1)(_computed)
-            count = int(ray.cluster_resources().get("CPU", 0))
+            count = _processors(ray)
         except Exception as error:
             reason = (str(error).strip() or type(error).__name__).splitlines()[0]
             connection.send(f"the Ray cluster at {self._address} cannot be reached: {reason}")
@@ -208,7 +215,14 @@ class _Driver:
             with lock:
                 connection.send((number, error is None, future.result() if error is None else _told(error, ray)))
 
+        def tell_size() -> None:
+            while True:
+                time.sleep(_SIZE_SECONDS)
+                with contextlib.suppress(OSError), lock:
+                    connection.send((_SIZE, True, _processors(ray)))
+
         connection.send(count)
+        threading.Thread(target=tell_size, name="size", daemon=True).start()
         while True:
             try:
                 number, task = pickle.loads(connection.recv_bytes())  # noqa: S301 - from the service
@@ -220,6 +234,11 @@ class _Driver:
             else:
                 references[number] = reference = compute.remote(code, *task)
                 reference.future().add_done_callback(partial(tell, number))
+
+
+def _processors(ray: Any) -> int:
+    """Of all machines that are there now."""
+    return int(ray.cluster_resources().get("CPU", 0))
 
 
 def _be_quiet() -> None:

@@ -174,17 +174,17 @@ class Runner:
         self.shelf.close()
 
     def _take_up(self) -> None:
-        self._executor.prepare()
         while True:
+            self._executor.prepare()
             try:
-                for job in self.shelf.take_up():
+                # Where none can be done now, another process may, or this one later.
+                for job in self.shelf.take_up() if self._executor.failure is None else ():
                     logger.warning("job %s goes on: the process of the service that did it has ended", job.id)
                     self._do_later(job)
                 self._say_again()
                 self.shelf.tidy()
             except (KinematicsError, OSError) as error:
                 logger.warning("jobs that were left cannot be taken up: %s", error)
-            self._executor.prepare()
             if self._closed.wait(_LOOK_FOR_LEFT):
                 return
 

@@ -1,5 +1,6 @@
 """Parts of jobs on a Ray cluster: the very results of this machine's processes, whatever is killed meanwhile."""
 
+import contextlib
 import importlib.util
 import os
 import signal
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.jobs.cluster import Cluster
+from app.jobs.cluster import Cluster, _computed, code_digest
 from app.jobs.job import Job
 from app.jobs.runner import Runner
 from app.jobs.shelf import Limits, Shelf
@@ -71,6 +72,33 @@ def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> No
             time.sleep(0.02)
         assert (job["state"], job["error"]["detail"]) == ("failed", reason)
         assert client.get("/healthz").status_code == 200
+
+
+def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
+    with contextlib.closing(Shelf(tmp_path, Limits())) as shelf:
+        job, _ = shelf.add("parts", "x", made_by("double", [1]))
+    nowhere = Cluster(f"{HOST}:{free_port()}")
+    with contextlib.closing(
+        Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 9.0, nowhere)
+    ) as runner:
+        runner.begin()
+        deadline = time.monotonic() + SOON
+        while "refused" not in (runner.failure or ""):
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        time.sleep(0.2)
+        left = runner.shelf.get(job.id)
+        assert (left.state, left.owner, left.attempts) == ("queued", job.owner, 0)
+    here = Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 9.0)
+    with contextlib.closing(here):
+        here.begin()
+        assert ended(here, job).state == "succeeded"
+
+
+def test_a_machine_with_another_release_computes_nothing() -> None:
+    assert _computed(code_digest(), told, ("double", 2)) == b"4"
+    with pytest.raises(ChildProcessError, match="another release"):
+        _computed("other", told, ("double", 2))
 
 
 @pytest.mark.slow
