@@ -77,10 +77,8 @@ def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> No
 def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
     with contextlib.closing(Shelf(tmp_path, Limits())) as shelf:
         job, _ = shelf.add("parts", "x", made_by("double", [1]))
-    nowhere = Cluster(f"{HOST}:{free_port()}")
-    with contextlib.closing(
-        Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 9.0, nowhere)
-    ) as runner:
+    nowhere, kinds = Cluster(f"{HOST}:{free_port()}"), {"parts": of_parts}
+    with contextlib.closing(Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
         runner.begin()
         deadline = time.monotonic() + SOON
         while "refused" not in (runner.failure or ""):
