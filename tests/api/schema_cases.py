@@ -111,6 +111,8 @@ def make_real(case: Any, data: st.DataObject) -> None:
     case.path_parameters = {name: places[name] for name in case.path_parameters or {}}
     if case.query:
         case.query = _real(case.query, chain, data)
+    if any(parameter["name"] == "prefer" for parameter in case.operation.definition.raw.get("parameters", ())):
+        case.headers["prefer"] = data.draw(st.sampled_from(("wait=10", "handling=lenient", "wait=1, Respond-Async; x")))
     if case.media_type == "application/x-npy":
         case.body = data.draw(st.sampled_from([found.body for found in npy.GOOD_NPY]) | _npy_of(chain))
     elif case.media_type == "multipart/form-data" and isinstance(case.body, dict) and data.draw(_MOSTLY):
