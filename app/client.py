@@ -29,7 +29,7 @@ from app.schemas.jobs import JobInfo
 T = TypeVar("T")
 
 URL_VARIABLE = "GELENK_SERVER"
-KEY_VARIABLE = "GELENK_API_KEY"
+KEY_VARIABLE = "GELENK_KEY"
 DEFAULT_URL = "http://127.0.0.1:8000"
 
 _TIMEOUT = httpx2.Timeout(5.0, read=120.0, write=120.0)
@@ -144,7 +144,7 @@ class Client(Operations):
 
     Args:
         url: Of the service, its path prefix included; else `GELENK_SERVER`, else this machine's port 8000.
-        key: Where the service wants one; else `GELENK_API_KEY`.
+        key: Where the service wants one; else `GELENK_KEY`.
         transport: Another way to the service than the network.
     """
 

@@ -57,16 +57,17 @@ chain's joints from base to tip. Errors are `application/problem+json`.
 """
 
 
-def create_app(settings: Settings) -> Application:
+def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     """The application.
 
     Args:
         settings: What the operator has set.
+        crew: What does the work that may take long; processes of its own if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds)
     library = setup.library()
-    crew = Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
+    crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)
     derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
     operations = setup.operations()

@@ -12,6 +12,8 @@ from platformdirs import user_data_path
 from app.logs import LEVELS
 
 _PREFIX = "GELENK_"
+_OF_CLIENTS = {"GELENK_SERVER", "GELENK_KEY"}
+"""What `app.client` reads; it may stand in the same environment."""
 
 
 class InvalidSetting(Exception):
@@ -104,7 +106,7 @@ class Settings:
         known = {_PREFIX + item.name.upper(): item.name for item in fields(cls)}
         values: dict[str, _Value] = {}
         for variable, text in environment.items():
-            if not variable.startswith(_PREFIX):
+            if not variable.startswith(_PREFIX) or variable in _OF_CLIENTS:
                 continue
             if variable not in known:
                 raise InvalidSetting(f"{variable} is not a setting; known are {', '.join(sorted(known))}")

@@ -25,6 +25,8 @@ OLDER_WORDS = {
     "Apache Software License": "Apache-2.0",
     "BSD": "BSD-3-Clause",
     "BSD License": "BSD-3-Clause",
+    "ISC License": "ISC",
+    "ISC License (ISCL)": "ISC",
     "MIT License": "MIT",
     "Mozilla Public License 2.0 (MPL 2.0)": "MPL-2.0",
     "Python Software Foundation License": "PSF-2.0",
@@ -33,6 +35,7 @@ OLDER_WORDS = {
 
 SETTLED = {
     ("cmeel-qhull", NONE): "Qhull's own (COPYING.txt): free to use, change and pass on with its notice",
+    ("xacro", "Copyright Robert Haschke, Bielefeld University"): "BSD-3-Clause, by the text of its licence",
     ("jrl-cmakemodules", "LGPL-3.0-or-later"): "scripts for building C++, which the service does not run",
 }
 """Parts that were looked at by a person, as long as they state just this; and why they may stay."""

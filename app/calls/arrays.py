@@ -120,11 +120,16 @@ def _trajectory(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P]
     return documented(describe, request, "A motion, planned and judged, as samples alone.", ROBOT)
 
 
+def _result(job: str) -> Call[Array]:
+    """The array that came out of a job."""
+    return Call("GET", f"v1/jobs/{segment(job)}/result", _array, accept=NPY)
+
+
 _POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
 
 
 class ArrayOperations:
-    """The operations on a robot that take an array."""
+    """The operations on a robot that take an array, and jobs that end with one."""
 
     fk = _batch("fk", ForwardOptions, _POSITIONS, _array)
     jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, _array)
@@ -146,3 +151,4 @@ class ArrayOperations:
     manipulability = _batch("manipulability", ManipulabilityOptions, _POSITIONS, _array)
     singularities = _batch("singularities", SingularityOptions, _POSITIONS, _array)
     trajectory = Sent(_trajectory(TrajectoryRequest))
+    job_result = Sent(_result)

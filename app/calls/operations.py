@@ -208,6 +208,21 @@ def _workspace_result(job: str) -> Call[WorkspaceAnswer]:
     return Call("GET", f"v1/jobs/{segment(job)}/result", reader(WorkspaceAnswer))
 
 
+def _picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | None = None) -> Call[bytes]:
+    """An answer as a picture, where there is one.
+
+    Args:
+        path: Of the operation or of a job's result, such as `v1/robots/panda/trajectory`.
+        kind: Of picture.
+        fields: Of the request; None where there is none.
+    """
+    method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
+    return Call(method, path, lambda reply: reply.body, body=body, accept=_PICTURES[kind])
+
+
+_PICTURES = {"svg": "image/svg+xml", "png": "image/png"}
+
+
 class Operations:
     """The calls of the service as methods."""
 
@@ -235,6 +250,7 @@ class Operations:
     workspace_result = Sent(_workspace_result)
     job = Sent(_job)
     cancel_job = Sent(_cancel)
+    picture = Sent(_picture)
 
     dh_to_urdf = _calculator("dh/to-urdf", ToUrdfRequest, ToUrdfAnswer)
     dh_from_urdf = _calculator("dh/from-urdf", FromUrdfRequest, FromUrdfAnswer)

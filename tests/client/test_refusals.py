@@ -185,7 +185,7 @@ def test_nobody_there(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_key_and_address_come_from_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GELENK_SERVER", "http://lab.invalid/gelenk/")
-    monkeypatch.setenv("GELENK_API_KEY", "gelenk.secret")
+    monkeypatch.setenv("GELENK_KEY", "gelenk.secret")
     asked: list[httpx2.Request] = []
 
     def answer(request: httpx2.Request) -> httpx2.Response:

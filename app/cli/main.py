@@ -1,0 +1,93 @@
+"""`gelenk`: its options, its commands, and how it ends.
+
+Exit codes: 0, all is well; 1, the answer is no (a target out of reach, another robot, a motion that cannot be done to
+its end); 2, something is wrong with what was asked; 3, no service answers; 4, the service refuses for reasons of its
+own, or something went wrong.
+"""
+
+import runpy
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from app.calls.refusals import NotAnswering, Refused
+from app.cli import arms, ask, tables
+from app.cli.outputs import Format, Output
+from app.cli.session import Session
+from app.model.errors import InvalidInput, KinematicsError, NotFound
+
+_ASKED_WRONG, _NO_SERVICE, _FAILED = 2, 3, 4
+
+cli = typer.Typer(
+    name="gelenk",
+    help="Robot kinematics in a shell: on a server with --server, else in this very process.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+@cli.callback()
+def options(
+    context: typer.Context,
+    server: Annotated[
+        str | None,
+        typer.Option(
+            envvar="GELENK_SERVER",
+            help="Ask this service; its key is read from GELENK_KEY. Without one no server is needed.",
+        ),
+    ] = None,
+    form: Annotated[Format | None, typer.Option("--format", "-f", help="As people read it, or as programs do.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Into this file; .json, .csv and .npy say the format.")
+    ] = None,
+    arg: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=VALUE.")] = None,
+    package: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=FOLDER of $(find NAME).")] = None,
+) -> None:
+    """What all commands share; before the command's name."""
+    context.obj = Session(server, Output(form, output), arg or (), package or ())
+
+
+@cli.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})
+def serve(context: typer.Context) -> None:
+    """Run the service: --host, --port, --workers; --help tells more."""
+    sys.argv = ["gelenk serve", *context.args]
+    runpy.run_module("app.serve", run_name="__main__")
+
+
+for command in (arms.robots, arms.fk, arms.jacobian, arms.ik, arms.manipulability, arms.trajectory, arms.workspace):
+    cli.command()(command)
+cli.command()(ask.ask)
+cli.add_typer(tables.tables)
+
+
+def main() -> None:
+    """Run a command, and end with a sentence and a code where something is wrong."""
+    try:
+        cli()
+    except NotAnswering as error:
+        _end(error.detail, _NO_SERVICE)
+    except KinematicsError as error:
+        _end(error.detail, _ASKED_WRONG if _is_the_callers(error) else _FAILED)
+    except BrokenPipeError:
+        sys.stderr.close()  # whoever read the answer has had enough of it
+    except OSError as error:
+        _end(f"{error.filename}: {error.strerror}" if error.filename else str(error), _ASKED_WRONG)
+
+
+def _is_the_callers(error: KinematicsError) -> bool:
+    if isinstance(error, InvalidInput | NotFound):
+        return True
+    return isinstance(error, Refused) and 400 <= error.status < 500
+
+
+def _end(sentence: str, code: int) -> None:
+    Console(stderr=True).print(f"gelenk: {sentence}", markup=False, highlight=False, soft_wrap=True)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

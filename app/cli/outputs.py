@@ -1,0 +1,153 @@
+"""Answers as tables for people, and as JSON, CSV and npy for programs."""
+
+import csv
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from app.model.errors import InvalidField
+
+_SHOWN = 40
+"""Rows of a table for people."""
+_DIGITS = 6
+_WIDEST = 10_000
+
+
+class Format(StrEnum):
+    """How an answer is written."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    NPY = "npy"
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """What an answer holds as rows.
+
+    Attributes:
+        columns: Their names.
+        rows: Numbers and words.
+        notes: Sentences about all of them, for people.
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+    notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where answers go, and how.
+
+    Attributes:
+        form: How; None where the file's name says so, or for people.
+        file: Where to; None for standard output.
+    """
+
+    form: Format | None = None
+    file: Path | None = None
+
+    @property
+    def format(self) -> Format:
+        """How it is written after all."""
+        if self.form is not None:
+            return self.form
+        suffix = "" if self.file is None else self.file.suffix.removeprefix(".")
+        return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
+
+    def write(self, content: Any, rows: Rows) -> None:
+        """An answer.
+
+        Args:
+            content: As the API gives it.
+            rows: The same as rows.
+        """
+        match self.format:
+            case Format.JSON:
+                self._put(json.dumps(content, ensure_ascii=False).encode() + b"\n")
+            case Format.CSV:
+                self._put(_csv(rows))
+            case Format.NPY:
+                self._put(_npy(rows))
+            case _:
+                self._show(rows)
+
+    def _put(self, content: bytes) -> None:
+        if self.file is not None:
+            self.file.write_bytes(content)
+            return
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
+
+    def _show(self, rows: Rows) -> None:
+        table = Table(*rows.columns, box=None, header_style="bold", pad_edge=False)
+        for row in rows.rows[:_SHOWN]:
+            table.add_row(*(_word(cell) for cell in row))
+        left = len(rows.rows) - _SHOWN
+        notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
+        if self.file is None:
+            _write(Console(), table, notes)
+            return
+        with self.file.open("w", encoding="utf-8") as file:
+            _write(Console(file=file, width=200), table, notes)
+
+
+def picture_kind(file: Path) -> Literal["svg", "png"]:
+    """What kind of picture a file's name asks for.
+
+    Raises:
+        InvalidField: None that there is.
+    """
+    match file.suffix:
+        case ".svg":
+            return "svg"
+        case ".png":
+            return "png"
+    raise InvalidField("plot", f"{file.name!r} must end in .svg or .png")
+
+
+def _write(console: Console, table: Table, notes: Sequence[str]) -> None:
+    # Numbers that are cut are wrong: a table is as wide as it is, and a terminal folds what does not fit.
+    whole = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
+    console.width = max(console.width, whole)
+    console.print(table)
+    for note in notes:
+        console.print(note, style="dim", markup=False, highlight=False, soft_wrap=True)
+
+
+def _word(cell: Any) -> str:
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if isinstance(cell, float):
+        return f"{cell:.{_DIGITS}g}" if cell and abs(cell) < 1e-4 else f"{cell:.{_DIGITS}f}"
+    # No markup: a robot's name may hold brackets.
+    return ("" if cell is None else str(cell)).replace("[", r"\[")
+
+
+def _csv(rows: Rows) -> bytes:
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(rows.columns)
+    writer.writerows(rows.rows)
+    return text.getvalue().encode()
+
+
+def _npy(rows: Rows) -> bytes:
+    numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
+    if len(numbers) < len(rows.columns):
+        words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)
+        raise InvalidField("format", f"npy holds numbers alone, and these columns hold others: {words}")
+    stream = BytesIO()
+    np.save(stream, np.array(rows.rows, dtype=float), allow_pickle=False)
+    return stream.getvalue()

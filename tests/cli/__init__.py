@@ -1,0 +1,1 @@
+"""The command line, on the core and on a server."""
