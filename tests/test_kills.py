@@ -54,7 +54,7 @@ class Service:
         everything = list(processes(self.pid))
         self._run.kill()
         self._run.wait()
-        wait_for(lambda: not any(is_alive(pid) for pid in everything), 5.0)
+        wait_for(lambda: not any(is_alive(pid) for pid in everything), 20.0)
 
     def kill_some(self, what: str, chance: random.Random) -> None:
         """Kill a process of a kind, or all; the service is there again afterwards, or soon."""
