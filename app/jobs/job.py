@@ -65,6 +65,7 @@ class Job:
         finished: When it came to a final state, likewise.
         failure: Why it failed, where it did.
         attempts: How often it was begun without getting further than the time before.
+        number: Its place among all jobs in the order in which they came: clocks are set, also back.
     """
 
     id: str
@@ -78,6 +79,7 @@ class Job:
     finished: float | None = None
     failure: Failure | None = None
     attempts: int = 0
+    number: int = 0
 
     @property
     def is_final(self) -> bool:

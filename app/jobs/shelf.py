@@ -28,6 +28,8 @@ JOB_FILE = "job.json"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _OWNERS = ".owners"
 _REQUEST = "request"
+_SURE_SECONDS = 24 * 3600.0
+"""How long a job must have seemed to be too old, by a clock that nobody sets, before it is removed for that, [s]."""
 _AT_REST = 60.0
 """How long a job must be over before others than the process that did it put its folder in order, [s]."""
 _PAUSE = 5
@@ -67,6 +69,7 @@ class Shelf:
         self._root, self._limits = root, limits
         self._owner = uuid.uuid4().hex
         self._lock: IO[str] | None = None
+        self._too_old: dict[tuple[str, float], float] = {}
 
     def prepare(self) -> None:
         """Remove what interrupted writers, and processes that are gone, have left; what is read-only stays."""
@@ -119,7 +122,8 @@ class Shelf:
             self._make_room()
             if job_id is not None and self._read(job_id) is not None:
                 folders.remove_folder(self._root, job_id)
-            job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owner, time.time())
+            number = 1 + max((job.number for job in self._jobs()), default=0)
+            job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owner, time.time(), number=number)
             files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
             folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
         return job, True
@@ -140,14 +144,22 @@ class Shelf:
         return taken
 
     def tidy(self) -> None:
-        """Remove finished jobs that are older than they may be, and what others no longer need."""
-        now = time.time()
+        """Remove finished jobs that are older than they may be, and what others no longer need.
+
+        A clock that is set forward by mistake makes all jobs old in a moment: none goes before they have been so for a
+        day, during which the clock may be set right.
+        """
+        now, since = time.time(), self._too_old
+        self._too_old = {}
         for job in self._jobs():
             age = now - (job.finished or job.created)
             with suppress(UnknownJob):
                 if job.is_final and age > self._limits.kept_seconds:
-                    self.remove(job.id)
-                elif job.is_final and age > _AT_REST and self.request(job.id).exists():
+                    which = job.id, job.created
+                    self._too_old[which] = since.get(which, time.monotonic())
+                    if time.monotonic() >= self._too_old[which] + _SURE_SECONDS:
+                        self.remove(job.id)
+                if job.is_final and age > _AT_REST and self.request(job.id).exists():
                     self.clear(job.id)
 
     def clear(self, job_id: str) -> None:
@@ -173,7 +185,9 @@ class Shelf:
             UnknownJob: It was removed meanwhile, or is another process's.
             StorageFailed: It cannot be written.
         """
-        return self.change(job, state="running", started=job.started or time.time(), attempts=job.attempts + 1)
+        return self.change(
+            job, state="running", started=job.started or max(time.time(), job.created), attempts=job.attempts + 1
+        )
 
     def change(self, which: Job | str, **changes: Any) -> Job:
         """Change fields of a job that is not finished; a finished one stays as it is.
@@ -198,7 +212,7 @@ class Shelf:
                 return job
             job, before = replace(job, **changes), job
             if job.is_final:
-                job = replace(job, finished=time.time())
+                job = replace(job, finished=max(time.time(), job.started or job.created))
             if job != before:
                 # How far a job is need not outlive the machine.
                 durable = job.state != before.state
@@ -269,11 +283,11 @@ class Shelf:
             return None
 
     def _jobs(self) -> list[Job]:
-        """All jobs, the oldest first."""
+        """All jobs, the oldest first, whatever the clock said."""
         if not self._root.is_dir():
             return []
         found = [self._read(path.name) for path in self._root.iterdir() if not path.name.startswith(".")]
-        return sorted((job for job in found if job is not None), key=lambda job: job.created)
+        return sorted((job for job in found if job is not None), key=lambda job: (job.number, job.created))
 
     def _make_room(self) -> None:
         """Drop the oldest finished jobs beyond what is kept.

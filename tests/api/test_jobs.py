@@ -69,6 +69,25 @@ def test_a_job_from_its_beginning_to_its_end(client: TestClient) -> None:
     assert job["finished"].endswith("Z")
 
 
+@pytest.mark.parametrize("jump", [-365 * 86400.0, -86400.0, 86400.0, 365 * 86400.0])
+def test_a_clock_that_is_set_disturbs_no_job(client: TestClient, monkeypatch: pytest.MonkeyPatch, jump: float) -> None:
+    """In the middle of a job that is watched: it goes on, its events come, and its result stays."""
+    right = time.time
+    location = posted(client, {"kind": "dexterity", "samples": 5000, "voxel_size": 0.5, "orientations": 20})
+    later = threading.Timer(0.1, lambda: monkeypatch.setattr(time, "time", lambda: right() + jump))
+    later.start()
+    told = events(client.get(f"{location}/events").text)
+    later.join()
+    assert told[-1]["event"] == "finished"
+    job = client.get(location).json()
+    assert job["state"] == "succeeded"
+    assert job["created"] <= job["started"] <= job["finished"]
+    assert client.get(f"{location}/result").status_code == 200
+    call = {"targets": [{"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}], "time_limit": 1.0}
+    answer = client.post("/v1/robots/panda/ik", json={**call, "tip_frame": "panda_link8"})
+    assert answer.json()["results"][0]["status"] == "solved"
+
+
 def test_the_same_name_is_the_same_job(client: TestClient) -> None:
     call = {**SHORT, "job_id": "mine"}
     location = posted(client, call)

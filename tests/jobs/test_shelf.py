@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from app.jobs import shelf as shelf_module
 from app.jobs.job import Failure
 from app.jobs.shelf import JOB_FILE, Limits, Shelf
 from app.model import errors
@@ -150,7 +151,63 @@ def test_two_shelves_of_one_folder_know_that_the_other_lives(tmp_path: Path) -> 
             one.change(running, progress=0.7)
 
 
-def test_what_is_over_is_put_in_order(tmp_path: Path) -> None:
+class Clocks:
+    """The clock on the wall, which may be set, and the one that nobody sets."""
+
+    def __init__(self) -> None:
+        self.wall, self.steady = 1.7e9, 5000.0
+
+    def time(self) -> float:
+        return self.wall
+
+    def monotonic(self) -> float:
+        return self.steady
+
+    def pass_by(self, seconds: float) -> None:
+        self.wall, self.steady = self.wall + seconds, self.steady + seconds
+
+
+YEAR, DAY, HOUR = 365 * 86400.0, 86400.0, 3600.0
+
+
+def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Set forward by a year and right again within the day, or set back: what is too old goes, and nothing else."""
+    clocks = Clocks()
+    monkeypatch.setattr(shelf_module, "time", clocks)
+    with opened(tmp_path, Limits(kept=3, kept_seconds=30 * DAY)) as shelf:
+
+        def done(name: str) -> None:
+            shelf.change(shelf.add("workspace", "x", {}, name)[0].id, state="cancelled")
+
+        def kept() -> list[str]:
+            shelf.tidy()
+            return [name for name in "abcd" if (tmp_path / name).exists()]
+
+        done("a")
+        for jump in (YEAR, -YEAR, DAY, -DAY, -YEAR, YEAR):
+            clocks.wall += jump
+            for _ in range(23):
+                clocks.pass_by(HOUR)
+                assert kept() == ["a"]
+        clocks.wall -= YEAR
+        done("b")
+        job = shelf.add("workspace", "x", {}, "c")[0]
+        clocks.wall -= YEAR
+        shelf.begin(job)
+        job = shelf.change("c", state="cancelled")
+        assert job.started is not None
+        assert job.finished is not None
+        assert job.created <= job.started <= job.finished
+        done("d")  # one too many: the first that came goes, though the last ones seem to be older by years
+        assert kept() == ["b", "c", "d"]
+        clocks.wall += 2 * YEAR
+        clocks.pass_by(31 * DAY)
+        assert kept() == ["b", "c", "d"]
+        clocks.pass_by(25 * HOUR)
+        assert kept() == []
+
+
+def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with opened(tmp_path, Limits(kept_seconds=100.0)) as shelf:
         old, rested, new = (shelf.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
         for job in (old, rested, new):
@@ -159,6 +216,9 @@ def test_what_is_over_is_put_in_order(tmp_path: Path) -> None:
         for job, age in ((old, 101.0), (rested, 99.0)):
             aged = replace(shelf.get(job.id), finished=time.time() - age)
             (tmp_path / job.id / JOB_FILE).write_bytes(aged.as_bytes())
+        shelf.tidy()
+        assert shelf.get(old.id)
+        monkeypatch.setattr(shelf_module, "_SURE_SECONDS", 0.0)
         shelf.tidy()
         with pytest.raises(UnknownJob):
             shelf.get(old.id)
