@@ -336,7 +336,10 @@ def slow_sockets(url: str, count: int) -> Iterator[None]:
 
 
 def memory(pid: int) -> float:
-    """Bytes of a process and of all that come from it, what they share counted once."""
+    """Bytes of a process and of all that come from it, what they share counted once.
+
+    Without those of files: a library that others on the machine load too counts less for as long as they do.
+    """
     return sum(_proportional(one) for one in _tree(pid))
 
 
@@ -351,5 +354,5 @@ def _tree(pid: int) -> Iterator[int]:
 def _proportional(pid: int) -> float:
     with contextlib.suppress(OSError):
         lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
-        return 1024.0 * next(int(line.split()[1]) for line in lines if line.startswith("Pss:"))
+        return 1024.0 * sum(int(line.split()[1]) for line in lines if line.startswith(("Pss_Anon:", "Pss_Shmem:")))
     return 0.0
