@@ -74,6 +74,7 @@ class Remote:
         client = client_of(request)
         if client is not None and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.crew.retry_after)
+        self.crew.check_room()
         work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds)
         if client is None:
             return await while_wanted(request.receive, work)

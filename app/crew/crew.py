@@ -92,6 +92,16 @@ class Crew:
         await asyncio.gather(*self._renewals)
         self._is_begun = True
 
+    def check_room(self) -> None:
+        """See whether a call would be taken; a crowd can be refused by this before tasks are made for each of them.
+
+        Raises:
+            ServiceBusy: Too many calls wait.
+        """
+        if not self._idle and len(self._turns) >= self.waiting:
+            self.refused += 1
+            raise ServiceBusy(self.retry_after)
+
     async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
         """The function's result; cancelling this ends the call.
 
@@ -143,9 +153,7 @@ class Crew:
             self._renew(seat)
         if self._closed:
             raise ServiceStopping
-        if len(self._turns) >= self.waiting:
-            self.refused += 1
-            raise ServiceBusy(self.retry_after)
+        self.check_room()
         turn: asyncio.Future[_Seat] = asyncio.get_running_loop().create_future()
         self._turns.append(turn)
         try:
