@@ -8,6 +8,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from app.main import create_app
+from app.schemas.kinematics import MAX_CONFIGURATIONS
 from app.settings import Settings
 
 Operation = tuple[str, str, dict[str, Any]]
@@ -71,6 +72,19 @@ def test_every_numeric_field_says_what_it_is_and_in_which_unit() -> None:
     ]
     assert len(numeric) > 40
     assert [f"{name}.{field}" for name, field, schema in numeric if not schema.get("description")] == []
+
+
+def test_every_operation_on_a_robot_bounds_its_configurations() -> None:
+    """A list beyond the bound takes long to send, so only one operation is sent any."""
+    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    bounds = {}
+    for path, _, operation in OPERATIONS:
+        body = operation.get("requestBody", {}).get("content", {}).get("application/json")
+        if "{robot}" in path and body and "joint_positions" in body["example"]:
+            request = schemas[body["schema"]["$ref"].rpartition("/")[2]]
+            bounds[path] = request["properties"]["joint_positions"]["maxItems"]
+    assert len(bounds) == 7
+    assert set(bounds.values()) == {MAX_CONFIGURATIONS}
 
 
 @pytest.mark.parametrize("page", ["/docs", "/redoc"])

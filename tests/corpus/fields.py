@@ -35,7 +35,6 @@ def _positions(operation: str, **more: Any) -> Iterator[Call]:
         ("a text", "0 0 0 0 0 0 0", ("joint_positions",)),
         ("rows of texts", ["0 0 0 0 0 0 0"], ("joint_positions",)),
         ("a hole", [READY, None], ("joint_positions",)),
-        ("a million rows and one", [[]] * 1_000_001, ("1000000",)),
     ):
         yield asked(path, f"joint_positions: {name}", 422, mentions, {**call, "joint_positions": rows})
     for field in ("base_frame", "tip_frame"):
@@ -192,6 +191,7 @@ FIELDS: tuple[Call, ...] = (
         for operation in ("fk", "jacobian", "dynamics", "manipulability", "singularities")
         for call in _positions(operation)
     ),
+    asked(f"{PANDA}/fk", "a million rows and one", 422, ("1000000",), {"joint_positions": [[]] * 1_000_001}),
     *_positions("statics", wrenches=[[0, 0, -10, 0, 0, 0]]),
     *_positions("velocity", joint_velocities=[[0.1] * 7]),
     *_ik(),
