@@ -5,7 +5,6 @@ it finds that out at its next step. Beside it stands what was asked for, and wha
 service holds a locked file as long as it lives; a job whose process is gone waits until another one takes it up.
 """
 
-import fcntl
 import logging
 import os
 import re
@@ -20,6 +19,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from app.jobs.job import Job
+from app.jobs.owners import Owners
 from app.jobs.parts import Parts
 from app.model.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from app.store import folders
@@ -67,8 +67,7 @@ class Shelf:
 
     def __init__(self, root: Path, limits: Limits) -> None:
         self._root, self._limits = root, limits
-        self._owner = uuid.uuid4().hex
-        self._lock: IO[str] | None = None
+        self._owners = Owners(root / _OWNERS)
         self._too_old: dict[tuple[str, float], float] = {}
 
     def prepare(self) -> None:
@@ -79,18 +78,13 @@ class Shelf:
             with folders.exclusive(self._root):
                 for folder in (self._root, *(path.parent for path in self._root.glob(f"*/{JOB_FILE}"))):
                     folders.sweep(folder)
-                for lock in (self._root / _OWNERS).glob("*"):
-                    if not self._lives(lock.name):
-                        lock.unlink(missing_ok=True)
+                self._owners.sweep()
         except StorageFailed as error:
             logger.warning("jobs cannot be written: %s", error.reason)
 
     def close(self) -> None:
         """Give up what says that this process lives."""
-        if self._lock is not None:
-            self._lock.close()
-            (self._root / _OWNERS / self._owner).unlink(missing_ok=True)
-            self._lock = None
+        self._owners.close()
 
     def add(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> tuple[Job, bool]:
         """A new job, or the one that stands under its name already for the same request.
@@ -113,7 +107,7 @@ class Shelf:
         """
         with folders.exclusive(self._root):
             folders.sweep(self._root)
-            self._say_alive()
+            self._owners.say_alive()
             if job_id is not None and (found := self._read(job_id)) is not None:
                 if found.digest != digest:
                     raise JobExists(job_id)
@@ -123,7 +117,7 @@ class Shelf:
             if job_id is not None and self._read(job_id) is not None:
                 folders.remove_folder(self._root, job_id)
             number = 1 + max((job.number for job in self._jobs()), default=0)
-            job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owner, time.time(), number=number)
+            job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owners.own_name, time.time(), number=number)
             files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
             folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
         return job, True
@@ -137,8 +131,9 @@ class Shelf:
         if not any(self._is_left(job) for job in self._jobs()):
             return []
         with folders.exclusive(self._root):
-            self._say_alive()
-            taken = [replace(job, owner=self._owner, state="queued") for job in self._jobs() if self._is_left(job)]
+            self._owners.say_alive()
+            left = [job for job in self._jobs() if self._is_left(job)]
+            taken = [replace(job, owner=self._owners.own_name, state="queued") for job in left]
             for job in taken:
                 folders.replace_file(self._root / job.id, JOB_FILE, job.as_bytes())
         return taken
@@ -272,7 +267,7 @@ class Shelf:
 
     def _is_left(self, job: Job) -> bool:
         """Whether a job is not finished and the process that was to do it is gone."""
-        return not (job.is_final or self._lives(job.owner))
+        return not (job.is_final or self._owners.lives(job.owner))
 
     def _read(self, job_id: str) -> Job | None:
         if not _NAME.fullmatch(job_id):
@@ -308,26 +303,6 @@ class Shelf:
             if job.id not in waiting:
                 folders.remove_folder(self._root, job.id)
                 count, total = count - 1, total - sizes[job.id]
-
-    def _say_alive(self) -> None:
-        if self._lock is None:
-            owners = self._root / _OWNERS
-            owners.mkdir(exist_ok=True)
-            self._lock = (owners / self._owner).open("w")
-            fcntl.flock(self._lock, fcntl.LOCK_EX)
-
-    def _lives(self, owner: str) -> bool:
-        """Whether a process of the service is there: the system lets go of its lock when it ends."""
-        if owner == self._owner:
-            return self._lock is not None
-        try:
-            with (self._root / _OWNERS / owner).open() as lock:
-                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-        except OSError:
-            return False
-        return False
 
 
 def _was_interrupted(job: Job) -> bool:
