@@ -7,6 +7,7 @@ import hashlib
 import http.client
 import json
 import time
+from collections.abc import Iterator
 from http import HTTPStatus
 from io import BytesIO
 from pathlib import Path
@@ -26,7 +27,7 @@ TIP = "panda_link8"
 NPY = "application/x-npy"
 SAMPLES, TARGETS = 1_000_000, 1_000_000
 PROCESSES = 2
-ROUNDS = 2
+ROUNDS = 3
 
 
 class Ask(NamedTuple):
@@ -66,27 +67,29 @@ class Result(NamedTuple):
 
 
 def measure() -> list[Row]:
-    """Each job in both places, the best of some rounds after one that starts what is needed."""
+    """Each job in both places by turns, the best of some rounds after one that starts what is needed."""
     asks = [million_samples(), dexterity(), million_targets()]
-    with running("service", "/readyz", GELENK_JOB_PROCESSES=str(PROCESSES)) as server:
-        here = [best(server, ask) for ask in asks]
-    with cluster(PROCESSES) as address, running("service", "/readyz", GELENK_RAY_ADDRESS=address) as server:
-        there = [best(server, ask) for ask in asks]
-    rows = []
-    for ask, own, ray in zip(asks, here, there, strict=True):
-        if own.digest != ray.digest:
-            raise AssertionError(f"{ask.what}: the results differ")
-        count = own.poses or ask.many
-        rates = [f"{count / one.seconds:,.0f} {ask.unit}/s ({one.seconds:.2f} s)" for one in (own, ray)]
-        what = f"{ask.what}, {PROCESSES} processes, over HTTP"
-        rows.append(Row(what, rates[0], f"Ray with {PROCESSES} processors, {rates[1]}", ray.seconds / own.seconds))
-        rows.append(
-            Row(f"{ask.what}: SHA-256 of the results", own.digest[:16], f"Ray, {ray.digest[:16]}", None, "equal")
-        )
-        rows.append(
-            Row(f"{ask.what}: peak memory of the service's process", f"{own.peak:.0f} MiB", f"{ray.peak:.0f} MiB")
-        )
-    return rows
+    with (
+        cluster(PROCESSES) as address,
+        running("service", "/readyz", GELENK_JOB_PROCESSES=str(PROCESSES)) as here,
+        running("service", "/readyz", GELENK_RAY_ADDRESS=address) as there,
+    ):
+        return [row for ask in asks for row in compared(ask, here, there)]
+
+
+def compared(ask: Ask, here: Running, there: Running) -> Iterator[Row]:
+    """What came of a job in both places."""
+    rounds = [(done(here, ask), done(there, ask)) for _ in range(1 + ROUNDS)]
+    if len({result.digest for both in rounds for result in both}) > 1:
+        raise AssertionError(f"{ask.what}: the results differ")
+    own, ray = (min(results, key=lambda result: result.seconds) for results in zip(*rounds[1:], strict=True))
+    many = own.poses or ask.many
+    rates = [f"{many / one.seconds:,.0f} {ask.unit}/s ({one.seconds:.2f} s)" for one in (own, ray)]
+    peer = f"Ray with {PROCESSES} processors, {rates[1]}"
+    yield Row(f"{ask.what}, {PROCESSES} processes, over HTTP", rates[0], peer, ray.seconds / own.seconds)
+    digest, peaks = own.digest[:16], [f"{one.peak:.0f} MiB" for one in (own, ray)]
+    yield Row(f"{ask.what}: SHA-256 of the results", f"{digest}…", f"Ray, {digest}…", None, "equal")
+    yield Row(f"{ask.what}: peak memory of the service's process", peaks[0], f"Ray, {peaks[1]}")
 
 
 def million_samples() -> Ask:
@@ -98,7 +101,7 @@ def million_samples() -> Ask:
 
 def dexterity() -> Ask:
     """A map of which orientations are reached where."""
-    call = {"kind": "dexterity", "samples": 200_000, "voxel_size": 0.1, "orientations": 20, "tip_frame": TIP}
+    call = {"kind": "dexterity", "samples": 200_000, "voxel_size": 0.12, "orientations": 20, "tip_frame": TIP}
     what = "job: map of dexterity, orientations at voxels"
     return Ask(what, "poses", 0, "workspace", json.dumps(call).encode(), {"Content-Type": "application/json"})
 
@@ -115,14 +118,6 @@ def million_targets() -> Ask:
     query = urlencode({"tip_frame": TIP, "max_iterations": 2000})
     headers = {"Content-Type": NPY, "Prefer": "respond-async"}
     return Ask(f"job: ik of {TARGETS:,} targets", "targets", TARGETS, f"ik?{query}", body.getvalue(), headers)
-
-
-def best(server: Running, ask: Ask) -> Result:
-    """The quickest of some rounds; all of them have the same result."""
-    results = [done(server, ask) for _ in range(1 + ROUNDS)]
-    if len({result.digest for result in results}) > 1:
-        raise AssertionError(f"{ask.what}: it has not the same result each time")
-    return min(results[1:], key=lambda result: result.seconds)
 
 
 def done(server: Running, ask: Ask) -> Result:
