@@ -234,6 +234,20 @@ def test_a_full_queue_refuses_at_once_and_says_when() -> None:
     with_crew(test, 1, waiting=2)
 
 
+def test_whether_there_is_room_is_told_beforehand() -> None:
+    async def test(crew: Crew) -> None:
+        crew.check_room()
+        running = asyncio.create_task(crew.run(calls.sleep, 0.2, LONG))
+        await at_work(crew, 1)
+        with pytest.raises(ServiceBusy):
+            crew.check_room()
+        assert await running == 0.2
+        crew.check_room()
+        assert crew.refused == 1
+
+    with_crew(test, 1, waiting=0)
+
+
 def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
     async def test(crew: Crew) -> None:
         running = asyncio.create_task(crew.run(calls.sleep, 0.5, LONG))
