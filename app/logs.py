@@ -24,16 +24,17 @@ _LONGEST = 16_384
 """Characters of one text in a line; a traceback may be long."""
 
 
-def configuration(level: str) -> dict[str, Any]:
+def configuration(level: str, at_once: bool = False) -> dict[str, Any]:
     """What `logging.config` and the server take: all loggers, one handler.
 
     Args:
         level: The least that is logged, one of `LEVELS`.
+        at_once: See `LineHandler`.
     """
     return {
         "version": 1,
         "disable_existing_loggers": False,
-        "handlers": {"lines": {"()": "app.logs.LineHandler"}},
+        "handlers": {"lines": {"()": "app.logs.LineHandler", "at_once": at_once}},
         "loggers": {name: {"level": level.upper()} for name in ("gelenk", "uvicorn")},
         "root": {"handlers": ["lines"], "level": "WARNING"},
     }
@@ -54,11 +55,12 @@ class LineHandler(logging.Handler):
 
     Args:
         stream: Where to; the standard error stream of the moment if left out.
+        at_once: Whether whoever logs writes the line, without a thread: in a process that is copied, or may be killed.
     """
 
-    def __init__(self, stream: TextIO | None = None) -> None:
+    def __init__(self, stream: TextIO | None = None, at_once: bool = False) -> None:
         super().__init__()
-        self._stream = stream
+        self._stream, self._at_once = stream, at_once
         self._waiting: deque[logging.LogRecord] = deque()
         self._lost = 0
         self._woken = threading.Event()
@@ -73,6 +75,9 @@ class LineHandler(logging.Handler):
         record.request_id = REQUEST_ID.get()
         record.message = record.getMessage()
         self._waiting.append(record)
+        if self._at_once:
+            self._flush_if_taken()
+            return
         if self._thread is None:
             self._thread = threading.Thread(target=self._write_on, name="log", daemon=True)
             self._thread.start()
@@ -99,10 +104,13 @@ class LineHandler(logging.Handler):
             self._woken.wait()
             pause.wait(_GATHER_SECONDS)
             self._woken.clear()
-            try:
-                self.flush()
-            except (OSError, ValueError):
-                self._waiting.clear()  # nobody takes the log any more
+            self._flush_if_taken()
+
+    def _flush_if_taken(self) -> None:
+        try:
+            self.flush()
+        except (OSError, ValueError):
+            self._waiting.clear()  # nobody takes the log any more
 
 
 def _line_of(record: logging.LogRecord) -> str:

@@ -2,8 +2,15 @@
 
 import gc
 import importlib
+import logging.config
+import os
 
 from app.kinematics import warm
+from app.logs import configuration
+from app.settings import Settings
+
+logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
+logging.captureWarnings(True)
 
 for module in ("app.main", "app.plots.profiles", "sympy"):
     importlib.import_module(module)

@@ -1,8 +1,10 @@
 """Calls that do what real ones do not."""
 
+import logging
 import os
 import signal
 import time
+import warnings
 from pathlib import Path
 from pickle import PickleBuffer
 
@@ -71,3 +73,9 @@ def loaded_modules(_: object) -> set[str]:
     import sys
 
     return {"app.main", "numba", "pinocchio", "sympy", "matplotlib"} & set(sys.modules)
+
+
+def log(text: str) -> None:
+    """Say something, as a warning of Python too."""
+    logging.getLogger("gelenk").warning("%s", text)
+    warnings.warn(f"beware {text}", stacklevel=1)

@@ -1,8 +1,11 @@
 """The crew: calls that crash, hang, take too much or lose their caller fail alone, and the crew is whole again."""
 
 import asyncio
+import json
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Awaitable, Callable
 from pathlib import Path
@@ -61,6 +64,26 @@ def test_processes_have_everything_loaded_and_stay() -> None:
         assert crew.restarts == 0
 
     with_crew(test)
+
+
+def test_what_a_process_logs_is_a_line_of_json(tmp_path: Path) -> None:
+    """On the standard error stream of a service, whose log it is part of."""
+    program = (
+        "import asyncio; from app.crew.crew import Crew; from tests.crew import calls\n"
+        "async def run():\n"
+        "    crew = Crew(1, 1, 10**9)\n"
+        "    await crew.run(calls.log, 'two\\nlines', 60.0)\n"
+        "    crew.close()\n"
+        "asyncio.run(run())"
+    )
+    environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
+    run = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=120, check=True
+    )
+    said, warned = (json.loads(line) for line in run.stderr.splitlines())
+    assert (said["level"], said["logger"], said["message"]) == ("warning", "gelenk", "two\nlines")
+    assert (warned["level"], warned["logger"]) == ("warning", "py.warnings")
+    assert "beware two" in warned["message"]
 
 
 @pytest.mark.parametrize("size", [0, 1, PIECE - 1, PIECE, 3 * PIECE + 5, 20_000_000])
