@@ -11,10 +11,10 @@ import json
 import statistics
 import time
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
-import roboticstoolbox
 import ruckig
 import toppra
 from scipy.spatial.transform import Rotation
@@ -34,9 +34,21 @@ RADIUS = 0.1
 VELOCITY = np.array([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])
 ACCELERATION = 2.0 * VELOCITY
 JERK = 10.0 * ACCELERATION
-PANDA = roboticstoolbox.models.URDF.Panda()
 TIP_SPEED = 0.5
 NPY = "application/x-npy"
+
+
+@cache
+def panda() -> Any:
+    """The Panda of a peer."""
+    return peer().models.URDF.Panda()
+
+
+def peer() -> Any:
+    """What is installed for the benchmarks that need it alone."""
+    import roboticstoolbox
+
+    return roboticstoolbox
 
 
 def measure() -> list[Row]:
@@ -60,7 +72,7 @@ def point_to_point(connection: http.client.HTTPConnection) -> list[Row]:
             "quintic": lambda: ask(connection, calls["quintic"]),
             "ruckig": ruckig_alone,
             "sampled": lambda: sampled(ruckig_alone()),
-            "jtraj": lambda: roboticstoolbox.jtraj(np.array(START), np.array(TARGET), SAMPLES),
+            "jtraj": lambda: peer().jtraj(np.array(START), np.array(TARGET), SAMPLES),
         }
     )
     return [
@@ -152,7 +164,7 @@ def sampled(found: ruckig.Trajectory) -> list[Any]:
 def mstraj() -> Array:
     """The tip's way with a parabolic corner, and the joints of each of its samples, each from the one before."""
     blend = 2.0 * RADIUS / TIP_SPEED
-    way = roboticstoolbox.mstraj(POINTS, PERIOD, blend, TIP_SPEED)
+    way = peer().mstraj(POINTS, PERIOD, blend, TIP_SPEED)
     return followed(way.q)
 
 
@@ -160,7 +172,7 @@ def followed(points: Array) -> Array:
     """Joints by inverse kinematics of the toolbox's compiled Levenberg-Marquardt."""
     T = np.eye(4)
     T[:3, :3] = DOWN.as_matrix()
-    chain, q, found = PANDA.ets(), np.array(START), np.empty((len(points), 7))
+    chain, q, found = panda().ets(), np.array(START), np.empty((len(points), 7))
     for k, point in enumerate(points):
         T[:3, 3] = point
         q = chain.ik_LM(T, q0=q)[0]
