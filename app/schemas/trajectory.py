@@ -21,6 +21,8 @@ _POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
 
 def _target_kind(value: Any) -> str:
     """A joint may be called `position`: of a configuration by name, each value is a number."""
+    if isinstance(value, Pose):  # on the way out
+        return "<pose>"
     if not isinstance(value, dict):
         return "<list>"
     is_pose = any(key in _POSE_FIELDS and not isinstance(part, int | float) for key, part in value.items())
@@ -32,7 +34,7 @@ def _limit_kind(value: Any) -> str:
 
 
 def _segment_kind(value: Any) -> str:
-    return f"<{value.get('type')}>" if isinstance(value, dict) else "<none>"
+    return f"<{value.get('type') if isinstance(value, dict) else getattr(value, 'type', None)}>"
 
 
 Target = Annotated[

@@ -17,10 +17,28 @@ from app.api.access.scopes import Scope
 from app.api.preference import wants_answer_later
 from app.main import create_app
 from app.model.arrays import Array
+from app.schemas.trajectory import TrajectoryRequest
 from app.settings import Settings
 
 JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
 LATER = {"Prefer": "respond-async"}
+
+
+def test_a_trajectory_s_call_reads_back_as_it_was_written() -> None:
+    """A job keeps it so, be its targets poses or configurations; a warning would be an error here."""
+    pose, other = ({"position": [0.5, y, 0.4], "rpy": [3.0, 0.0, 0.3]} for y in (0.1, -0.1))
+    segments: list[dict[str, Any]] = [
+        {"type": "joint", "target": [0.3, -0.5]},
+        {"type": "joint", "target": {"position": 0.3, "elbow": -0.5}},
+        {"type": "line", "target": pose},
+        {"type": "circle", "via": pose, "target": other},
+        {"type": "spline", "waypoints": [pose, other]},
+        {"type": "spline", "waypoints": [[0.1, 0.2], {"position": 0.3, "elbow": -0.5}]},
+    ]
+    call = TrajectoryRequest.model_validate_json(json.dumps({"start": [0.0, 0.0], "segments": segments}))
+    written = call.model_dump_json(exclude_unset=True)
+    assert TrajectoryRequest.model_validate_json(written) == call
+    assert json.loads(written)["segments"] == segments
 
 
 def finished(client: TestClient, answer: httpx.Response, seconds: float = 60.0) -> str:
