@@ -18,6 +18,7 @@ from app.model.arrays import Array
 from app.schemas.workspace import WorkspaceAnswer
 from app.settings import Settings
 from tests.oracles import wrist_shell
+from tests.test_faults import wait_for
 
 NPY, SVG, PNG = "application/x-npy", "image/svg+xml", "image/png"
 
@@ -269,5 +270,9 @@ def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
     with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1))) as client:
         assert not (tmp_path / "jobs").exists()
         finished(client, {"samples": 10, "job_id": "mine"})
-    names = sorted(path.name for path in (tmp_path / "jobs" / "mine").iterdir())
-    assert names == ["job.json", "result.json", "result.npy"]
+    # What it needed meanwhile goes after it has said that it has succeeded.
+    wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["job.json", "result.json", "result.npy"], 20.0)
+
+
+def names_in(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
