@@ -30,7 +30,6 @@ from app.api.course_time_law import time_law_route
 from app.api.course_time_scaling import time_scaling_route
 from app.api.derive import derive_route
 from app.api.dh import dh_routes
-from app.api.isolated import Isolated
 from app.api.jobs import jobs_router
 from app.api.operations import Setup
 from app.api.remote import Remote
@@ -69,7 +68,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     library = setup.library()
     crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)
-    derivations, isolated = ThreadPoolExecutor(4, thread_name_prefix="derive"), Isolated()
+    derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
     operations = setup.operations()
     runner = _runner(settings, operations)
     metrics = Metrics(library.catalogue_names, crew, runner.shelf.states)
@@ -85,7 +84,6 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
         starting.cancel()
         crew.close()
         runner.close()
-        isolated.close()
         derivations.shutdown()
 
     app = Application(
@@ -120,7 +118,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     app.router.routes.extend(upload_routes(remote, size))
     app.router.routes.extend(dh_routes(remote, size))
     app.router.routes.append(compare_route(remote, size))
-    app.router.routes.append(derive_route(isolated, derivations, size))
+    app.router.routes.append(derive_route(crew, derivations, size))
     app.router.routes.extend(component_routes(remote, size))
     for course_route in (
         *(fly_over_route, mobility_route, orientation_route),

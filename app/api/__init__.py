@@ -7,7 +7,7 @@
 - `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
 - `tally`: what an answer says of itself to the metrics.
-- `isolated`: a process of its own, with a deadline, for work that holds the GIL.
+- `elsewhere`: the crew for code that is no coroutine.
 - `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to
   a robot; `loads` and `velocity_call` read what several of their fields share.

@@ -1,4 +1,4 @@
-"""The worked solution of a table: formulas from a process of their own, numbers from here."""
+"""The worked solution of a table: formulas from the crew, numbers from here."""
 
 import time
 from concurrent.futures import Executor
@@ -7,11 +7,13 @@ from typing import Any
 from starlette.responses import Response
 
 from app.api.dh import dh_route
-from app.api.isolated import Isolated
+from app.api.elsewhere import Elsewhere
 from app.api.lagrangian import formula_content, matrix_content, motion_content
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
+from app.api.remote import while_wanted
 from app.api.routes import DocumentedRoute, in_thread
+from app.crew.crew import Crew
 from app.kinematics.derive.jacobian import ROW_NAMES
 from app.kinematics.derive.numeric import NumericSolution
 from app.kinematics.derive.steps import which_block
@@ -24,7 +26,7 @@ SECONDS = 8.0
 """Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""
 
 
-def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
+def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
     """POST /v1/dh/derive."""
 
     def derive_table(call: DeriveRequest) -> DeriveAnswer:
@@ -53,11 +55,16 @@ def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) ->
             raise InvalidField("query", "this call has its parameters as fields of the body")
         body = await request.body()
 
+        elsewhere = Elsewhere(crew)
+
         def work() -> Response:
             call = read_json(DeriveRequest, body)
-            return json_response(_answer(call, _solved(call, isolated, deadline)))
+            return json_response(_answer(call, _solved(call, elsewhere, deadline)))
 
-        return await in_thread(executor, work)
+        try:
+            return await while_wanted(request.receive, in_thread(executor, work))
+        finally:
+            elsewhere.end()
 
     return dh_route(
         "/v1/dh/derive",
@@ -70,14 +77,14 @@ def derive_route(isolated: Isolated, executor: Executor, max_body_bytes: int) ->
     )
 
 
-def _solved(call: DeriveRequest, isolated: Isolated, deadline: float) -> WorkedSolution:
+def _solved(call: DeriveRequest, elsewhere: Elsewhere, deadline: float) -> WorkedSolution:
     return worked_solution(
         call.dh.table(),
         call.joint_positions,
         call.notation,
         keeps_symbols=call.symbolic,
         dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
-        run=isolated.run,
+        run=elsewhere.run,
         deadline=deadline,
     )
 

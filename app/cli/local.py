@@ -1,6 +1,7 @@
 """The application in this very process: calls without a server, by the same code, with the same answers."""
 
 import asyncio
+import sys
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
@@ -22,7 +23,7 @@ class _Alone(Crew):
     """No processes: what they would do is done here, in a thread. Who waits is who asked, and may stop it."""
 
     def __init__(self) -> None:
-        super().__init__(0, 0, 0)
+        super().__init__(0, sys.maxsize, 0)
 
     async def start(self) -> None:
         """Nothing to start."""
