@@ -37,6 +37,7 @@
     ├── TooManyJobs                  so many wait that another one has to be asked for later
     ├── ServiceBusy                  so many requests wait that another one has to be asked for later
     ├── TooManyRequests              the same of a single client
+    ├── NoRoomForBody                so many large bodies are held that another one has to be sent later
     ├── DeadlineExceeded             a request that was ended
     ├── WorkerCrashed                the process that worked on a request has died
     ├── WorkerOutOfMemory            a request that needs more memory than one may have

@@ -7,8 +7,15 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
+from app.kinematics.warm import warm_up
 from app.main import create_app
 from app.settings import Settings
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernels() -> None:
+    """Compiled before the first request: on a machine without a cache that takes longer than one may wait."""
+    warm_up()
 
 
 @pytest.fixture(scope="module")
