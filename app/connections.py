@@ -52,7 +52,7 @@ class Bounds:
     """
 
     connections: int = 2000
-    waiting: int = 200
+    waiting: int = 160
     head_seconds: float = 10.0
     body_seconds: float = 30.0
     stalled_seconds: float = 30.0

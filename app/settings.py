@@ -72,9 +72,9 @@ class Settings:
     held_body_bytes: int = 512 * 1024 * 1024
     max_answer_numbers: int = 20_000_000
     crew_processes: int = field(default_factory=lambda: max(2, min(8, os.cpu_count() or 1)))
-    crew_waiting: int = 200
+    crew_waiting: int = 160
     connections: int = 2000
-    requests_waiting: int = 200
+    requests_waiting: int = 160
     client_requests: int = 16
     crew_memory_bytes: int = 4 * 1024**3
     request_seconds: int = 60
