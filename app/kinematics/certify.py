@@ -277,16 +277,15 @@ def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate:
     J_base, J_tip, D_base, D_tip = (
         columns.reshape(6, -1) @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip)
     )
-    R, r = T_base.rotation, T_tip.translation - T_base.translation
+    R, arm = T_base.rotation, pin.skew(T_tip.translation - T_base.translation)
     J_world = J_tip - J_base
-    J_world[:3] -= np.cross(J_base[3:], r, axis=0)
-    r_dot = (J_tip[:3] - J_base[:3]) @ speeds
+    J_world[:3] += arm @ J_base[3:]
     D_world = D_tip - D_base
-    D_world[:3] -= np.cross(D_base[3:], r, axis=0) + np.cross(J_base[3:], r_dot, axis=0)
-    omega = J_base[3:] @ speeds
-    D_world[:3] -= np.cross(omega, J_world[:3], axisa=0, axisb=0, axisc=0)
-    D_world[3:] -= np.cross(omega, J_world[3:], axisa=0, axisb=0, axisc=0)
-    J, D = (np.vstack((R.T @ rows[:3], R.T @ rows[3:])) for rows in (J_world, D_world))
+    if with_rate:
+        arm_dot, turning = pin.skew((J_tip[:3] - J_base[:3]) @ speeds), pin.skew(J_base[3:] @ speeds)
+        D_world[:3] += arm @ D_base[3:] + arm_dot @ J_base[3:] - turning @ J_world[:3]
+        D_world[3:] -= turning @ J_world[3:]
+    J, D = ((R.T @ rows.reshape(2, 3, -1)).reshape(6, -1) for rows in (J_world, D_world))
     return T_base.actInv(T_tip), J, D
 
 
