@@ -159,7 +159,7 @@ async def _left(receive: Receive) -> None:
 
 
 class Passed(Response):
-    """An answer from the crew, passed on piece by piece as fast as the caller takes it."""
+    """An answer from the crew, passed on piece by piece as fast as the caller takes it; others get a turn between."""
 
     def __init__(self, reply: Reply) -> None:
         self.status_code, self.raw_headers, pieces, _ = reply
@@ -173,3 +173,5 @@ class Passed(Response):
         self._pieces.clear()
         while pieces:
             await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})
+            if pieces:  # while the system takes them, sending waits for nothing
+                await asyncio.sleep(0)

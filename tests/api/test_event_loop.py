@@ -1,8 +1,8 @@
 """The event loop does nothing for longer than 2 ms: each of its steps is timed, whatever is asked.
 
 What is timed is the processor time of its own thread: a pause of a busy machine is nobody's fault. It is compared with
-that of a piece of arithmetic in the same run, because a core that shares its caches with a busy neighbour is slower. The
-best of some runs counts, because an operation's first run also loads what it needs.
+that of a piece of arithmetic in the same run, because a core is slower beside a busy neighbour. The best of some runs
+counts, because an operation's first run also loads what it needs.
 """
 
 import asyncio
