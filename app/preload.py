@@ -4,28 +4,41 @@ import gc
 import importlib
 import logging.config
 import os
-
-from app.kinematics import warm
-from app.logs import configuration
-from app.settings import Settings
-
-logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
-logging.captureWarnings(True)
-
-for module in ("app.main", "app.plots.profiles", "sympy"):
-    importlib.import_module(module)
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 
+@contextmanager
+def kept() -> Iterator[None]:
+    """Keep the collector of garbage from what is loaded here.
+
+    It would look through all of it again and again, for a fifth of the time that it takes; and the copies share what
+    nobody writes to.
+    """
+    gc.disable()
+    yield
+    gc.freeze()
+    gc.enable()
+
+
+with kept():
+    from app.kinematics import warm
+    from app.logs import configuration
+    from app.settings import Settings
+
+    logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
+    logging.captureWarnings(True)
+    importlib.import_module("app.main")
+
+
+@kept()
 def warm_up() -> None:
     """Compute one of everything, so that the kernels are in memory."""
     warm.warm_up()
-    freeze()
 
 
-def freeze() -> None:
-    """Keep the collector of garbage from what is here: the copies share it for as long as nobody writes to it."""
-    gc.collect()
-    gc.freeze()
-
-
-freeze()
+@kept()
+def load_the_rest() -> None:
+    """Load what only pictures and worked solutions need: a second, for which nobody has to wait at the start."""
+    for module in ("app.plots.profiles", "sympy"):
+        importlib.import_module(module)

@@ -5,7 +5,8 @@ the copy, and its lifeline, on which the copy's number comes first and its exit 
 end of that; when it is closed, because they are gone for example, the copy is killed. The process itself ends when its
 standard input does, which the one who started it holds, and its copies end with it.
 
-Copies that are asked for before it is told to warm up are there before that: it may take a minute.
+Copies that are asked for before it is told to warm up are there before that: it may take a minute. What is seldom
+needed it loads when it has been idle for a while, so that the copies that it makes from then on have that too.
 """
 
 import contextlib
@@ -24,10 +25,11 @@ from multiprocessing.connection import Connection
 from typing import NoReturn
 
 LOADED = "app.preload"
-"""The module that is imported first, with a function `warm_up` that computes one of everything."""
+"""What is imported first: with a function `warm_up` that computes one of everything, and `load_the_rest`."""
 COPY, WARM_UP = b"c", b"w"
 NUMBER = struct.Struct("!i")
 
+_IDLE_SECONDS = 2.0
 _PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15
 
 logger = logging.getLogger("gelenk")
@@ -43,7 +45,7 @@ def main(control: int) -> None:
         signal.signal(stop, signal.SIG_IGN)
     _name("original")
     loaded = importlib.import_module(LOADED)
-    Original(socket.socket(fileno=control), loaded.warm_up).run()
+    Original(socket.socket(fileno=control), loaded.warm_up, loaded.load_the_rest).run()
 
 
 class Original:
@@ -52,10 +54,11 @@ class Original:
     Args:
         control: Where requests come from.
         warm_up: Loads what takes longer than the first copies can wait.
+        load_the_rest: Loads what is seldom needed.
     """
 
-    def __init__(self, control: socket.socket, warm_up: Callable[[], None]) -> None:
-        self._control, self._warm_up = control, warm_up
+    def __init__(self, control: socket.socket, warm_up: Callable[[], None], load_the_rest: Callable[[], None]) -> None:
+        self._control, self._warm_up, self._load_the_rest = control, warm_up, load_the_rest
         self._lifelines: dict[int, socket.socket] = {}
         self._selector = selectors.DefaultSelector()
         self._wakes, self._woken = socket.socketpair()
@@ -72,9 +75,14 @@ class Original:
             (self._woken, self._reap),
         ):
             self._selector.register(source, selectors.EVENT_READ, act)
+        has_all = False
         while self._goes_on:
-            for key, _ in self._selector.select():
+            ready = self._selector.select(None if has_all else _IDLE_SECONDS)
+            for key, _ in ready:
                 key.data()
+            if not ready and not has_all:
+                self._load("what is seldom needed", self._load_the_rest)
+                has_all = True
 
     def _stop(self) -> None:
         self._goes_on = False
@@ -89,11 +97,14 @@ class Original:
 
     def _get_warm(self, asker: socket.socket) -> None:
         """Load what takes long; the end of its socket tells whoever asked that this is over."""
-        try:
-            self._warm_up()
-        except Exception:
-            logger.exception("the kernels could not be loaded")
+        self._load("the kernels", self._warm_up)
         asker.close()
+
+    def _load(self, what: str, load: Callable[[], None]) -> None:
+        try:
+            load()
+        except Exception:
+            logger.exception("could not be loaded: %s", what)
 
     def _copy(self, way: int, lifeline: socket.socket) -> None:
         """A copy; where there is none to be had, its lifeline ends without a word."""
