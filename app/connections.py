@@ -27,12 +27,16 @@ _SLOWEST_BYTES = 32 * 1024
 """A body that takes longer than its time must come at this rate, [bytes/s]."""
 _GRACE_SECONDS = 2.0
 """How long the rest of a body is waited for when the service shuts down."""
-_SHORTEST_PAUSE, _LONGEST_PAUSE = 0.5, 1.0
-"""A connection that was refused is not read from for so long, or refusing would take all time, [s].
+_RETRY_SECONDS = 1.0
+"""How long a request that is not even begun is told to wait."""
+_SHORTEST_PAUSE = 0.5
+"""The share of the time that a refused client is told to wait for which its connection is not read from, at least.
 
-A refused request is told to wait for a second: who does is read from again by then. Who does not has to wait, a crowd
-of them not all until the same moment: together they would hold up the event loop once a second.
+Or refusing would take all time. Who waits as told is read from again by then. Who does not has to wait, a crowd of them
+not all until the same moment: together they would hold up the event loop.
 """
+_LONGEST_PAUSE = 5.0
+"""No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
 _EVICTED = 16
 """Connections that make room together where there are too many."""
 
@@ -185,8 +189,9 @@ class BoundedProtocol(HttpToolsProtocol):
         """The answer is on its way."""
         self.since = self.loop.time()
         super().on_response_complete()
-        if self.cycle.response_complete and self.cycle.scope["state"].get("refused"):
-            self._pause()
+        told = self.cycle.scope["state"].get("retry_after")
+        if self.cycle.response_complete and told is not None:
+            self._pause(told)
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
         begin = partial(super()._start_asgi_task, cycle, app)
@@ -198,19 +203,21 @@ class BoundedProtocol(HttpToolsProtocol):
     def _turn_away(self, cycle: RequestResponseCycle) -> None:
         """Refuse a request; the connection stays, but it is not listened to for a while."""
         stays = cycle.keep_alive and not self.pipeline
-        detail = "the service has as many requests as it can work off: ask again in 1 s"
+        detail = f"the service has as many requests as it can work off: ask again in {_RETRY_SECONDS:g} s"
         status, path = HTTPStatus.SERVICE_UNAVAILABLE, cycle.scope["path"]
         self.transport.write(_answer(status, "service-busy", detail, path, stays=stays))
-        cycle.response_started = cycle.response_complete = cycle.scope["state"]["refused"] = True
+        cycle.response_started = cycle.response_complete = True
+        cycle.scope["state"]["retry_after"] = _RETRY_SECONDS
         if not stays:
             self.transport.close()
             return
         self.on_response_complete()
 
-    def _pause(self) -> None:
+    def _pause(self, told: float) -> None:
+        """Do not listen for nearly as long as the client was told to wait, [s]."""
         if not self.transport.is_closing():
             self.flow.pause_reading()
-            pause = uniform(_SHORTEST_PAUSE, _LONGEST_PAUSE)  # noqa: S311 - nothing secret
+            pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
             self.loop.call_later(pause, self._listen)
 
     def _listen(self) -> None:
@@ -287,7 +294,7 @@ def _answer(status: HTTPStatus, kind: str, detail: str, path: str, *, stays: boo
     body = orjson.dumps({**content, "detail": detail, "instance": path[:256]})
     head = f"HTTP/1.1 {status.value} {status.phrase}\r\ncontent-type: application/problem+json\r\n"
     if status == HTTPStatus.SERVICE_UNAVAILABLE:
-        head += "retry-after: 1\r\n"
+        head += f"retry-after: {_RETRY_SECONDS:g}\r\n"
     if not stays:
         head += "connection: close\r\n"
     return f"{head}content-length: {len(body)}\r\n\r\n".encode() + body

@@ -42,6 +42,8 @@ class Application:
                 await asyncio.sleep(1.0)
             case "/busy":
                 time.sleep(0.01)
+            case "/full":
+                scope["state"]["retry_after"] = 3
             case "/endless":
                 while not scope["state"].get("stopping"):
                     await asyncio.sleep(0.02)
@@ -274,6 +276,20 @@ def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() 
             connection.sendall(GET)
             assert answer(connection)[0] == 200
             connection.close()
+
+
+def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() -> None:
+    """By an application that says for how long: it is no work to refuse whom nobody listens to."""
+    with serving(Bounds()) as (port, _, _, _), connected(port) as connection, connected(port) as other:
+        connection.sendall(GET.replace(b"/ ", b"/full "))
+        began = time.monotonic()
+        assert answer(connection)[0] == 200
+        connection.sendall(GET)
+        other.sendall(GET)
+        assert answer(other)[0] == 200
+        answered = time.monotonic() - began
+        assert answer(connection)[0] == 200
+        assert answered + 0.1 < 1.4 < time.monotonic() - began
 
 
 def test_pipelined_requests_that_are_refused_end_the_connection() -> None:

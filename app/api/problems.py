@@ -139,8 +139,9 @@ def _kinematics(request: Request, error: Exception) -> Response:
     response = problem(request, status_of(type(error)), errors.kind_of(type(error)), error.detail, facts)
     if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy | errors.NoRoomForBody):
         response.headers["Retry-After"] = str(error.retry_after)
-        # Its connection is listened to again when it was told to come back: see `connections`.
-        request.scope.setdefault("state", {})["refused"] = not isinstance(error, errors.TooManyJobs)
+        if not isinstance(error, errors.TooManyJobs):
+            # Its connection is listened to again when it was told to come back: see `connections`.
+            request.scope.setdefault("state", {})["retry_after"] = error.retry_after
     elif response.status_code == HTTPStatus.SERVICE_UNAVAILABLE:
         response.headers["Retry-After"] = _LATER
     return response
@@ -239,7 +240,7 @@ def _pointer(location: Sequence[int | str]) -> str:
 
 
 def _printable(text: str) -> str:
-    return "".join(c if c.isprintable() else "�" for c in text)
+    return text if text.isprintable() else "".join(c if c.isprintable() else "�" for c in text)
 
 
 def _shortened(value: Any) -> Any:

@@ -28,6 +28,8 @@ from tests.test_serve import HOST, free_port
 
 WORKERS = 2
 POLITE = 20
+PATIENCE = 0.1
+"""What a polite client waits before it asks again where it is not told for how long, [s]."""
 HEALTH_PERIOD = 0.05
 CROWD_NICENESS = 5
 """The crowd stands for other machines: the service and those who watch it go first."""
@@ -199,10 +201,10 @@ async def warm_up(url: str) -> None:
 async def let_in(url: str, call: Call, until: float) -> None:
     """Ask until there is an answer."""
     async with contextlib.aclosing(asked(url, request_of(call), until)) as answers:
-        async for status, _ in answers:
-            if status == 200:
+        async for answer in answers:
+            if answer.status == 200:
                 return
-            await asyncio.sleep(0.2)
+            await asyncio.sleep(answer.retry_after)
     raise TimeoutError(call.path)
 
 
@@ -259,22 +261,20 @@ async def watched(url: str, call: Call, seconds: float) -> Seen:
 
 async def polite(url: str, call: Call, seen: Seen, until: float) -> None:
     """A client who asks ten times a second, and waits where it is told to."""
-    async for status, latency in asked(url, request_of(call), until):
-        if status == 200:
-            seen.accepted.append(latency)
-            await asyncio.sleep(0.1)
-        elif status == 503:
-            seen.refused.append(latency)
-            await asyncio.sleep(1.0)
+    async for answer in asked(url, request_of(call), until):
+        if answer.status == 200:
+            seen.accepted.append(answer.latency)
+        elif answer.status == 503:
+            seen.refused.append(answer.latency)
         else:
-            seen.other.append(status)
-            await asyncio.sleep(0.1)
+            seen.other.append(answer.status)
+        await asyncio.sleep(answer.retry_after)
 
 
 async def watcher(url: str, seen: Seen, until: float) -> None:
     """Whoever wants to know whether the process lives."""
-    async for status, latency in asked(url, f"GET /healthz HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode(), until):
-        (seen.healthy if status == 200 else seen.refused).append(latency)
+    async for answer in asked(url, f"GET /healthz HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode(), until):
+        (seen.healthy if answer.status == 200 else seen.refused).append(answer.latency)
         await asyncio.sleep(HEALTH_PERIOD)
 
 
@@ -285,8 +285,16 @@ def request_of(call: Call) -> bytes:
     return f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
 
 
-async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[tuple[int, float]]:
-    """Status and latency of one request after the other, on one connection while it lasts; 0 where it broke."""
+class Answer(NamedTuple):
+    """What is told of an answer: its status, 0 where the connection broke, when to ask again and its latency, [s]."""
+
+    status: int
+    retry_after: float
+    latency: float
+
+
+async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[Answer]:
+    """The answers to one request after the other, on one connection while it lasts."""
     port, writer = int(url.rsplit(":", 1)[1]), None
     try:
         while time.perf_counter() < until:
@@ -295,23 +303,24 @@ async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[tuple[
                 if writer is None:
                     reader, writer = await asyncio.open_connection(HOST, port)
                 writer.write(request)
-                status, stays = await status_of_answer(reader)
+                status, retry_after, stays = await head_of_answer(reader)
             except (OSError, asyncio.IncompleteReadError):
-                status, stays = 0, False
+                status, retry_after, stays = 0, PATIENCE, False
             if not stays:
                 await closed(writer)
                 writer = None
-            yield status, time.perf_counter() - began
+            yield Answer(status, retry_after, time.perf_counter() - began)
     finally:
         await closed(writer)
 
 
-async def status_of_answer(reader: asyncio.StreamReader) -> tuple[int, bool]:
-    """The status of an answer that is read to its end, and whether the connection stays."""
-    head = (await reader.readuntil(b"\r\n\r\n")).lower()
-    size = next(int(line[15:]) for line in head.split(b"\r\n") if line.startswith(b"content-length:"))
-    await reader.readexactly(size)
-    return int(head.split()[1]), b"connection: close" not in head
+async def head_of_answer(reader: asyncio.StreamReader) -> tuple[int, float, bool]:
+    """Status of an answer that is read to its end, when to ask again, [s], and whether the connection stays."""
+    lines = (await reader.readuntil(b"\r\n\r\n")).lower().splitlines()
+    fields = dict(line.split(b": ", 1) for line in lines[1:] if line)
+    await reader.readexactly(int(fields[b"content-length"]))
+    status, retry_after = int(lines[0].split()[1]), float(fields.get(b"retry-after", PATIENCE))
+    return status, retry_after, fields.get(b"connection") != b"close"
 
 
 async def closed(writer: asyncio.StreamWriter | None) -> None:
