@@ -1,10 +1,10 @@
-"""What the process imports that all others of the service are copies of: everything that a request needs."""
+"""What the process imports that all others of the service are copies of: what requests need."""
 
 import gc
 import importlib
 import logging.config
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 
@@ -38,7 +38,7 @@ def warm_up() -> None:
 
 
 @kept()
-def load_the_rest() -> None:
-    """Load what only pictures and worked solutions need: a second, for which nobody has to wait at the start."""
-    for module in ("app.plots.profiles", "sympy"):
+def load(modules: Iterable[str]) -> None:
+    """Import them."""
+    for module in modules:
         importlib.import_module(module)

@@ -1,9 +1,12 @@
 """What a process of the crew runs: one call after the other, within limits of memory and of processor time."""
 
+import math
 import os
 import pickle
 import resource
 import socket
+import sys
+import time
 import traceback
 from collections.abc import Callable
 from multiprocessing.connection import Connection
@@ -11,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from app.crew import wire
+from app.processes.original import SELDOM_NEEDED
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """What came of a call: its result, what it has raised, or that there was not enough memory."""
@@ -22,6 +26,8 @@ _NICENESS = 5
 _SPARE_SECONDS = 2
 _TIRED = 0.5
 """A process that has come to hold this share of what it may makes room for a fresh one."""
+_EARLY_SECONDS = 20.0
+"""So does one that has served for so long and began before everything was loaded: fresh ones share that."""
 
 
 def serve(memory_bytes: int, connection: Connection) -> None:
@@ -37,6 +43,8 @@ def serve(memory_bytes: int, connection: Connection) -> None:
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
     _limit(resource.RLIMIT_DATA, at_start + memory_bytes)
+    has_all = sys.modules.keys() >= SELDOM_NEEDED
+    ends = math.inf if has_all else time.monotonic() + _EARLY_SECONDS
     while True:
         try:
             function, argument, seconds = wire.receive(stream)
@@ -48,7 +56,8 @@ def serve(memory_bytes: int, connection: Connection) -> None:
         _limit_processor_time(seconds)
         outcome = _outcome(function, argument)
         del function, argument
-        goes_on = outcome[0] != "memory" and _held_bytes() - at_start < _TIRED * memory_bytes
+        is_tired = _held_bytes() - at_start >= _TIRED * memory_bytes or time.monotonic() > ends
+        goes_on = outcome[0] != "memory" and not is_tired
         try:
             wire.send(stream, (outcome, goes_on))
         except OSError:

@@ -19,13 +19,15 @@ import signal
 import socket
 import struct
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from multiprocessing.connection import Connection
 from typing import NoReturn
 
 LOADED = "app.preload"
-"""What is imported first: with a function `warm_up` that computes one of everything, and `load_the_rest`."""
+"""What is imported first: with a function `warm_up` that computes one of everything, and one `load` of modules."""
+SELDOM_NEEDED = frozenset({"app.plots.profiles", "sympy"})
+"""Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
 COPY, WARM_UP = b"c", b"w"
 NUMBER = struct.Struct("!i")
 
@@ -45,7 +47,7 @@ def main(control: int) -> None:
         signal.signal(stop, signal.SIG_IGN)
     _name("original")
     loaded = importlib.import_module(LOADED)
-    Original(socket.socket(fileno=control), loaded.warm_up, loaded.load_the_rest).run()
+    Original(socket.socket(fileno=control), loaded.warm_up, loaded.load).run()
 
 
 class Original:
@@ -54,11 +56,13 @@ class Original:
     Args:
         control: Where requests come from.
         warm_up: Loads what takes longer than the first copies can wait.
-        load_the_rest: Loads what is seldom needed.
+        load: Imports modules.
     """
 
-    def __init__(self, control: socket.socket, warm_up: Callable[[], None], load_the_rest: Callable[[], None]) -> None:
-        self._control, self._warm_up, self._load_the_rest = control, warm_up, load_the_rest
+    def __init__(
+        self, control: socket.socket, warm_up: Callable[[], None], load: Callable[[Iterable[str]], None]
+    ) -> None:
+        self._control, self._warm_up, self._load = control, warm_up, load
         self._lifelines: dict[int, socket.socket] = {}
         self._selector = selectors.DefaultSelector()
         self._wakes, self._woken = socket.socketpair()
@@ -81,7 +85,7 @@ class Original:
             for key, _ in ready:
                 key.data()
             if not ready and not has_all:
-                self._load("what is seldom needed", self._load_the_rest)
+                self._try("what is seldom needed", partial(self._load, SELDOM_NEEDED))
                 has_all = True
 
     def _stop(self) -> None:
@@ -97,10 +101,10 @@ class Original:
 
     def _get_warm(self, asker: socket.socket) -> None:
         """Load what takes long; the end of its socket tells whoever asked that this is over."""
-        self._load("the kernels", self._warm_up)
+        self._try("the kernels", self._warm_up)
         asker.close()
 
-    def _load(self, what: str, load: Callable[[], None]) -> None:
+    def _try(self, what: str, load: Callable[[], None]) -> None:
         try:
             load()
         except Exception:

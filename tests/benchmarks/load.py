@@ -20,6 +20,7 @@ from collections.abc import AsyncGenerator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from random import uniform
 from typing import Any, NamedTuple
 
 from tests.benchmarks.server import wait_for
@@ -27,13 +28,15 @@ from tests.benchmarks.table import Row
 from tests.test_serve import HOST, free_port
 
 WORKERS = 2
-POLITE = 20
+POLITE = 40
 PATIENCE = 0.1
 """What a polite client waits before it asks again where it is not told for how long, [s]."""
 HEALTH_PERIOD = 0.05
 CROWD_NICENESS = 5
 """The crowd stands for other machines: the service and those who watch it go first."""
 WARM_UP_SECONDS = 60.0
+SETTLING_SECONDS = 25.0
+"""Until processes that began before everything was loaded make room for those that share it."""
 FK = ("panda/fk", {"joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]]})
 TRAJECTORY = (
     "panda/trajectory",
@@ -99,7 +102,7 @@ class Seen:
 
 
 def measure() -> list[Row]:
-    """All of it at full length: about six minutes."""
+    """All of it at full length: about eight minutes."""
     return measured(Scale())
 
 
@@ -182,6 +185,8 @@ def serving(**settings: str) -> Iterator[tuple[str, int]]:
             try:
                 url = f"http://{HOST}:{port}"
                 wait_for(f"{url}/readyz")
+                asyncio.run(warm_up(url))
+                time.sleep(SETTLING_SECONDS)
                 asyncio.run(warm_up(url))
                 yield url, process.pid
             finally:
@@ -268,7 +273,7 @@ async def polite(url: str, call: Call, seen: Seen, until: float) -> None:
             seen.refused.append(answer.latency)
         else:
             seen.other.append(answer.status)
-        await asyncio.sleep(answer.retry_after)
+        await asyncio.sleep(answer.retry_after * uniform(1.0, 1.5))  # or they would come back all at once
 
 
 async def watcher(url: str, seen: Seen, until: float) -> None:

@@ -79,6 +79,26 @@ def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
     with_crew(test, count=1)
 
 
+@pytest.mark.slow
+def test_processes_of_the_start_make_room_for_those_that_have_everything() -> None:
+    """Half a minute later; in a service of its own, whose processes are not copies of one that is long there."""
+    program = (
+        "import asyncio; from app.crew.crew import Crew; from tests.crew import calls\n"
+        "async def run():\n"
+        "    crew = Crew(1, 1, 10**9)\n"
+        "    for seconds in (0.0, 25.0):\n"
+        "        await asyncio.sleep(seconds)\n"
+        "        print(await crew.run(calls.own_pid, None, 60.0), await crew.run(calls.loaded_modules, None, 60.0))\n"
+        "    crew.close()\n"
+        "asyncio.run(run())"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=True)
+    first, later = (line.split(maxsplit=1) for line in done.stdout.splitlines())
+    assert first[0] == later[0], "its last call is the one after which it makes room"
+    assert "sympy" not in first[1]
+    assert "sympy" in later[1]
+
+
 def test_what_a_process_logs_is_a_line_of_json(tmp_path: Path) -> None:
     """On the standard error stream of a service, whose log it is part of."""
     program = (
