@@ -1,0 +1,8 @@
+"""How the handbook is built: `./dev handbook` turns the pages of `docs/` into `build/handbook`, with Sphinx.
+
+- `conf`: Sphinx's settings. `mathematics`: formulas as pictures of glyphs, drawn while building.
+- `session`: runs the calls of a page against the service in this process. `written`: values as a reader sees them;
+  whether a stated value is what a call gives.
+- `directives`: `run`, `picture`, `exercise`, `answer` and the role `is`, as pages use them (`docs/writing.md`).
+- `site`: what must hold of the built pages: links, navigation, nothing from another host.
+"""

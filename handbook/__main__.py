@@ -1,0 +1,48 @@
+"""`./dev handbook`: build it, then look through what was built."""
+
+import argparse
+import shutil
+import sys
+from pathlib import Path
+
+from sphinx.cmd.build import build_main
+
+from handbook import site
+
+ROOT = Path(__file__).resolve().parent.parent
+OUTPUT = ROOT / "build" / "handbook"
+
+
+def main() -> None:
+    """Exit with 0 only where every call was answered as its page says, and every page is sound."""
+    parser = argparse.ArgumentParser(prog="./dev handbook", description=__doc__)
+    parser.add_argument("pages", nargs="*", help="build these alone, such as docs/course/statics.md; all if left out")
+    pages = parser.parse_args().pages
+    if not pages:
+        shutil.rmtree(OUTPUT, ignore_errors=True)  # what an earlier page left behind would hide a dead link
+    if build(ROOT / "docs", OUTPUT, pages) != 0:
+        sys.exit("the handbook is not built: see above")
+    if pages:
+        return
+    if faults := site.faults(OUTPUT, site.page_names(ROOT / "docs")):
+        sys.exit("\n".join([*faults, "the handbook is not sound: see above"]))
+    print(f"{len(site.page_names(ROOT / 'docs'))} pages: {(OUTPUT / 'index.html').relative_to(ROOT)}")
+
+
+def build(pages: Path, output: Path, only: list[str] | None = None) -> int:
+    """Sphinx's exit code: not 0 where it has anything to warn of, which it says on standard error.
+
+    Args:
+        pages: The folder of the sources.
+        output: The folder of what is built.
+        only: Sources that are read and written; all if empty.
+    """
+    options = ["--fail-on-warning", "--nitpicky", "--quiet", "--conf-dir", str(ROOT / "handbook")]
+    # Every page anew, as its numbers come from the code and not from the page.
+    if not only:
+        options += ["--fresh-env", "--write-all"]
+    return build_main([*options, str(pages), str(output), *(only or [])])
+
+
+if __name__ == "__main__":
+    main()

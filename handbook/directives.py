@@ -1,0 +1,202 @@
+"""What pages are written with beside plain Markdown; `docs/writing.md` tells how.
+
+One service answers all pages of a build; each page is a session of its own.
+"""
+
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Any, ClassVar
+
+from docutils import nodes
+from docutils.parsers.rst import directives
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective, SphinxRole
+
+from handbook.session import RecordingClient, Session, Unexpected
+from handbook.written import DIGITS, disagreement
+
+_PICTURES = "_pictures"
+_SVG, _PNG = b"<?xml", b"\x89PNG"
+
+_sessions: dict[str, Session] = {}
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Add them to Sphinx."""
+    app.add_directive("run", Run)
+    app.add_directive("picture", Picture)
+    app.add_directive("exercise", Exercise)
+    app.add_directive("answer", Answer)
+    app.add_role("is", Is())
+    app.connect("source-read", _begin)
+    app.connect("build-finished", _end)
+    return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}
+
+
+@cache
+def _service() -> RecordingClient:
+    return RecordingClient()
+
+
+def _begin(_: Sphinx, page: str, __: list[str]) -> None:
+    _sessions.pop(page, None)
+
+
+def _end(_: Sphinx, __: Exception | None) -> None:
+    _sessions.clear()
+    if _service.cache_info().currsize:
+        _service().close()
+        _service.cache_clear()
+
+
+def session_of(page: str) -> Session:
+    """That of a page, begun where it is first needed."""
+    if page not in _sessions:
+        _sessions[page] = Session(_service())
+    return _sessions[page]
+
+
+class Run(SphinxDirective):
+    """Python that is shown, run, and followed by what it gives.
+
+    Options:
+        digits: Significant ones of the numbers shown.
+        refused: The kind of problem that the service answers with; without it a problem breaks the build.
+    """
+
+    has_content = True
+    option_spec: ClassVar = {"digits": directives.positive_int, "refused": directives.unchanged_required}
+
+    def run(self) -> list[nodes.Node]:
+        """The piece and its answer."""
+        code = "\n".join(self.content)
+        try:
+            ran = session_of(self.env.docname).run(
+                code, self.options.get("digits", DIGITS), self.options.get("refused")
+            )
+        except Unexpected as error:
+            raise self.error(str(error)) from error
+        shown: list[nodes.Node] = [nodes.literal_block(code, code, language="python", classes=["call"])]
+        if ran.output:
+            shown.append(nodes.literal_block(ran.output, ran.output, language="text", classes=["given"]))
+        return [*shown, *_as_curl(ran.commands)]
+
+
+def _as_curl(commands: tuple[str, ...]) -> list[nodes.Node]:
+    """The calls for a shell, folded."""
+    if not commands:
+        return []
+    text = "\n".join(commands)
+    block = nodes.literal_block(text, text, language="sh", force=True)
+    return _folded("with curl", [block], "curl")
+
+
+def _folded(title: str, content: list[nodes.Node], kind: str) -> list[nodes.Node]:
+    opening = f'<details class="{kind}"><summary>{escape(title)}</summary>'
+    return [nodes.raw("", opening, format="html"), *content, nodes.raw("", "</details>", format="html")]
+
+
+class Picture(SphinxDirective):
+    """A picture that a call gives: the last expression of the content, as bytes of SVG or PNG.
+
+    Options:
+        alt: What is to be seen, for whoever cannot see it; must be there.
+        caption: A sentence below it.
+    """
+
+    has_content = True
+    option_spec: ClassVar = {"alt": directives.unchanged_required, "caption": directives.unchanged}
+
+    def run(self) -> list[nodes.Node]:
+        """The picture, and the call folded below it."""
+        if "alt" not in self.options:
+            raise self.error("a picture needs :alt:, which says what is to be seen")
+        code, session = "\n".join(self.content), session_of(self.env.docname)
+        try:
+            content, commands = session.recorded(code)
+        except Unexpected as error:
+            raise self.error(str(error)) from error
+        if not isinstance(content, bytes) or not content.startswith((_SVG, _PNG)):
+            raise self.error("it gives no picture: SVG or PNG, as bytes")
+        caption = self.options.get("caption", "")
+        figure = (
+            f'<figure class="picture"><img src="{self._saved(content)}" alt="{escape(self.options["alt"])}">'
+            f"{caption and f'<figcaption>{escape(caption)}</figcaption>'}</figure>"
+        )
+        call = nodes.literal_block(code, code, language="python")
+        return [nodes.raw("", figure, format="html"), *_folded("the call", [call, *_as_curl(commands)], "curl")]
+
+    def _saved(self, content: bytes) -> str:
+        """Where the picture is, from the page."""
+        page = self.env.docname
+        name = f"{page.replace('/', '-')}-{self.env.new_serialno('picture')}.{'svg' if content[:5] == _SVG else 'png'}"
+        folder = Path(self.env.app.outdir) / _PICTURES
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(content)
+        return f"{'../' * page.count('/')}{_PICTURES}/{name}"
+
+
+class Exercise(SphinxDirective):
+    """A numbered exercise; its answers stand in it."""
+
+    has_content = True
+    optional_arguments = 1
+    final_argument_whitespace = True
+
+    def run(self) -> list[nodes.Node]:
+        """The exercise in a frame."""
+        number = self.env.new_serialno("exercise") + 1
+        title = f"Exercise {number}" + (f": {self.arguments[0]}" if self.arguments else "")
+        frame = nodes.container(classes=["exercise"])
+        frame += nodes.rubric("", "", *self.state.inline_text(title, self.lineno)[0], classes=["exercise-title"])
+        self.state.nested_parse(self.content, self.content_offset, frame)
+        return [frame]
+
+
+class Answer(SphinxDirective):
+    """An answer, folded; what it states is compared with what an expression gives, and the way there is below it.
+
+    Options:
+        is: The expression. It may use what the content has run.
+        unit: Written behind what is stated.
+    """
+
+    has_content = True
+    required_arguments = 1
+    final_argument_whitespace = True
+    option_spec: ClassVar = {"is": directives.unchanged_required, "unit": directives.unchanged}
+
+    def run(self) -> list[nodes.Node]:
+        """The answer behind a fold."""
+        (stated,) = self.arguments
+        if "is" not in self.options:
+            raise self.error("an answer needs :is:, an expression that gives it")
+        way = nodes.container(classes=["way"])
+        self.state.nested_parse(self.content, self.content_offset, way)
+        try:
+            difference = disagreement(stated, session_of(self.env.docname).value(self.options["is"]))
+        except Unexpected as error:
+            raise self.error(str(error)) from error
+        if difference:
+            raise self.error(difference)
+        unit = self.options.get("unit", "")
+        result = nodes.paragraph("", "", nodes.strong("", f"{stated} {unit}".rstrip()))
+        return _folded("Answer", [result, way], "answer")
+
+
+class Is(SphinxRole):
+    """A value in a sentence: `0.5021 = det`, what is stated, and an expression that gives it."""
+
+    def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
+        """What is stated, once it is found to be true."""
+        stated, equals, expression = self.text.partition(" = ")
+        try:
+            if not equals:
+                raise Unexpected(f"{self.text!r} should be a value, =, and an expression that gives it")
+            difference = disagreement(stated, session_of(self.env.docname).value(expression))
+            if difference:
+                raise Unexpected(difference)
+        except Unexpected as error:
+            return [], [self.inliner.reporter.error(str(error), line=self.lineno)]
+        return [nodes.Text(stated)], []

@@ -1,0 +1,145 @@
+"""The calls of the pages, run against the service in this very process while the handbook is built."""
+
+import ast
+import shlex
+from collections.abc import Mapping
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from io import StringIO
+from typing import Any, TypeVar
+from urllib.parse import urlencode
+
+import numpy as np
+
+from app.calls.call import JSON, Call
+from app.cli.local import InProcess
+from app.client import DEFAULT_URL, Client
+from app.model.errors import KinematicsError
+from handbook.written import DIGITS, written
+
+T = TypeVar("T")
+
+
+class Unexpected(Exception):
+    """A call is not answered as its page says."""
+
+
+class RecordingClient(Client):
+    """The service, and what it was asked."""
+
+    def __init__(self) -> None:
+        super().__init__(transport=InProcess())
+        self.calls: list[Call[Any]] = []
+
+    def send(self, call: Call[T]) -> T:
+        """The answer to a call."""
+        self.calls.append(call)
+        return super().send(call)
+
+
+@dataclass(frozen=True, slots=True)
+class Ran:
+    """What a piece of a page has done.
+
+    Attributes:
+        output: What it printed, and its last value.
+        commands: Each of its calls as a command of curl.
+    """
+
+    output: str
+    commands: tuple[str, ...]
+
+
+class Session:
+    """One page: its pieces run one after the other and share their names, as in one Python session.
+
+    Args:
+        client: Stands in the page as `gelenk`.
+    """
+
+    def __init__(self, client: RecordingClient) -> None:
+        self._client = client
+        self._names: dict[str, Any] = {"gelenk": client, "np": np, "pi": np.pi, "print": self._print}
+        self._digits = DIGITS
+
+    def run(self, code: str, digits: int = DIGITS, refusal: str | None = None) -> Ran:
+        """Run a piece.
+
+        Args:
+            code: Statements; the value of a last expression is written out.
+            digits: Significant ones of the numbers that are written.
+            refusal: The kind of problem that ends it, such as `unknown-frame`; None where there must be none.
+
+        Raises:
+            Unexpected: It is refused where it should not be, or not where it should, or fails.
+        """
+        self._client.calls.clear()
+        self._digits = digits
+        printed = StringIO()
+        try:
+            with redirect_stdout(printed):
+                value = self._execute(code)
+        except KinematicsError as error:
+            if kind_of(error) != refusal:
+                raise Unexpected(f"the service refuses it, {kind_of(error)}: {error.detail}") from error
+            value, refusal = f"{type(error).__name__}: {error.detail}", None
+        except Exception as error:
+            raise Unexpected(f"{type(error).__name__}: {error}") from error
+        if refusal is not None:
+            raise Unexpected(f"it is answered where {refusal} should refuse it")
+        output = printed.getvalue() + ("" if value is None else written(value, digits))
+        return Ran(output.rstrip("\n"), tuple(curl(call) for call in self._client.calls))
+
+    def value(self, expression: str) -> Any:
+        """The value of an expression.
+
+        Raises:
+            Unexpected: It has none.
+        """
+        try:
+            return eval(expression, self._names)  # noqa: S307 - the project's own pages
+        except Exception as error:
+            raise Unexpected(f"{type(error).__name__}: {error}") from error
+
+    def recorded(self, expression: str) -> tuple[Any, tuple[str, ...]]:
+        """The value of an expression, and its calls as commands of curl; raises as `value` does."""
+        self._client.calls.clear()
+        value = self.value(expression)
+        return value, tuple(curl(call) for call in self._client.calls)
+
+    def _execute(self, code: str) -> Any:
+        statements = ast.parse(code).body
+        match statements:
+            case [*before, ast.Expr(last)]:
+                pass
+            case before:
+                last = ast.Constant(None)
+        exec(compile(ast.Module(before, []), "page", "exec"), self._names)  # noqa: S102 - the project's own pages
+        return eval(compile(ast.fix_missing_locations(ast.Expression(last)), "page", "eval"), self._names)  # noqa: S307
+
+    def _print(self, *values: Any) -> None:
+        """`print` with numbers as the page writes them."""
+        print(*(written(value, self._digits) for value in values))
+
+
+def kind_of(error: KinematicsError) -> str:
+    """Such as `unknown-frame`."""
+    problem: Mapping[str, Any] = getattr(error, "problem", {})
+    return str(problem.get("type", "")).removeprefix("urn:gelenk:")
+
+
+def curl(call: Call[Any]) -> str:
+    """The same call in a shell."""
+    query = f"?{urlencode(call.query, doseq=True)}" if call.query else ""
+    words = ["curl", "-s", f"{DEFAULT_URL}/{call.path}{query}"]
+    if call.method not in {"GET", "POST"}:
+        words[1:1] = ["-X", call.method]
+    if call.accept != JSON:
+        words += ["-H", f"Accept: {call.accept}"]
+    if call.accept.startswith("image/"):
+        words += ["-o", f"picture.{call.accept.removeprefix('image/').partition('+')[0]}"]
+    words += [word for name, text in call.form.items() for word in ("-F", f"{name}={text}")]
+    words += [word for name in call.files for word in ("-F", f"{name}=@FILE")]
+    if call.body:
+        words += ["-H", f"Content-Type: {call.media_type}", "-d", call.body.decode()]
+    return shlex.join(words)
