@@ -3,6 +3,6 @@
 - `conf`: Sphinx's settings. `mathematics`: formulas as pictures of glyphs, drawn while building.
 - `session`: runs the calls of a page against the service in this process. `written`: values as a reader sees them;
   whether a stated value is what a call gives.
-- `directives`: `run`, `picture`, `exercise`, `answer` and the role `is`, as pages use them (`docs/writing.md`).
+- `directives`: `run`, `formula`, `picture`, `exercise`, `answer` and the role `is`; `docs/writing.md` tells their use.
 - `site`: what must hold of the built pages: links, navigation, nothing from another host.
 """

@@ -23,6 +23,7 @@ html_js_files = [("copy.js", {"defer": "defer"})]
 html_favicon = str(ROOT / "app" / "studio" / "dist" / "icon.svg")
 html_math_renderer = "glyphs"
 html_copy_source = False
+html_show_copyright = False
 html_show_sourcelink = False
 pygments_style = "tango"
 pygments_dark_style = "github-dark"

@@ -25,6 +25,7 @@ _sessions: dict[str, Session] = {}
 def setup(app: Sphinx) -> dict[str, Any]:
     """Add them to Sphinx."""
     app.add_directive("run", Run)
+    app.add_directive("formula", Formula)
     app.add_directive("picture", Picture)
     app.add_directive("exercise", Exercise)
     app.add_directive("answer", Answer)
@@ -95,6 +96,24 @@ def _as_curl(commands: tuple[str, ...]) -> list[nodes.Node]:
 def _folded(title: str, content: list[nodes.Node], kind: str) -> list[nodes.Node]:
     opening = f'<details class="{kind}"><summary>{escape(title)}</summary>'
     return [nodes.raw("", opening, format="html"), *content, nodes.raw("", "</details>", format="html")]
+
+
+class Formula(SphinxDirective):
+    """Formulas that a call gives: an expression for LaTeX, one text or several, each on a line of its own."""
+
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """The formulas."""
+        try:
+            latex = session_of(self.env.docname).value("\n".join(self.content))
+        except Unexpected as error:
+            raise self.error(str(error)) from error
+        lines = [latex] if isinstance(latex, str) else latex
+        blocks = [nodes.math_block(line, line, nowrap=False, number=None, label=None) for line in lines]
+        for block in blocks:
+            self.set_source_info(block)
+        return [*blocks]
 
 
 class Picture(SphinxDirective):

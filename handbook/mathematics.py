@@ -14,7 +14,9 @@ from ziamath.config import config
 from ziamath.zmath import Latex
 
 _SIZE = 16.0
-"""What one em is in the drawing."""
+"""Of a formula's letters in the drawing."""
+_EM = 14.5
+"""What becomes one em of the text around: the letters are a little larger, as those of the text are wide."""
 _GLYPH = re.compile(r'<symbol id="([^"]+)".*?</symbol>', re.DOTALL)
 _ROOT = re.compile(r'<svg [^>]*width="([-.\d]+)" height="([-.\d]+)" viewBox="([^"]*)">')
 
@@ -50,8 +52,8 @@ def drawn(latex: str, is_display: bool, known: set[str]) -> str:
     except Exception as error:
         raise ValueError(f"{latex!r} cannot be set: {error}") from error
     width, height, box = _ROOT.match(svg).groups()  # type: ignore[union-attr]
-    shift = "" if is_display else f"vertical-align:{below / _SIZE:.3f}em;"
-    style = f"width:{float(width) / _SIZE:.3f}em;height:{float(height) / _SIZE:.3f}em;{shift}"
+    shift = "" if is_display else f"vertical-align:{below / _EM:.3f}em;"
+    style = f"width:{float(width) / _EM:.3f}em;height:{float(height) / _EM:.3f}em;{shift}"
     head = f'<svg role="img" aria-label="{escape(latex)}" viewBox="{box}" style="{style}">'
     return _GLYPH.sub(lambda glyph: _once(glyph, known), _ROOT.sub(lambda _: head, svg, count=1))
 
