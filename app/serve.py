@@ -37,7 +37,10 @@ def main() -> None:
     parser.add_argument("--port", default=8000, type=int, choices=range(1, 65536), metavar="PORT")
     parser.add_argument("--workers", default=1, type=int, choices=range(1, 129), metavar="N", help="processes")
     parser.add_argument("--open", action="store_true", help="listen beyond this machine without keys")
+    parser.add_argument("--root-path", metavar="/PREFIX", help="path prefix of a proxy (or GELENK_ROOT_PATH)")
     arguments = parser.parse_args()
+    if arguments.root_path is not None:
+        os.environ["GELENK_ROOT_PATH"] = arguments.root_path  # where the worker processes read it
     try:
         settings = Settings.from_environment(os.environ)
         if settings.api_keys:

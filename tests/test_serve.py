@@ -23,6 +23,7 @@ import uvloop
 from app import serve, supervisor
 from app.api.access.keyring import new_key
 from app.api.access.scopes import Scope
+from app.settings import Settings
 
 HOST = "127.0.0.1"
 
@@ -163,7 +164,23 @@ def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
         with urllib.request.urlopen(f"{url}/gelenk", timeout=60) as answer:
             assert answer.url == f"{url}/gelenk/"
         assert get(f"{url}/gelenkx/v1/robots")[0] == 404
-        assert get(f"{url}/v1/robots/nobody/fk", "POST", call)[0] == 404
+        for prefix in ("", "/gelenk"):
+            path = f"{prefix}/v1/robots/nobody/fk"
+            status, refusal = get(f"{url}{path}", "POST", call)
+            assert (status, refusal["instance"]) == (404, "/gelenk/v1/robots/nobody/fk")
+            request = urllib.request.Request(f"{url}{prefix}/v1/robots", headers={"Host": "evil.example.com"})
+            with pytest.raises(urllib.error.HTTPError) as refused, urllib.request.urlopen(request, timeout=60):
+                pass
+            with refused.value as answer:
+                assert (answer.code, json.loads(answer.read())["instance"]) == (421, "/gelenk/v1/robots")
+
+
+def test_the_path_prefix_as_an_argument(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GELENK_ROOT_PATH", "/other")
+    started_with(monkeypatch, "--root-path", "/gelenk")
+    assert Settings.from_environment(os.environ).root_path == "/gelenk"
+    with pytest.raises(SystemExit, match="GELENK_ROOT_PATH must start with a slash"):
+        started_with(monkeypatch, "--root-path", "gelenk")
 
 
 def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:

@@ -112,15 +112,15 @@ class Application(FastAPI):
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a connection."""
+        if self.root_path and scope["type"] == "http":
+            scope = prefixed(scope, self.root_path)
         await self.door(scope, receive, send)
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that was let in; HEAD is GET, whose body the server keeps to itself."""
-        if self.root_path and scope["type"] == "http":
-            if scope["path"] == self.root_path:  # links are relative to the folder
-                await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
-                return
-            scope = prefixed(scope, self.root_path)
+        if self.root_path and scope.get("path") == self.root_path:  # links are relative to the folder
+            await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
+            return
         if scope["type"] == "http" and scope["method"] == "HEAD":
             scope = {**scope, "method": "GET"}
         if scope["type"] == "http" and scope["method"] == "POST" and not self._is_traced:
@@ -144,7 +144,8 @@ class Application(FastAPI):
 def prefixed(scope: Scope, root_path: str) -> Scope:
     """A request with the path prefix, also behind a proxy that has taken it away: mounted files are found by it."""
     path: str = scope["path"]
-    return scope if path.startswith(f"{root_path}/") else {**scope, "path": root_path + path}
+    has_it = path == root_path or path.startswith(f"{root_path}/")
+    return scope if has_it else {**scope, "path": root_path + path}
 
 
 async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:

@@ -39,8 +39,8 @@ class Pages:
     The studio keeps nothing in the browser, and a test begins at an empty page.
     """
 
-    def __init__(self, browser: Browser) -> None:
-        self._context = browser.new_context()
+    def __init__(self, browser: Browser, *, is_certificate_checked: bool = True) -> None:
+        self._context = browser.new_context(ignore_https_errors=not is_certificate_checked)
         self._context.add_init_script(_WATCH_POLICY)
         self._context.set_default_timeout(90_000)  # a busy machine draws slowly
         self._free: list[Page] = []
