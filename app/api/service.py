@@ -10,7 +10,6 @@ from http import HTTPStatus
 from pathlib import Path
 
 from fastapi import APIRouter, Request
-from pydantic import BaseModel
 from starlette.responses import PlainTextResponse, Response
 
 from app.api.access.metrics import Metrics
@@ -19,16 +18,11 @@ from app.api.payloads import json_response
 from app.api.problems import problem
 from app.crew.crew import Crew
 from app.kinematics.warm import warm_up
+from app.schemas.health import Health
 from app.store import folders
 
 _LOOK_SECONDS = 1.0
 """How long what is known of the disk is good for."""
-
-
-class Health(BaseModel):
-    """The process lives."""
-
-    status: str
 
 
 class Readiness:

@@ -43,6 +43,7 @@ from app.schemas.dh import (
     ToUrdfRequest,
 )
 from app.schemas.dynamics import DynamicsAnswer, DynamicsRequest
+from app.schemas.health import Health
 from app.schemas.ik import InverseAnswer, InverseRequest
 from app.schemas.jobs import JobInfo
 from app.schemas.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
@@ -132,11 +133,25 @@ def _table(
     convention: Literal["standard", "modified"] = "standard",
     base_frame: str | None = None,
     tip_frame: str | None = None,
+    snap_tolerance: float | None = None,
 ) -> Call[FromUrdfAnswer]:
-    """A chain of a robot as a Denavit-Hartenberg table, with its certificate."""
-    ends = {"base_frame": base_frame, "tip_frame": tip_frame}
-    query = {"convention": convention, **{name: frame for name, frame in ends.items() if frame is not None}}
+    """A chain of a robot as a Denavit-Hartenberg table, with its certificate.
+
+    Args:
+        robot: Its name.
+        convention: Of the table.
+        base_frame: Of the chain; the default chain's if left out.
+        tip_frame: Of the chain; the default chain's if left out.
+        snap_tolerance: How far a number may be moved to one that a person would write; not at all if left out.
+    """
+    chosen = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
+    query = {"convention": convention, **{name: value for name, value in chosen.items() if value is not None}}
     return Call("GET", f"v1/robots/{segment(robot)}/dh", reader(FromUrdfAnswer), query)
+
+
+def _mesh(robot: str, path: str) -> Call[bytes]:
+    """A mesh that a robot's URDF names; `meshes` of `robot` lists their paths."""
+    return Call("GET", f"v1/robots/{segment(robot)}/meshes/{quote(path)}", lambda reply: reply.body, accept="*/*")
 
 
 def _adding(request: Callable[P, NewRobot]) -> Callable[P, Call[RobotInfo]]:
@@ -203,9 +218,12 @@ def _cancel(job: str) -> Call[JobInfo]:
     return Call("DELETE", f"v1/jobs/{segment(job)}", reader(JobInfo), is_repeatable=False)
 
 
-def _workspace_result(job: str) -> Call[WorkspaceAnswer]:
-    """What came out of a workspace."""
-    return Call("GET", f"v1/jobs/{segment(job)}/result", reader(WorkspaceAnswer))
+def _result(answer: type[A]) -> Callable[[str], Call[A]]:
+    def describe(job: str) -> Call[A]:
+        """What came out of a job of this kind."""
+        return Call("GET", f"v1/jobs/{segment(job)}/result", reader(answer))
+
+    return describe
 
 
 def _picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | None = None) -> Call[bytes]:
@@ -220,6 +238,21 @@ def _picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] |
     return Call(method, path, lambda reply: reply.body, body=body, accept=_PICTURES[kind])
 
 
+def _health() -> Call[Health]:
+    """Whether the process lives."""
+    return Call("GET", "healthz", reader(Health))
+
+
+def _readiness() -> Call[Health]:
+    """Whether the service is ready for work; one that is not is asked a few times, then it is an error."""
+    return Call("GET", "readyz", reader(Health))
+
+
+def _metrics() -> Call[str]:
+    """What the service does, in numbers: Prometheus's text format."""
+    return Call("GET", "metrics", lambda reply: reply.body.decode(), accept="text/plain")
+
+
 _PICTURES = {"svg": "image/svg+xml", "png": "image/png"}
 
 
@@ -230,6 +263,7 @@ class Operations:
     robot = Sent(_robot)
     urdf = Sent(_urdf)
     dh_table = Sent(_table)
+    mesh = Sent(_mesh)
     add_robot = Sent(_adding(NewRobot))
     add_archive = Sent(_add_archive)
     replace_robot = Sent(_replacing(RobotReplacement))
@@ -247,10 +281,16 @@ class Operations:
     trajectory = _operation("trajectory", TrajectoryRequest, TrajectoryAnswer)
 
     workspace = Sent(_workspace(WorkspaceRequest))
-    workspace_result = Sent(_workspace_result)
+    workspace_result = Sent(_result(WorkspaceAnswer))
+    ik_result = Sent(_result(InverseAnswer))
+    trajectory_result = Sent(_result(TrajectoryAnswer))
     job = Sent(_job)
     cancel_job = Sent(_cancel)
     picture = Sent(_picture)
+
+    health = Sent(_health)
+    readiness = Sent(_readiness)
+    metrics = Sent(_metrics)
 
     dh_to_urdf = _calculator("dh/to-urdf", ToUrdfRequest, ToUrdfAnswer)
     dh_from_urdf = _calculator("dh/from-urdf", FromUrdfRequest, FromUrdfAnswer)

@@ -1,20 +1,16 @@
-"""Commands about a robot: where it is, how it gets there, how it moves."""
+"""Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
-import json
 from collections.abc import Sequence
-from itertools import chain
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from app.cli.inputs import rows_of
-from app.cli.outputs import Format, Rows, picture_kind
-from app.cli.session import BaseOption, FromOption, RobotArgument, TipOption, session
-from app.model.errors import InvalidField, JobFailed
+from app.cli.inputs import fields_of, rows_of
+from app.cli.outputs import Rows
+from app.cli.session import BaseOption, FieldsOption, FromOption, RobotArgument, TipOption, session
+from app.model.errors import InvalidField
 from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
 from app.schemas.pose import Pose
-from app.schemas.robots import RobotInfo
 
 QOption = Annotated[
     list[str] | None,
@@ -29,42 +25,8 @@ _POSE_COLUMNS = {
     "rotation_vector": ("rx", "ry", "rz"),
 }
 _DEFAULT_POSE = "quaternion_xyzw"
-_UNREACHED = 1
-
-
-def robots(
-    context: typer.Context,
-    robot: Annotated[str | None, typer.Argument(help="One of them, or a file: tells its joints.")] = None,
-    urdf: Annotated[bool, typer.Option("--urdf", help="Its URDF instead.")] = False,
-) -> None:
-    """List the robots, or tell about one."""
-    shared = session(context)
-    if robot is None:
-        with shared.client() as client:
-            answer = client.robots()
-        rows = [(one.name, one.source, one.format, one.description) for one in answer.robots]
-        shared.write(answer, Rows(("name", "source", "format", "description"), rows))
-        return
-    with shared.robot(robot) as (client, name):
-        if urdf:
-            typer.echo(client.urdf(name), nl=False)
-            return
-        info = client.robot(name)
-    shared.write(info, _joints(info))
-
-
-def _joints(info: RobotInfo) -> Rows:
-    columns = ("joint", "type", "parent", "child", "lower", "upper", "velocity", "effort")
-    rows = [
-        (
-            *(joint.name, joint.type, joint.parent, joint.child),
-            *(joint.limits.lower, joint.limits.upper, joint.limits.velocity, joint.limits.effort),
-        )
-        for joint in info.joints
-    ]
-    ends = info.default_chain
-    about = f"default chain {ends.base_frame} → {ends.tip_frame}: {', '.join(info.joint_names)}"
-    return Rows(columns, rows, (about, *info.warnings))
+UNREACHED = 1
+"""Exit code."""
 
 
 def fk(
@@ -75,14 +37,16 @@ def fk(
     base: BaseOption = None,
     tip: TipOption = None,
     pose_format: Annotated[str, typer.Option("--pose", help=f"Notation: {', '.join(_POSE_COLUMNS)}.")] = _DEFAULT_POSE,
+    fields: FieldsOption = None,
 ) -> None:
     """Forward kinematics: the pose of the tip at each configuration."""
     if pose_format not in _POSE_COLUMNS:
         raise InvalidField("pose", f"must be one of {', '.join(_POSE_COLUMNS)}")
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
-    fields: dict[str, Any] = {"base_frame": base, "tip_frame": tip, "pose_format": pose_format}
+    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
+    body |= {"pose_format": pose_format, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
-        answer = client.fk(name, joint_positions=qs.tolist(), **fields)
+        answer = client.fk(name, **body)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
     shared.write(answer, Rows((*_AXES, *_POSE_COLUMNS[pose_format]), rows, (note,)))
@@ -108,12 +72,14 @@ def jacobian(
     tip: TipOption = None,
     reference: Annotated[str, typer.Option(help="local_world_aligned, local or world.")] = "local_world_aligned",
     representation: Annotated[str, typer.Option(help="geometric, zyz or rpy.")] = "geometric",
+    fields: FieldsOption = None,
 ) -> None:
     """The Jacobian at each configuration: rows linear, then angular."""
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
-    fields: dict[str, Any] = {"base_frame": base, "tip_frame": tip, "reference": reference}
+    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
+    body |= {"reference": reference, "representation": representation, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
-        answer = client.jacobian(name, joint_positions=qs.tolist(), representation=representation, **fields)  # type: ignore[arg-type]
+        answer = client.jacobian(name, **body)
     parts = [*(f"v_{axis}" for axis in _AXES), *(f"w_{axis}" for axis in _AXES)]
     rows = [
         (index, part, *row)
@@ -142,23 +108,31 @@ def ik(
     seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
     free: Annotated[bool, typer.Option("--ignore-limits", help="Whether solutions may exceed joint limits.")] = False,
+    fields: FieldsOption = None,
 ) -> None:
     """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
     shared, numbers = session(context), rows_of(target or [], file, "targets")
-    fields: dict[str, Any] = {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
-    fields["solutions"] = "all" if every else "one"
+    body: dict[str, Any] = {"targets": [target_of(row, task is not None) for row in numbers.tolist()]}
+    body |= {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
+    body["solutions"] = "all" if every else "one"
     if task is not None:
-        fields["task"] = task.replace(",", " ").split()
+        body["task"] = task.replace(",", " ").split()
     if seed is not None:
-        fields["seeds"] = rows_of([seed], None, "seeds").tolist()
+        body["seeds"] = rows_of([seed], None, "seeds").tolist()
+    body |= fields_of(fields)
     with shared.robot(robot) as (client, name):
-        answer = client.ik(name, targets=[_target(row, task is not None) for row in numbers.tolist()], **fields)
+        answer = client.ik(name, **body)
     shared.write(answer, _solutions(answer))
     if any(not result.solutions for result in answer.results):
-        raise typer.Exit(_UNREACHED)
+        raise typer.Exit(UNREACHED)
 
 
-def _target(row: Sequence[float], position_suffices: bool) -> Pose:
+def target_of(row: Sequence[float], position_suffices: bool) -> Pose:
+    """The pose that a row of numbers means.
+
+    Raises:
+        InvalidField: It has too few of them, or too many.
+    """
     position = [float(value) for value in row[:3]]
     match len(row):
         case 3 if position_suffices:
@@ -197,105 +171,16 @@ def manipulability(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    fields: FieldsOption = None,
 ) -> None:
     """How well the tip can move and push at each configuration."""
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
-    fields: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
+    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
-        answer = client.manipulability(name, joint_positions=qs.tolist(), **fields)
+        answer = client.manipulability(name, **body)
     rows = []
     for index, result in enumerate(answer.results):
         for part, info in (("translation", result.translation), ("rotation", result.rotation)):
             if info is not None:
                 rows.append((index, part, info.measure, info.condition_number, info.isotropy, info.rank))
     shared.write(answer, Rows(("configuration", "part", "measure", "condition number", "isotropy", "rank"), rows))
-
-
-def trajectory(
-    context: typer.Context,
-    robot: RobotArgument,
-    start: Annotated[str, typer.Option("--start", help="The configuration that it begins at.")],
-    joint: Annotated[list[str] | None, typer.Option("--joint", help="Go there by the joints: a configuration.")] = None,
-    line: Annotated[list[str] | None, typer.Option("--line", help="Go there straight: a pose.")] = None,
-    motion: Annotated[
-        Path | None, typer.Option("--motion", help="JSON file with segments and all else, in place of these.")
-    ] = None,
-    base: BaseOption = None,
-    tip: TipOption = None,
-    law: Annotated[str, typer.Option(help="trapezoidal, cubic, quintic, time_optimal, …")] = "trapezoidal",
-    period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
-    plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
-) -> None:
-    """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
-    shared = session(context)
-    fields = _motion(start, joint or [], line or [], motion)
-    fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
-    with shared.robot(robot) as (client, name):
-        answer = client.trajectory(name, **fields)
-        if plot is not None:
-            plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", picture_kind(plot), fields))
-    names = answer.joint_names
-    columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
-    table = zip(
-        *(answer.times, answer.joint_positions, answer.joint_velocities, answer.joint_accelerations), strict=True
-    )
-    rows = [(time, *chain(*values)) for time, *values in table]
-    notes = [f"{answer.duration:.6g} s, {answer.completed_fraction:.0%} of it can be done"]
-    if answer.failure is not None:
-        notes.append(answer.failure.detail)
-    shared.write(answer, Rows(columns, rows, (*notes, *answer.notes)))
-    if answer.failure is not None:
-        raise typer.Exit(_UNREACHED)
-
-
-def _motion(start: str, joint: list[str], line: list[str], file: Path | None) -> dict[str, Any]:
-    q = rows_of([start], None, "start")[0].tolist()
-    if file is not None:
-        return {"start": q, **json.loads(file.read_text(encoding="utf-8"))}
-    segments: list[dict[str, Any]] = [
-        {"type": "joint", "target": row} for text in joint for row in rows_of([text], None, "joint").tolist()
-    ]
-    segments += [
-        {"type": "line", "target": _target(row, False)}
-        for text in line
-        for row in rows_of([text], None, "line").tolist()
-    ]
-    return {"start": q, "segments": segments}
-
-
-def workspace(
-    context: typer.Context,
-    robot: RobotArgument,
-    samples: Annotated[int, typer.Option(help="How many configurations.")] = 100_000,
-    kind: Annotated[str, typer.Option(help="cloud, grid or dexterity.")] = "cloud",
-    base: BaseOption = None,
-    tip: TipOption = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw it into this file, SVG or PNG.")] = None,
-) -> None:
-    """What the tip can reach: points as CSV or npy, a summary otherwise."""
-    shared = session(context)
-    fields: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip}
-    with shared.robot(robot) as (client, name):
-        job = shared.wait(client, client.workspace(name, **fields))
-        if job.state != "succeeded":
-            raise JobFailed(job.error.detail if job.error else f"the job is {job.state}")
-        answer = client.workspace_result(job.id)
-        wants_points = shared.output.format in {Format.CSV, Format.NPY}
-        points = client.arrays.job_result(job.id).tolist() if wants_points else []
-        if plot is not None:
-            plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture_kind(plot)))
-        client.cancel_job(job.id)
-    if wants_points:
-        shared.write(answer, Rows(answer.array.columns, points))
-        return
-    box, reach = answer.bounding_box, answer.reach
-    rows: list[tuple[str, Any]] = [("samples", answer.samples_counted), ("volume [m³]", answer.voxels.volume)]
-    if box is not None and reach is not None:
-        rows += [("lower [m]", _vector(box.lower)), ("upper [m]", _vector(box.upper))]
-        rows += [("reach [m]", f"{reach.min:.6f} … {reach.max:.6f}")]
-    rows.append(("best measure", answer.measure.max))
-    shared.write(answer, Rows(("", "value"), rows, answer.notes))
-
-
-def _vector(values: Sequence[float]) -> str:
-    return " ".join(f"{value:.6f}" for value in values)

@@ -44,17 +44,28 @@ def robot_named(
     if not is_file(file):
         yield argument
         return
-    name = f"{re.sub(r'[^A-Za-z0-9]', '_', file.stem)[:40] or 'robot'}-{uuid.uuid4().hex[:8]}"
+    name = f"{name_of(file)[:40]}-{uuid.uuid4().hex[:8]}"
     if file.suffix == ".zip":
         client.add_archive(name, file)
-    elif file.suffix in _TABLES:
-        client.add_robot(name=name, dh=table_from(file))
     else:
-        client.add_robot(name=name, urdf=urdf_from(file, arguments, packages))
+        client.add_robot(name=name, **description_from(file, arguments, packages))
     try:
         yield name
     finally:
         client.remove_robot(name)
+
+
+def name_of(file: Path) -> str:
+    """A robot's name by that of its file."""
+    stem = file.name.partition(".")[0]
+    return re.sub(r"[^A-Za-z0-9_-]", "_", stem).lstrip("_-")[:64] or "robot"
+
+
+def description_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> dict[str, Any]:
+    """What the API takes of a robot without meshes: `dh` or `urdf`; for the arguments see `robot_named`."""
+    if file.suffix in _TABLES:
+        return {"dh": table_from(file)}
+    return {"urdf": urdf_from(file, arguments, packages)}
 
 
 def is_file(path: Path) -> bool:
@@ -121,6 +132,27 @@ def number(text: str) -> float:
         return float(text)
     sign, factor, divisor = found.groups()
     return (-1.0 if sign == "-" else 1.0) * float(factor or 1.0) * math.pi / float(divisor or 1.0)
+
+
+def fields_of(text: str | None) -> dict[str, Any]:
+    """Fields of the API from JSON, from a file with it, or from standard input; nothing where nothing is given.
+
+    Raises:
+        InvalidField: It is not a JSON object.
+    """
+    if text is None:
+        return {}
+    if text == STDIN:
+        text = sys.stdin.buffer.read().decode()
+    elif not text.lstrip().startswith("{"):
+        text = Path(text).read_text(encoding="utf-8")
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InvalidField("fields", f"is not JSON: {error}") from None
+    if not isinstance(content, dict):
+        raise InvalidField("fields", "must be a JSON object")
+    return content
 
 
 def rows_of(given: list[str], file: str | None, field: str) -> Array:

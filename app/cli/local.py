@@ -28,6 +28,11 @@ class _Alone(Crew):
     async def start(self) -> None:
         """Nothing to start."""
 
+    @property
+    def is_short(self) -> bool:
+        """Never: nothing is missing."""
+        return False
+
     async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:  # noqa: ARG002
         """The result of a call."""
         return await asyncio.to_thread(function, argument)

@@ -14,7 +14,7 @@ import typer
 from rich.console import Console
 
 from app.calls.refusals import NotAnswering, Refused
-from app.cli import arms, ask, tables
+from app.cli import arms, ask, jobs, motions, robots, tables
 from app.cli.outputs import Format, Output
 from app.cli.session import Session
 from app.model.errors import InvalidInput, KinematicsError, NotFound
@@ -58,10 +58,15 @@ def serve(context: typer.Context) -> None:
     runpy.run_module("app.serve", run_name="__main__")
 
 
-for command in (arms.robots, arms.fk, arms.jacobian, arms.ik, arms.manipulability, arms.trajectory, arms.workspace):
+for command in (
+    *(robots.robots, robots.add, robots.remove),
+    *(arms.fk, arms.jacobian, arms.ik, arms.manipulability),
+    *(motions.trajectory, motions.workspace),
+    ask.ask,
+):
     cli.command()(command)
-cli.command()(ask.ask)
 cli.add_typer(tables.tables)
+cli.add_typer(jobs.jobs)
 
 
 def main() -> None:

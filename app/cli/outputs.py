@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+from pydantic import BaseModel
 from rich.console import Console
 from rich.table import Table
 
+from app.model.arrays import Array
 from app.model.errors import InvalidField
 
 _SHOWN = 40
@@ -75,15 +77,27 @@ class Output:
         """
         match self.format:
             case Format.JSON:
-                self._put(json.dumps(content, ensure_ascii=False).encode() + b"\n")
+                self.put(json.dumps(content, ensure_ascii=False).encode() + b"\n")
             case Format.CSV:
-                self._put(_csv(rows))
+                self.put(_csv(rows))
             case Format.NPY:
-                self._put(_npy(rows))
+                self.save(_numbers(rows))
             case _:
                 self._show(rows)
 
-    def _put(self, content: bytes) -> None:
+    def tell(self, answer: BaseModel) -> None:
+        """An answer that has no rows: JSON, unless another format is asked for."""
+        content = answer.model_dump(mode="json", exclude_unset=True)
+        Output(self.form or Format.JSON, self.file).write(content, Rows(("field", "value"), list(content.items())))
+
+    def save(self, array: Array) -> None:
+        """An array as npy."""
+        stream = BytesIO()
+        np.save(stream, array, allow_pickle=False)
+        self.put(stream.getvalue())
+
+    def put(self, content: bytes) -> None:
+        """Bytes as they are."""
         if self.file is not None:
             self.file.write_bytes(content)
             return
@@ -143,11 +157,9 @@ def _csv(rows: Rows) -> bytes:
     return text.getvalue().encode()
 
 
-def _npy(rows: Rows) -> bytes:
+def _numbers(rows: Rows) -> Array:
     numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
     if len(numbers) < len(rows.columns):
         words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)
         raise InvalidField("format", f"npy holds numbers alone, and these columns hold others: {words}")
-    stream = BytesIO()
-    np.save(stream, np.array(rows.rows, dtype=float), allow_pickle=False)
-    return stream.getvalue()
+    return np.array(rows.rows, dtype=float)

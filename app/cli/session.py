@@ -1,13 +1,13 @@
 """What a command is given beside its own arguments: the service that it asks, and where its answer goes."""
 
-import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from pydantic import BaseModel
+from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from app.cli.inputs import pairs_of, robot_named
@@ -28,6 +28,13 @@ TipOption = Annotated[str | None, typer.Option("--tip", help="Frame that is mean
 FromOption = Annotated[
     str | None, typer.Option("--from", help="File with a row each, CSV, npy or JSON; - is standard input.")
 ]
+FieldsOption = Annotated[
+    str | None,
+    typer.Option("--fields", help="Any further fields of the API's reference, as JSON or a file with it; they win."),
+]
+LaterOption = Annotated[
+    bool, typer.Option("--job", help="Begin a job of the service and tell about it, instead of waiting for its end.")
+]
 
 
 class Session:
@@ -42,7 +49,17 @@ class Session:
 
     def __init__(self, server: str | None, output: Output, arguments: Sequence[str], packages: Sequence[str]) -> None:
         self.server, self.output = server, output
-        self._arguments, self._packages = arguments, packages
+        self._given_arguments, self._given_packages = arguments, packages
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """For xacro: values by name."""
+        return pairs_of(list(self._given_arguments), "arg")
+
+    @property
+    def packages(self) -> dict[str, Path]:
+        """For xacro: folders by name."""
+        return pairs_of(list(self._given_packages), "package", Path)
 
     @contextmanager
     def client(self) -> Iterator[Client]:
@@ -55,8 +72,7 @@ class Session:
     @contextmanager
     def robot(self, argument: str) -> Iterator[tuple[Client, str]]:
         """The service, and the name that a robot has there."""
-        arguments = pairs_of(list(self._arguments), "arg")
-        packages = pairs_of(list(self._packages), "package", Path)
+        arguments, packages = self.arguments, self.packages
         with self.client() as client, robot_named(client, argument, arguments, packages) as name:
             yield client, name
 
@@ -64,14 +80,22 @@ class Session:
         """An answer of the API."""
         self.output.write(answer.model_dump(mode="json", exclude_unset=True), rows)
 
+    @contextmanager
+    def bar(self, what: str) -> Iterator[Callable[[float], None]]:
+        """How far long work is, 0 to 1, on the screen; not where standard error is no terminal."""
+        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
+        console = Console(stderr=True)
+        with Progress(
+            *columns, TimeElapsedColumn(), console=console, transient=True, disable=not console.is_terminal
+        ) as shown:
+            bar = shown.add_task(what, total=1.0)
+            yield lambda progress: shown.update(bar, completed=progress)
+
     def wait(self, client: Client, job: JobInfo) -> JobInfo:
         """A job that has come to its end, its progress on the screen; Ctrl-C cancels it."""
-        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
-        shown = Progress(*columns, TimeElapsedColumn(), transient=True, disable=not sys.stderr.isatty())
-        with shown as progress:
-            bar = progress.add_task(job.kind, total=1.0)
+        with self.bar(job.kind) as progress:
             try:
-                return client.wait(job.id, lambda info: progress.update(bar, completed=info.progress))
+                return client.wait(job.id, lambda info: progress(info.progress))
             except KeyboardInterrupt:
                 client.cancel_job(job.id)
                 raise

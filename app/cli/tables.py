@@ -5,9 +5,9 @@ from typing import Annotated, Any
 
 import typer
 
-from app.cli.inputs import is_file, table_from
-from app.cli.outputs import Rows
-from app.cli.session import BaseOption, RobotArgument, TipOption, session
+from app.cli.inputs import fields_of, is_file, table_from
+from app.cli.outputs import Format, Rows
+from app.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
 from app.model.errors import InvalidField
 from app.schemas.dh import DhTablePayload
 
@@ -40,10 +40,10 @@ def to_urdf(
     shared = session(context)
     with shared.client() as client:
         answer = client.dh_to_urdf(name=name, dh=_table(table))
-    if shared.output.file is not None:
-        shared.output.file.write_text(answer.urdf, encoding="utf-8")
-        return
-    typer.echo(answer.urdf, nl=False)
+    if shared.output.format is Format.JSON:
+        shared.write(answer, Rows((), ()))
+    else:
+        shared.output.put(answer.urdf.encode())
 
 
 @tables.command("from-urdf")
@@ -53,11 +53,12 @@ def from_urdf(
     convention: ConventionOption = "standard",
     base: BaseOption = None,
     tip: TipOption = None,
+    snap: Annotated[float | None, typer.Option(help="How far a number may be moved to a plainer one.")] = None,
 ) -> None:
     """A chain of a robot as a table, with its certificate."""
     shared = session(context)
     with shared.robot(robot) as (client, name):
-        answer = client.dh_table(name, convention, base, tip)  # type: ignore[arg-type]
+        answer = client.dh_table(name, convention, base, tip, snap)  # type: ignore[arg-type]
     certificate = answer.certificate
     how = (
         f"the table and the robot differ by {certificate.max_position_error:.1e} m and "
@@ -77,12 +78,18 @@ def convert(context: typer.Context, table: TableArgument, convention: Convention
 
 @tables.command("compare")
 def compare(
-    context: typer.Context, table: TableArgument, robot: RobotArgument, base: BaseOption = None, tip: TipOption = None
+    context: typer.Context,
+    table: TableArgument,
+    robot: RobotArgument,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    fields: FieldsOption = None,
 ) -> None:
     """Whether a table describes a chain; exit code 1 if not, with the first difference."""
     shared = session(context)
     with shared.robot(robot) as (client, name):
-        answer = client.compare_dh(dh=_table(table), robot=name, base_frame=base, tip_frame=tip)
+        body: dict[str, Any] = {"dh": _table(table), "robot": name, "base_frame": base, "tip_frame": tip}
+        answer = client.compare_dh(**{**body, **fields_of(fields)})
     rows: list[tuple[str, Any]] = [
         ("equivalent", answer.equivalent),
         ("largest position error [m]", answer.max_position_error),
@@ -100,11 +107,12 @@ def derive(
     table: TableArgument,
     latex: Annotated[bool, typer.Option("--latex", help="As LaTeX.")] = False,
     symbolic: Annotated[bool, typer.Option("--symbols/--values", help="Lengths as symbols or as numbers.")] = True,
+    fields: FieldsOption = None,
 ) -> None:
     """The worked solution: each A_i and T_0_i, the Jacobian, and where it is singular."""
     shared = session(context)
     with shared.client() as client:
-        answer = client.derive_dh(dh=_table(table), symbolic=symbolic)
+        answer = client.derive_dh(**{"dh": _table(table), "symbolic": symbolic, **fields_of(fields)})
     matrices = [*answer.A, *answer.T_0, *([answer.jacobian.matrix] if answer.jacobian else [])]
     if latex:
         rows = Rows(("name", "formula"), [(one.name, one.latex) for one in matrices], answer.notes)

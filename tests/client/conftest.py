@@ -1,4 +1,4 @@
-"""One service for all tests of a module."""
+"""One service for all tests."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ from app.client import Client
 from tests.test_serve import service
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Where the service is."""
     with service(tmp_path_factory.mktemp("data")) as (_, url):

@@ -1,0 +1,60 @@
+"""Commands about jobs that a service does while nobody waits for them."""
+
+from typing import Annotated
+
+import typer
+
+from app.cli.outputs import Format, Rows
+from app.cli.session import session
+from app.schemas.jobs import JobInfo
+
+JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
+
+jobs = typer.Typer(name="jobs", help="Jobs of a service: how far they are, what came out, the end of them.")
+
+
+@jobs.command("show")
+def show(context: typer.Context, job: JobArgument) -> None:
+    """How far a job is."""
+    shared = session(context)
+    with shared.client() as client:
+        info = client.job(job)
+    shared.write(info, rows_of_job(info))
+
+
+@jobs.command("watch")
+def watch(context: typer.Context, job: JobArgument) -> None:
+    """Wait until a job has come to its end, with a bar on a terminal; Ctrl-C leaves it alone."""
+    shared = session(context)
+    with shared.client() as client, shared.bar(job) as progress:
+        info = client.wait(job, lambda info: progress(info.progress))
+    shared.write(info, rows_of_job(info))
+
+
+@jobs.command("result")
+def result(context: typer.Context, job: JobArgument) -> None:
+    """What came out of a job: JSON, or with --format npy the array."""
+    shared = session(context)
+    with shared.client() as client:
+        if shared.output.format is Format.NPY:
+            shared.output.save(client.arrays.job_result(job))
+            return
+        read = {"workspace": client.workspace_result, "ik": client.ik_result, "trajectory": client.trajectory_result}
+        answer = read[client.job(job).kind](job)
+    shared.output.tell(answer)
+
+
+@jobs.command("cancel")
+def cancel(context: typer.Context, job: JobArgument) -> None:
+    """Cancel a job, or remove one that has come to its end."""
+    shared = session(context)
+    with shared.client() as client:
+        info = client.cancel_job(job)
+    shared.write(info, rows_of_job(info))
+
+
+def rows_of_job(info: JobInfo) -> Rows:
+    """A job, for people."""
+    columns = ("id", "kind", "state", "progress", "created", "finished")
+    notes = () if info.error is None else (info.error.detail,)
+    return Rows(columns, [(info.id, info.kind, info.state, info.progress, info.created, info.finished)], notes)

@@ -1,0 +1,112 @@
+"""Commands about how a robot moves, and where it gets to: what may take long."""
+
+from collections.abc import Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from app.cli.arms import UNREACHED, target_of
+from app.cli.inputs import fields_of, rows_of
+from app.cli.jobs import rows_of_job
+from app.cli.outputs import Format, Rows, picture_kind
+from app.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
+from app.model.errors import JobFailed
+
+
+def trajectory(
+    context: typer.Context,
+    robot: RobotArgument,
+    start: Annotated[str, typer.Option("--start", help="The configuration that it begins at.")],
+    joint: Annotated[list[str] | None, typer.Option("--joint", help="Go there by the joints: a configuration.")] = None,
+    line: Annotated[list[str] | None, typer.Option("--line", help="Go there straight: a pose.")] = None,
+    motion: Annotated[
+        str | None,
+        typer.Option("--motion", help="Segments and all else as the API has them: JSON, or a file with it."),
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    law: Annotated[str, typer.Option(help="trapezoidal, cubic, quintic, time_optimal, …")] = "trapezoidal",
+    period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
+    plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
+) -> None:
+    """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
+    shared = session(context)
+    fields = _motion(start, joint or [], line or [], motion)
+    fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
+    with shared.robot(robot) as (client, name):
+        answer = client.trajectory(name, **fields)
+        if plot is not None:
+            plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", picture_kind(plot), fields))
+    names = answer.joint_names
+    columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
+    table = zip(
+        *(answer.times, answer.joint_positions, answer.joint_velocities, answer.joint_accelerations), strict=True
+    )
+    rows = [(time, *chain(*values)) for time, *values in table]
+    notes = [f"{answer.duration:.6g} s, {answer.completed_fraction:.0%} of it can be done"]
+    if answer.failure is not None:
+        notes.append(answer.failure.detail)
+    shared.write(answer, Rows(columns, rows, (*notes, *answer.notes)))
+    if answer.failure is not None:
+        raise typer.Exit(UNREACHED)
+
+
+def _motion(start: str, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
+    q = rows_of([start], None, "start")[0].tolist()
+    if motion is not None:
+        return {"start": q, **fields_of(motion)}
+    segments: list[dict[str, Any]] = [
+        {"type": "joint", "target": row} for text in joint for row in rows_of([text], None, "joint").tolist()
+    ]
+    segments += [
+        {"type": "line", "target": target_of(row, False)}
+        for text in line
+        for row in rows_of([text], None, "line").tolist()
+    ]
+    return {"start": q, "segments": segments}
+
+
+def workspace(
+    context: typer.Context,
+    robot: RobotArgument,
+    samples: Annotated[int, typer.Option(help="How many configurations.")] = 100_000,
+    kind: Annotated[str, typer.Option(help="cloud, grid or dexterity.")] = "cloud",
+    base: BaseOption = None,
+    tip: TipOption = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw it into this file, SVG or PNG.")] = None,
+    fields: FieldsOption = None,
+    later: LaterOption = False,
+) -> None:
+    """What the tip can reach: points as CSV or npy, a summary otherwise."""
+    shared = session(context)
+    body: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip, **fields_of(fields)}
+    with shared.robot(robot) as (client, name):
+        info = client.workspace(name, **body)
+        if later:
+            shared.write(info, rows_of_job(info))
+            return
+        job = shared.wait(client, info)
+        if job.state != "succeeded":
+            raise JobFailed(job.error.detail if job.error else f"the job is {job.state}")
+        answer = client.workspace_result(job.id)
+        wants_points = shared.output.format in {Format.CSV, Format.NPY}
+        points = client.arrays.job_result(job.id).tolist() if wants_points else []
+        if plot is not None:
+            plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture_kind(plot)))
+        client.cancel_job(job.id)
+    if wants_points:
+        shared.write(answer, Rows(answer.array.columns, points))
+        return
+    box, reach = answer.bounding_box, answer.reach
+    rows: list[tuple[str, Any]] = [("samples", answer.samples_counted), ("volume [m³]", answer.voxels.volume)]
+    if box is not None and reach is not None:
+        rows += [("lower [m]", _vector(box.lower)), ("upper [m]", _vector(box.upper))]
+        rows += [("reach [m]", f"{reach.min:.6f} … {reach.max:.6f}")]
+    rows.append(("best measure", answer.measure.max))
+    shared.write(answer, Rows(("", "value"), rows, answer.notes))
+
+
+def _vector(values: Sequence[float]) -> str:
+    return " ".join(f"{value:.6f}" for value in values)
