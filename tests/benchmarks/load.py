@@ -28,7 +28,7 @@ from tests.benchmarks.table import Row
 from tests.test_serve import HOST, free_port
 
 WORKERS = 2
-POLITE = 40
+POLITE = 20
 PATIENCE = 0.1
 """What a polite client waits before it asks again where it is not told for how long, [s]."""
 HEALTH_PERIOD = 0.05
@@ -300,12 +300,15 @@ class Answer(NamedTuple):
 
 async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[Answer]:
     """The answers to one request after the other, on one connection while it lasts."""
-    port, writer = int(url.rsplit(":", 1)[1]), None
+    port, reader, writer = int(url.rsplit(":", 1)[1]), None, None
     try:
         while time.perf_counter() < until:
             began = time.perf_counter()
             try:
-                if writer is None:
+                if (
+                    reader is None or writer is None or reader.at_eof()
+                ):  # the service closes a connection that is idle for long
+                    await closed(writer)
                     reader, writer = await asyncio.open_connection(HOST, port)
                 writer.write(request)
                 status, retry_after, stays = await head_of_answer(reader)
