@@ -29,7 +29,7 @@ _GRACE_SECONDS = 2.0
 """How long the rest of a body is waited for when the service shuts down."""
 _RETRY_SECONDS = 1.0
 """How long a request that is not even begun is told to wait."""
-_SHORTEST_PAUSE = 0.5
+_SHORTEST_PAUSE = 0.75
 """The share of the time that a refused client is told to wait for which its connection is not read from, at least.
 
 Or refusing would take all time. Who waits as told is read from again by then. Who does not has to wait, a crowd of them

@@ -4,14 +4,24 @@ from typing import Any
 
 import numpy as np
 
-from app.api.loads import chain_of, entries, gravity_of, load_of, unused_frame, weight_notes, wrench_frame, wrench_rows
+from app.api.loads import (
+    MECHANISM,
+    chain_of,
+    entries,
+    gravity_of,
+    load_of,
+    unused_frame,
+    weight_notes,
+    wrench_frame,
+    wrench_rows,
+)
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.bodies import Load
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.dynamics import Dynamics, dynamics
 from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.lagrangian import State
-from app.kinematics.mechanism import known_mechanism, mechanism
+from app.kinematics.mechanism import mechanism
 from app.kinematics.statics import certify_statics, overloaded_joints, statics
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -53,9 +63,9 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
         return _outcome(loaded, call, max_answer_numbers)
 
     def attempt(loaded: LoadedRobot, call: DynamicsRequest) -> Outcome | None:
-        """The same where all is at hand; None where it has to be made ready first, or is large."""
-        known = known_mechanism(loaded.robot, chain_of(loaded.robot, call))
-        return None if known is None or len(known.bodies) > _QUICK_BODIES else run(loaded, call)
+        """The same for a few bodies; None for many."""
+        bodies = mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies
+        return None if len(bodies) > _QUICK_BODIES else run(loaded, call)
 
     return Operation(
         name="dynamics",
@@ -68,6 +78,7 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
             array_field="joint_positions",
             is_heavy=lambda call: len(call.joint_positions) > _QUICK_CONFIGURATIONS or call.wrenches is not None,
             attempt=attempt,
+            lesson=MECHANISM,
         ),
         answer=DynamicsAnswer,
         npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",

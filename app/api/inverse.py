@@ -6,8 +6,10 @@ from typing import Any
 from app.api.inverse_answer import closed_form_of, table, told, told_results, unsolved_headers
 from app.api.inverse_job import inverse_work
 from app.api.inverse_request import Bounds, asked, options_of, task_of
+from app.api.lesson import Lesson
 from app.api.routes import Computation, Operation, Outcome
 from app.api.tally import Tally
+from app.kinematics.ik.closed_form import ClosedForm, closed_form, is_looked_at, look_at
 from app.kinematics.ik.result import InverseKinematics
 from app.kinematics.ik.search import ITERATIONS_PER_START, MAX_ITERATIONS
 from app.kinematics.ik.solve import inverse_kinematics, solve_quickly
@@ -70,6 +72,7 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
             array_field="targets",
             is_heavy=_is_heavy,
             attempt=attempt,
+            lesson=Lesson(_is_looked_at, _closed_form, _look_at),
             long=inverse_work(),
         ),
         answer=InverseAnswer,
@@ -83,6 +86,22 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
             "tip_frame": "panda_link8",
         },
     )
+
+
+def _chain(loaded: LoadedRobot, call: InverseRequest) -> Chain:
+    return loaded.robot.chain(call.base_frame, call.tip_frame)
+
+
+def _is_looked_at(loaded: LoadedRobot, call: InverseRequest) -> bool:
+    return is_looked_at(_chain(loaded, call), task_of(call))
+
+
+def _closed_form(loaded: LoadedRobot, call: InverseRequest) -> ClosedForm | None:
+    return closed_form(_chain(loaded, call), task_of(call))
+
+
+def _look_at(loaded: LoadedRobot, call: InverseRequest, found: ClosedForm | None) -> None:
+    look_at(_chain(loaded, call), task_of(call), found)
 
 
 def _is_heavy(call: InverseRequest) -> bool:

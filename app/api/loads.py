@@ -1,11 +1,13 @@
 """What a robot bears as a request says it, for statics and dynamics: gravity, payload, wrenches at a point."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
+from app.api.lesson import Lesson
 from app.kinematics.bodies import Load
-from app.kinematics.mechanism import STANDARD_GRAVITY, Mechanism
+from app.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanism, mechanism
 from app.kinematics.wrenches import WrenchFrame
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -32,6 +34,23 @@ def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
         if name is not None and name not in robot.description.joints_below:
             raise UnknownFrame(name, robot.description.frames, field)
     return robot.chain(call.base_frame, call.tip_frame)
+
+
+def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
+    return known_mechanism(loaded.robot, chain_of(loaded.robot, call)) is not None
+
+
+def _find(loaded: LoadedRobot, call: WrenchOptions) -> None:
+    """Nothing that travels: that it can be made is all that the crew finds out."""
+    _learn(loaded, call)
+
+
+def _learn(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
+    mechanism(loaded.robot, chain_of(loaded.robot, call))
+
+
+MECHANISM: Lesson[Any] = Lesson(_is_known, _find, _learn)
+"""The mechanism of a chain, which takes some milliseconds to make."""
 
 
 def gravity_of(value: bool | Sequence[float]) -> Array | None:

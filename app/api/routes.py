@@ -24,6 +24,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.api import problems
 from app.api.bodies import Bodies
 from app.api.errand import Desk, Inquiry, buffers
+from app.api.lesson import Lesson, LessonErrand
 from app.api.long_work import LongWork, submitted
 from app.api.npy import npy_response, read_npy
 from app.api.openapi import (
@@ -184,6 +185,7 @@ class Computation(Generic[_Request]):
         options: The same without the array that an npy body brings; None where there is no such body.
         array_field: The field that such an array stands for.
         attempt: The operation where it is quick; None when called if it is not.
+        lesson: What has to be known for that.
         picture: What an image of the answer shows, where there is one; it is drawn in a thread.
         table: What the answer holds as CSV, where there is one.
         long: How it is done as a job, where it can be.
@@ -195,6 +197,7 @@ class Computation(Generic[_Request]):
     options: type[Payload] | None = None
     array_field: str = ""
     attempt: Callable[[LoadedRobot, _Request], Outcome | None] | None = None
+    lesson: Lesson[_Request] | None = None
     picture: str | None = None
     table: str | None = None
     long: LongWork[_Request] | None = None
@@ -222,7 +225,13 @@ class Computation(Generic[_Request]):
             if request.length <= INLINE_BYTES:
                 call = self._parse(query, b"".join(pieces), npy_in)
                 if wanted not in _PICTURES and not self.is_heavy(call):
-                    outcome = (self.attempt or self.run)(await remote.resident(request, robot), call)
+                    loaded = await remote.resident(request, robot)
+                    if self.lesson is not None and not self.lesson.is_known(loaded, call):
+                        found = await remote.told(
+                            request, LessonErrand(name), Inquiry(buffers(pieces), robot, query, npy_in)
+                        )
+                        await self.lesson.learnt(loaded, call, found)
+                    outcome = (self.attempt or self.run)(loaded, call)
                     if outcome is not None:
                         return self._told(call, outcome, wanted)
             return await remote.answer(request, errand, Inquiry(buffers(pieces), robot, query, npy_in, wanted))
@@ -240,6 +249,13 @@ class Computation(Generic[_Request]):
             raise NotImplementedError
         loaded = library.get(inquiry.robot)
         return self.long.planned(loaded, self._parse(inquiry.query, inquiry.body, inquiry.npy))
+
+    def taught(self, library: Library, inquiry: Inquiry) -> Response:
+        """What there is to learn before requests of this kind are quick."""
+        if self.lesson is None:
+            raise NotImplementedError
+        loaded = library.get(inquiry.robot)
+        return self.lesson.taught(loaded, self._parse(inquiry.query, inquiry.body, inquiry.npy))
 
     def _told(self, call: _Request, outcome: Outcome, wanted: str) -> Response:
         """The answer; what the metrics count of it is left behind."""

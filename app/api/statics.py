@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from app.api.loads import (
+    MECHANISM,
     chain_of,
     gravity_of,
     load_of,
@@ -19,7 +20,7 @@ from app.api.loads import (
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.ik.task import DIRECTIONS, Direction
-from app.kinematics.mechanism import known_mechanism, mechanism
+from app.kinematics.mechanism import mechanism
 from app.kinematics.statics import (
     Balance,
     Statics,
@@ -70,9 +71,9 @@ def statics_operation(max_answer_numbers: int) -> Operation:
         return _outcome(loaded, call, max_answer_numbers)
 
     def attempt(loaded: LoadedRobot, call: StaticsRequest) -> Outcome | None:
-        """The same where all is at hand; None where it has to be made ready first, or is large."""
-        known = known_mechanism(loaded.robot, chain_of(loaded.robot, call))
-        return None if known is None or len(known.bodies) > _QUICK_BODIES else run(loaded, call)
+        """The same for a few bodies; None for many."""
+        bodies = mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies
+        return None if len(bodies) > _QUICK_BODIES else run(loaded, call)
 
     return Operation(
         name="statics",
@@ -85,6 +86,7 @@ def statics_operation(max_answer_numbers: int) -> Operation:
             array_field="joint_positions",
             is_heavy=lambda call: len(call.joint_positions) > _QUICK_CONFIGURATIONS or _wants_subspaces(call),
             attempt=attempt,
+            lesson=MECHANISM,
         ),
         answer=StaticsAnswer,
         npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",

@@ -197,6 +197,13 @@ def is_looked_at(chain: Chain, task: Task = FULL_POSE) -> bool:
     return bool(_recognised(chain, task))
 
 
+def look_at(chain: Chain, task: Task, found: ClosedForm | None) -> None:
+    """Take over what `closed_form` has found in another process, of the same chain."""
+    holder = _recognised(chain, task)
+    if not holder:
+        holder.append(None if found is None else replace(found, chain=chain))
+
+
 @lru_cache(maxsize=1024)
 def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: ARG001
     """Where what is recognised is kept: empty until then."""
