@@ -9,6 +9,8 @@ from app.api.loads import (
     chain_of,
     entries,
     gravity_of,
+    has_few_bodies,
+    is_quick,
     load_of,
     unused_frame,
     weight_notes,
@@ -30,9 +32,6 @@ from app.model.robot import Robot
 from app.schemas.dynamics import DynamicsAnswer, DynamicsOptions, DynamicsRequest
 from app.store.records import LoadedRobot
 
-_QUICK_CONFIGURATIONS = 1
-_QUICK_BODIES = 8
-"""What takes the event loop less than about a millisecond; more goes to a thread."""
 _FIELDS = {
     "mass_matrix": "mass_matrices",
     "coriolis_matrix": "coriolis_matrices",
@@ -64,8 +63,7 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
 
     def attempt(loaded: LoadedRobot, call: DynamicsRequest) -> Outcome | None:
         """The same for a few bodies; None for many."""
-        bodies = mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies
-        return None if len(bodies) > _QUICK_BODIES else run(loaded, call)
+        return run(loaded, call) if has_few_bodies(loaded, call) else None
 
     return Operation(
         name="dynamics",
@@ -76,7 +74,7 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
             request=DynamicsRequest,
             options=DynamicsOptions,
             array_field="joint_positions",
-            is_heavy=lambda call: len(call.joint_positions) > _QUICK_CONFIGURATIONS or call.wrenches is not None,
+            is_heavy=lambda call: not is_quick(call) or call.wrenches is not None,
             attempt=attempt,
             lesson=MECHANISM,
         ),

@@ -13,13 +13,16 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, UnknownFrame, listed
 from app.model.robot import Robot
-from app.schemas.statics import PayloadInfo, WrenchOptions, WrenchRequest
+from app.schemas.dynamics import DynamicsRequest
+from app.schemas.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from app.store.records import LoadedRobot
 
 DRAWN_MASSES = (
     "a DH table says nothing of masses: the links weigh what the bodies drawn for it would in aluminium, which are "
     "placeholders; for real numbers upload a URDF with `inertial` elements"
 )
+
+_QUICK_BODIES = 8
 
 
 def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
@@ -51,6 +54,16 @@ def _learn(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
 
 MECHANISM: Lesson[Any] = Lesson(_is_known, _find, _learn)
 """The mechanism of a chain, which takes some milliseconds to make."""
+
+
+def is_quick(call: StaticsRequest | DynamicsRequest) -> bool:
+    """Whether it may take the event loop less than about a millisecond."""
+    return len(call.joint_positions) == 1 and call.payload is None
+
+
+def has_few_bodies(loaded: LoadedRobot, call: WrenchOptions) -> bool:
+    """The same of the mechanism, which must be known."""
+    return len(mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies) <= _QUICK_BODIES
 
 
 def gravity_of(value: bool | Sequence[float]) -> Array | None:

@@ -10,6 +10,8 @@ from app.api.loads import (
     MECHANISM,
     chain_of,
     gravity_of,
+    has_few_bodies,
+    is_quick,
     load_of,
     one_each,
     unused_frame,
@@ -38,9 +40,6 @@ from app.model.errors import InvalidField, TooLarge
 from app.schemas.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from app.store.records import LoadedRobot
 
-_QUICK_CONFIGURATIONS = 2
-_QUICK_BODIES = 8
-"""What takes the event loop less than about a millisecond; more goes to a thread."""
 _MOST_SPLITS = 20_000
 """Configurations whose subspaces one call needs: each is a decomposition of its own."""
 _OF_THE_TIP = frozenset({"twists", "wrenches"})
@@ -72,8 +71,7 @@ def statics_operation(max_answer_numbers: int) -> Operation:
 
     def attempt(loaded: LoadedRobot, call: StaticsRequest) -> Outcome | None:
         """The same for a few bodies; None for many."""
-        bodies = mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies
-        return None if len(bodies) > _QUICK_BODIES else run(loaded, call)
+        return run(loaded, call) if has_few_bodies(loaded, call) else None
 
     return Operation(
         name="statics",
@@ -84,7 +82,7 @@ def statics_operation(max_answer_numbers: int) -> Operation:
             request=StaticsRequest,
             options=StaticsOptions,
             array_field="joint_positions",
-            is_heavy=lambda call: len(call.joint_positions) > _QUICK_CONFIGURATIONS or _wants_subspaces(call),
+            is_heavy=lambda call: not is_quick(call) or _wants_subspaces(call),
             attempt=attempt,
             lesson=MECHANISM,
         ),

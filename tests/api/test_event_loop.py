@@ -26,7 +26,7 @@ from tests.api.test_openapi import OPERATIONS
 from tests.test_connections import HOST, served
 
 LONGEST = 2e-3
-RUNS = 25
+RUNS = 50
 SQUARES, SQUARES_SECONDS = 20_000, 0.8e-3
 """Squares that a quiet core of our time adds up in Python, and the time that it takes."""
 

@@ -299,15 +299,13 @@ class Answer(NamedTuple):
 
 
 async def asked(url: str, request: bytes, until: float) -> AsyncGenerator[Answer]:
-    """The answers to one request after the other, on one connection while it lasts."""
+    """The answers to one request after the other, on one connection for as long as the service leaves it open."""
     port, reader, writer = int(url.rsplit(":", 1)[1]), None, None
     try:
         while time.perf_counter() < until:
             began = time.perf_counter()
             try:
-                if (
-                    reader is None or writer is None or reader.at_eof()
-                ):  # the service closes a connection that is idle for long
+                if reader is None or writer is None or reader.at_eof():
                     await closed(writer)
                     reader, writer = await asyncio.open_connection(HOST, port)
                 writer.write(request)
