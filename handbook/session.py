@@ -117,9 +117,9 @@ class Session:
         exec(compile(ast.Module(before, []), "page", "exec"), self._names)  # noqa: S102 - the project's own pages
         return eval(compile(ast.fix_missing_locations(ast.Expression(last)), "page", "eval"), self._names)  # noqa: S307
 
-    def _print(self, *values: Any) -> None:
+    def _print(self, *values: Any, **options: Any) -> None:
         """`print` with numbers as the page writes them."""
-        print(*(written(value, self._digits) for value in values))
+        print(*(written(value, self._digits) for value in values), **options)
 
 
 def kind_of(error: KinematicsError) -> str:

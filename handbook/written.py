@@ -101,7 +101,7 @@ def _is_matrix(value: list[Any]) -> bool:
 def _matrix(value: list[list[Any]], digits: int) -> Iterator[str]:
     largest = max(abs(number) for row in value for number in row)
     places = _places(largest, digits) if any(isinstance(number, float) for row in value for number in row) else 0
-    cells = [[f"{number:.{places}f}" for number in row] for row in value]
+    cells = [["0" if _is_rounding(number, largest) else f"{number:.{places}f}" for number in row] for row in value]
     widths = [max(len(cell) for cell in column) for column in zip(*cells, strict=True)]
     for row in cells:
         yield f"[{'  '.join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))}]"
@@ -124,7 +124,11 @@ def _leaf(value: Any, digits: int) -> str:
 def _number(value: float, digits: int, largest: float) -> str:
     if isinstance(value, int):
         return str(value)
-    return "0" if abs(value) <= _ROUNDING * largest else f"{value:.{digits}g}"
+    return "0" if _is_rounding(value, largest) else f"{value:.{digits}g}"
+
+
+def _is_rounding(value: float, largest: float) -> bool:
+    return abs(value) <= _ROUNDING * largest
 
 
 def _is_number(value: Any) -> bool:
