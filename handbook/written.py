@@ -83,7 +83,7 @@ def _lines(value: Any, digits: int) -> Iterator[str]:
 def _labelled(label: str, value: Any, digits: int) -> Iterator[str]:
     """A label, and on its line what has one line, else below it."""
     lines = list(_lines(value, digits))
-    if len(lines) == 1 and not isinstance(value, dict):
+    if len(lines) == 1 and not isinstance(value, dict) and not lines[0].startswith("- "):
         yield f"{label} {lines[0]}"
         return
     if label != "-":
