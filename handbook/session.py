@@ -15,7 +15,7 @@ from app.calls.call import JSON, Call
 from app.cli.local import InProcess
 from app.client import DEFAULT_URL, Client
 from app.model.errors import KinematicsError
-from handbook.written import DIGITS, written
+from handbook.written import DIGITS, in_line, written
 
 T = TypeVar("T")
 
@@ -119,7 +119,7 @@ class Session:
 
     def _print(self, *values: Any, **options: Any) -> None:
         """`print` with numbers as the page writes them."""
-        print(*(written(value, self._digits) for value in values), **options)
+        print(*(in_line(value, self._digits) for value in values), **options)
 
 
 def kind_of(error: KinematicsError) -> str:

@@ -25,6 +25,19 @@ def written(value: Any, digits: int = DIGITS) -> str:
     return "\n".join(_lines(_plain(value), digits))
 
 
+def in_line(value: Any, digits: int = DIGITS) -> str:
+    """The same in one line."""
+    match _plain(value):
+        case dict() as fields:
+            return f"{{{', '.join(f'{key}: {in_line(item, digits)}' for key, item in fields.items())}}}"
+        case list() as items if any(isinstance(item, dict | list) for item in items):
+            return f"[{', '.join(in_line(item, digits) for item in items)}]"
+        case list() as items:
+            return f"[{', '.join(_row(items, digits))}]"
+        case leaf:
+            return _leaf(leaf, digits)
+
+
 def disagreement(stated: str, value: Any) -> str | None:
     """How what a page states differs from a value; None where it does not.
 

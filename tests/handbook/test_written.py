@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from handbook.written import disagreement, written
+from handbook.written import disagreement, in_line, written
 
 
 def test_numbers_have_significant_digits() -> None:
@@ -22,6 +22,14 @@ def test_an_object_is_written_by_its_fields() -> None:
     value = {"status": "solved", "solutions": [{"q": [0.1, 0.2], "branch": {"elbow": "up"}}], "empty": []}
     lines = ["status: solved", "solutions:", "  - q: [0.1, 0.2]", "    branch:", "      elbow: up", "empty: []"]
     assert written(value) == "\n".join(lines)
+
+
+def test_what_is_printed_stays_in_its_line() -> None:
+    assert in_line({"status": "solved", "rings": [[0.0, 0.4], [0.6, 1.4]]}) == (
+        "{status: solved, rings: [[0, 0.4], [0.6, 1.4]]}"
+    )
+    assert in_line([1.0, 1e-17]) == "[1, 0]"
+    assert in_line("text") == "text"
 
 
 @pytest.mark.parametrize(
