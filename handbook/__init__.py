@@ -4,5 +4,6 @@
 - `session`: runs the calls of a page against the service in this process. `written`: values as a reader sees them;
   whether a stated value is what a call gives.
 - `directives`: `run`, `formula`, `picture`, `exercise`, `answer` and the role `is`; `docs/writing.md` tells their use.
+- `reference`: the directives `operations`, `objects` and `problems`, written from the service's own schema.
 - `site`: what must hold of the built pages: links, navigation, nothing from another host.
 """

@@ -11,7 +11,7 @@ author = "the authors of Gelenk"
 html_title = "Gelenk handbook"
 language = "en"
 
-extensions = ["myst_parser", "handbook.directives", "handbook.mathematics"]
+extensions = ["myst_parser", "handbook.directives", "handbook.mathematics", "handbook.reference"]
 source_suffix = {".md": "markdown"}
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3

@@ -3,7 +3,6 @@
 One service answers all pages of a build; each page is a session of its own.
 """
 
-from functools import cache
 from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
@@ -13,7 +12,7 @@ from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
-from handbook.session import RecordingClient, Session, Unexpected
+from handbook.session import Session, Unexpected, end_service, service
 from handbook.written import DIGITS, disagreement
 
 _PICTURES = "_pictures"
@@ -35,26 +34,19 @@ def setup(app: Sphinx) -> dict[str, Any]:
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}
 
 
-@cache
-def _service() -> RecordingClient:
-    return RecordingClient()
-
-
 def _begin(_: Sphinx, page: str, __: list[str]) -> None:
     _sessions.pop(page, None)
 
 
 def _end(_: Sphinx, __: Exception | None) -> None:
     _sessions.clear()
-    if _service.cache_info().currsize:
-        _service().close()
-        _service.cache_clear()
+    end_service()
 
 
 def session_of(page: str) -> Session:
     """That of a page, begun where it is first needed."""
     if page not in _sessions:
-        _sessions[page] = Session(_service())
+        _sessions[page] = Session(service())
     return _sessions[page]
 
 

@@ -1,10 +1,12 @@
 """The calls of the pages, run against the service in this very process while the handbook is built."""
 
 import ast
+import json
 import shlex
 from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import dataclass
+from functools import cache
 from io import StringIO
 from typing import Any, TypeVar
 from urllib.parse import urlencode
@@ -35,6 +37,23 @@ class RecordingClient(Client):
         """The answer to a call."""
         self.calls.append(call)
         return super().send(call)
+
+    def schema(self) -> Any:
+        """The service's description of itself (OpenAPI)."""
+        return super().send(Call("GET", "openapi.json", lambda reply: json.loads(reply.body)))
+
+
+@cache
+def service() -> RecordingClient:
+    """The one service of a build, started when it is first needed."""
+    return RecordingClient()
+
+
+def end_service() -> None:
+    """Close it, if there is one."""
+    if service.cache_info().currsize:
+        service().close()
+        service.cache_clear()
 
 
 @dataclass(frozen=True, slots=True)
