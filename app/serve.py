@@ -89,7 +89,10 @@ def metrics_folder(workers: int) -> Iterator[None]:
         return
     with tempfile.TemporaryDirectory(prefix="gelenk-metrics-") as folder:
         os.environ["PROMETHEUS_MULTIPROC_DIR"] = folder
-        yield
+        try:
+            yield
+        finally:
+            del os.environ["PROMETHEUS_MULTIPROC_DIR"]
 
 
 def is_loopback(host: str) -> bool:

@@ -1,0 +1,75 @@
+"""Commands that no test can run are at least such as there are, with options that there are and settings that count."""
+
+import re
+import runpy
+import shlex
+from pathlib import Path
+
+import pytest
+
+from app import keys
+from app.settings import Settings
+from tests.documents.blocks import PAGES, console, shell
+from tests.test_serve import started_with
+
+DEV: set[str] = set(re.findall(r'^        "(\w+)": \w+,$', Path("dev").read_text(encoding="utf-8"), re.MULTILINE))
+BENCHMARKS: set[str] = set(
+    re.findall(r'^    "([\w-]+)": [\w.]+,$', Path("tests/benchmarks/__main__.py").read_text(), re.MULTILINE)
+) | {"ik"}
+ALL = [(page, line) for page in PAGES for line in (*shell(page), *(command.line for command in console(page)))]
+MENTIONED = [
+    (page, words)
+    for page in PAGES
+    for words in re.findall(r"`(?:[A-Z_]+=\S+ )*\./dev ([^`\n]+)`", page.read_text(encoding="utf-8"))
+]
+
+
+def test_the_commands_are_found() -> None:
+    assert {"serve", "test", "handbook", "wheelhouse"} <= DEV
+    assert {"ik-all", "load", "batch"} <= BENCHMARKS
+    assert len(ALL) >= 15
+    assert len(MENTIONED) >= 25
+
+
+@pytest.mark.parametrize(("page", "line"), ALL, ids=lambda part: str(part)[:40])
+def test_a_command_is_one(page: Path, line: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    words = shlex.split(line, comments=True)
+    settings = {}
+    while "=" in words[0]:
+        name, _, value = words.pop(0).partition("=")
+        settings[name] = value
+    Settings.from_environment(settings)
+    monkeypatch.chdir(tmp_path)
+    match words:
+        case ["./dev", "serve", *arguments]:
+            if "GELENK_API_KEYS" in settings:
+                made = tmp_path / "keys"
+                monkeypatch.setattr("sys.argv", ["keys", "anna", "--file", str(made)])
+                keys.main()
+                settings["GELENK_API_KEYS"] = str(made)
+            monkeypatch.setattr("app.serve.find_spec", lambda _: True)  # a package that ./dev serve installs
+            started_with(monkeypatch, *arguments, **settings)
+        case ["./dev", "keys", *arguments]:
+            monkeypatch.setattr("sys.argv", ["keys", *arguments])
+            keys.main()
+        case ["./dev", "test"] | ["./dev", "gelenk", *_] | ["curl", *_]:
+            pass  # what a page says of the last two is run in `test_calls`
+        case ["ray", "start", *arguments]:
+            assert "--disable-usage-stats" in arguments
+        case _:
+            pytest.fail(f"{page}: nobody knows the command {words[0]}")
+
+
+@pytest.mark.parametrize(("page", "words"), MENTIONED, ids=lambda part: str(part)[:40])
+def test_what_is_mentioned_is_there(page: Path, words: str) -> None:
+    command, *arguments = words.split()
+    assert command in DEV, page
+    if command == "bench":
+        assert set(arguments) <= BENCHMARKS
+    if command == "test":
+        assert all(Path(argument).exists() for argument in arguments if argument.startswith("tests/"))
+
+
+def test_dev_tells_of_each_of_its_commands() -> None:
+    told = runpy.run_path("dev")["__doc__"]
+    assert {name for name in DEV if f"./dev {name} " not in told} == set()
