@@ -1,15 +1,18 @@
 """What the schema says beside what FastAPI reads from the signatures: problems, npy bodies, examples."""
 
+from copy import deepcopy
 from http import HTTPStatus
 from typing import Annotated, Any
 
 from fastapi import FastAPI, Header, Path
 from fastapi.openapi.utils import get_openapi
+from pydantic import TypeAdapter
 
 from app.api.access.scopes import SCHEME, security_of
 from app.api.payloads import CSV, NPY, PNG, SVG
 from app.api.problems import MEDIA_TYPE
 from app.schemas.jobs import JobInfo
+from app.schemas.kinematics import ByName, Configuration
 from app.schemas.problem import Problem
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
@@ -38,6 +41,15 @@ JOB_BEGUN: dict[int | str, dict[str, Any]] = {
 
 BY_THE_CREW = (429, 500, 503, 504)
 """Statuses of whatever a process of the crew may have to answer."""
+
+_NAMED: dict[str, tuple[dict[str, Any], str]] = {
+    "Configuration": (
+        TypeAdapter(Configuration).json_schema(),
+        "One number a joint of the chain, base to tip, or an object of values by joint name.",
+    ),
+    "JointValues": (TypeAdapter(ByName).json_schema(), "Values by joint name; a joint that is left out is an error."),
+}
+"""Schemas that stand in many places, and what is said of each where it has its name."""
 
 _PROBLEM = {"$ref": "#/components/schemas/Problem"}
 
@@ -72,6 +84,15 @@ def picture_content(description: str | None) -> dict[str, Any]:
     return {kind: {"schema": {"type": "string", "format": "binary", "description": description}} for kind in (SVG, PNG)}
 
 
+def without_null(schema: dict[str, Any]) -> None:
+    """Take null out of what a parameter or a field of a form may be: neither has a way to write it."""
+    choices = schema.get("anyOf", [])
+    given = [choice for choice in choices if choice != {"type": "null"}]
+    if len(given) == 1 < len(choices):
+        del schema["anyOf"]
+        schema |= given[0]
+
+
 def describe(app: FastAPI, has_keys: bool) -> None:
     """Make the application write its schema once, with problems in the place of FastAPI's own validation error.
 
@@ -97,15 +118,38 @@ def describe(app: FastAPI, has_keys: bool) -> None:
             problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
             components.update(problem.pop("$defs"))
             components["Problem"] = problem
+            _name_what_is_shared(schema)
             schema["components"]["securitySchemes"] = {"key": SCHEME}
             for path, operations in schema["paths"].items():
                 for method, operation in operations.items():
                     _replace_validation_error(operation)
+                    for parameter in operation.get("parameters", ()):
+                        without_null(parameter["schema"])
                     _add_refusals(operation, security_of(path, method, operation), has_keys)
             app.openapi_schema = schema
         return app.openapi_schema
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _name_what_is_shared(schema: dict[str, Any]) -> None:
+    """Give the schemas of `_NAMED` their names, so that a generated client has one type for each."""
+    _refer(schema)
+    for name, (shared, description) in _NAMED.items():
+        definition = {"title": name, "description": description, **deepcopy(shared)}
+        _refer(definition)
+        schema["components"]["schemas"][name] = definition
+
+
+def _refer(part: Any) -> None:
+    """Put references in the place of what has a name, anywhere inside."""
+    for entry in part.values() if isinstance(part, dict) else part if isinstance(part, list) else ():
+        for name, (shared, _) in _NAMED.items():
+            if isinstance(entry, dict) and shared.items() <= entry.items():
+                for key in shared:
+                    del entry[key]
+                entry["$ref"] = f"#/components/schemas/{name}"
+        _refer(entry)
 
 
 def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:

@@ -13,7 +13,7 @@ from starlette.datastructures import UploadFile
 from starlette.responses import StreamingResponse
 
 from app.api.errand import Desk, Inquiry, buffers
-from app.api.openapi import BY_THE_CREW, RobotPath, UploadedRobotPath, json_example, problem_responses
+from app.api.openapi import BY_THE_CREW, RobotPath, UploadedRobotPath, json_example, problem_responses, without_null
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
 from app.api.remote import Remote
@@ -367,6 +367,8 @@ def _summary(library: Library, record: Record) -> RobotSummary | None:
 def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
     """A form with these fields and an archive, as a further content of a request."""
     schema = fields.model_json_schema()
+    for field in schema["properties"].values():
+        without_null(field)
     schema["properties"]["archive"] = {
         "type": "string",
         "format": "binary",

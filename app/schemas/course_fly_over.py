@@ -52,7 +52,7 @@ class FlyOverRequest(Payload):
     )
 
 
-class BlendInfo(Answer):
+class FlyOverBlend(Answer):
     """The parabola at the corner."""
 
     blend_time: float = Field(description="ΔT, [s]; 0 where no velocity has to change.")
@@ -121,7 +121,7 @@ class FlyOverAnswer(Answer):
     """All about a corner that is passed without a stop."""
 
     given: Given = Field(description="The quantity that determined the blend.")
-    blend: BlendInfo
+    blend: FlyOverBlend
     rest_to_rest: RestToRestInfo | None = Field(description="Null without `rest_acceleration`.")
     motion: MotionInfo | None = Field(description="Null where a blend alone takes no time.")
     samples: FlyOverSamples | None = Field(description="Null where none were asked for, or there is no motion.")

@@ -45,7 +45,7 @@ SampleTimes = Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, 
 SampleCount = Annotated[int, Field(ge=2, le=MAX_SAMPLES)]
 
 
-class JointLimits(Payload):
+class MotionLimits(Payload):
     """What each joint may do at most; a number alone stands for all joints."""
 
     joint_velocity: Bounds | None = Field(None, description="|q̇|, > 0, [rad/s or m/s].")
@@ -62,7 +62,7 @@ class SampledRequest(Payload):
     sample_times: SampleTimes | None = Field(
         None, description="Instead of `samples`: the times, none outside the motion, [s]."
     )
-    limits: JointLimits | None = Field(
+    limits: MotionLimits | None = Field(
         None, description="Limits of each joint: peaks are told as ratios to them, and pictures show them."
     )
 

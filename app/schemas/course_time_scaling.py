@@ -6,7 +6,15 @@ from pydantic import Field
 
 from app.schemas.common import Answer
 from app.schemas.course_components import Steps, Warnings
-from app.schemas.course_motion import Coordinates, Duration, JointLimits, MotionAnswer, SampledRequest, Times, Waypoints
+from app.schemas.course_motion import (
+    Coordinates,
+    Duration,
+    MotionAnswer,
+    MotionLimits,
+    SampledRequest,
+    Times,
+    Waypoints,
+)
 from app.trajectory.splines import Boundary
 from app.trajectory.time_scaling import Quantity
 
@@ -14,7 +22,7 @@ from app.trajectory.time_scaling import Quantity
 class TimeScalingRequest(SampledRequest):
     """A motion by a time law (`displacement`, `duration`), or through samples (`times`, `waypoints`); and limits."""
 
-    limits: JointLimits = Field(description="At least one of them.")
+    limits: MotionLimits = Field(description="At least one of them.")
     law: Literal["cubic", "quintic", "septic"] = Field(
         "cubic", description="From rest to rest; of a motion by `displacement`."
     )

@@ -58,7 +58,7 @@ class ManipulabilityOptions(ChainOptions):
     respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
 
 
-class JointLimits(Payload):
+class RateAndEffortLimits(Payload):
     """Limits of the chain's joints in place of those of the robot's description; each number is positive."""
 
     joint_velocity: Configuration | None = Field(
@@ -81,7 +81,7 @@ class ManipulabilityRequest(ManipulabilityOptions):
         "counts, their length has no unit.",
         examples=[[[1.0, 0.0, 0.0]]],
     )
-    limits: JointLimits | None = Field(None, description="For `polytopes`: limits other than the robot's own.")
+    limits: RateAndEffortLimits | None = Field(None, description="For `polytopes`: limits other than the robot's own.")
 
 
 class SpaceInfo(Answer):

@@ -49,7 +49,7 @@ class DampingInfo(Answer):
     angle: float = Field(description="At most, [rad].")
 
 
-class BlendInfo(Answer):
+class SegmentBlend(Answer):
     """How a line went over into the next."""
 
     radius: float = Field(description="Distance from the corner at which the line is left, [m].")
@@ -72,7 +72,7 @@ class TrajectorySegmentInfo(Answer):
     length: float | None = Field(description="Of the tip's way, [m]; null of a joint motion.")
     angle: float | None = Field(description="By which the tip turns on it, [rad]; null of a joint motion.")
     blended: bool = Field(description="Whether it is left for the next without a stop.")
-    blend: BlendInfo | None = Field(description="How; null also where the motion does not get that far.")
+    blend: SegmentBlend | None = Field(description="How; null also where the motion does not get that far.")
     joint_deviation: DampingInfo | None = Field(description="From the way, where joints were damped.")
     limits: MotionLimitsInfo = Field(description="Its own; of lines that are blended the tightest of all count.")
     notes: list[str] = Field(description="What else is to be known.")

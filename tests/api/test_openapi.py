@@ -39,6 +39,18 @@ def test_ids_are_unique() -> None:
     assert len(set(ids)) == len(ids)
 
 
+def test_a_generated_client_finds_a_name_for_everything() -> None:
+    """Two models of one name would be told apart by their modules; what cannot be written is not offered."""
+    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    assert [name for name in schemas if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)] == []
+    null = {"type": "null"}
+    for _, _, operation in OPERATIONS:
+        assert all(null not in one["schema"].get("anyOf", []) for one in operation.get("parameters", []))
+        form = operation.get("requestBody", {}).get("content", {}).get("multipart/form-data")
+        fields = form["schema"]["properties"].values() if form else []
+        assert all(null not in field.get("anyOf", []) for field in fields)
+
+
 def test_every_example_runs_as_it_stands(client: TestClient) -> None:
     """In the order of the methods, so that what POST adds is there to be replaced and removed."""
     for path, method, operation in OPERATIONS:
@@ -56,6 +68,8 @@ def test_every_example_runs_as_it_stands(client: TestClient) -> None:
 
 def holds_numbers(schema: dict[str, Any]) -> bool:
     """Whether a field's schema is a number, or lists or choices of numbers."""
+    if schema.get("$ref", "").endswith(("/Configuration", "/JointValues")):
+        return True
     parts = [schema, *schema.get("anyOf", []), *schema.get("oneOf", []), schema.get("items", {})]
     if any(part.get("type") in {"number", "integer"} for part in parts):
         return True
