@@ -3,9 +3,12 @@
     >>> with Client("http://127.0.0.1:8000") as gelenk:
     ...     answer = gelenk.fk("planar_2r", joint_positions=[[0.3, 0.8]])
     ...     poses = gelenk.arrays.fk("planar_2r", qs)  # NumPy in, NumPy out, for large batches
+    ...     with gelenk.jobs.ik("panda", targets=targets) as job:  # for what takes long
+    ...         found = job.result(lambda info: print(info.progress))
 
-Every operation of the API is a method with its types (`app.calls.operations`). What the service refuses is raised as
-the core's own exception; a call is sent again where that is safe.
+Every operation of the API is a method with its types (`app.calls.operations`). An array in the place of a list of
+configurations or targets goes as npy by itself. What the service refuses is raised as the core's own exception; a call
+is sent again where that is safe.
 """
 
 import asyncio
@@ -20,9 +23,11 @@ from typing import Any, Self, TypeVar
 import httpx2
 import orjson
 
-from app.calls.arrays import ArrayOperations
+from app.calls.arrays import Arrays, AsyncArrays
 from app.calls.call import Call, Reply
-from app.calls.operations import Operations, segment
+from app.calls.exchange import segment
+from app.calls.jobs import AsyncJobs, Jobs
+from app.calls.operations import Operations
 from app.calls.refusals import NotAnswering, refusal
 from app.schemas.jobs import JobInfo
 
@@ -117,28 +122,6 @@ class _Patience:
         return _FIRST_PAUSE * 2.0**self._tried * random.uniform(0.5, 1.0)  # noqa: S311 - spreads clients, hides nothing
 
 
-class Arrays(ArrayOperations):
-    """The operations on large batches, of a client that waits."""
-
-    def __init__(self, client: "Client") -> None:
-        self._client = client
-
-    def send(self, call: Call[T]) -> T:
-        """As the client's."""
-        return self._client.send(call)
-
-
-class AsyncArrays(ArrayOperations):
-    """The operations on large batches, awaited."""
-
-    def __init__(self, client: "AsyncClient") -> None:
-        self._client = client
-
-    async def send(self, call: Call[T]) -> T:
-        """As the client's."""
-        return await self._client.send(call)
-
-
 class Client(Operations):
     """The service, asked one call after the other; may be used by several threads.
 
@@ -154,7 +137,7 @@ class Client(Operations):
         settings = _Settings(url, key)
         self.url = settings.url
         self._http = httpx2.Client(**settings.options(transport))
-        self.arrays = Arrays(self)
+        self.arrays, self.jobs = Arrays(self), Jobs(self)
 
     def __enter__(self) -> Self:
         return self
@@ -222,7 +205,7 @@ class AsyncClient(Operations):
         settings = _Settings(url, key)
         self.url = settings.url
         self._http = httpx2.AsyncClient(**settings.options(transport))
-        self.arrays = AsyncArrays(self)
+        self.arrays, self.jobs = AsyncArrays(self), AsyncJobs(self)
 
     async def __aenter__(self) -> Self:
         return self

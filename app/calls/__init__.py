@@ -1,6 +1,7 @@
 """The calls of the service as data: what `app.client` sends.
 
-- `operations`: what the service can be asked, described once for both clients; `arrays`: the same of large batches.
-- `call`: a call, and how a description becomes a method.
+- `operations`: what the service can be asked, described once for both clients, of it `kept` what the service keeps.
+- `arrays`: the same of large batches; `jobs`: the same as jobs.
+- `call`: a call, and how a description becomes a method; `exchange`: its JSON; `npy`: its arrays.
 - `refusals`: a problem on the wire, turned back into the core's own exception.
 """

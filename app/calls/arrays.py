@@ -1,16 +1,15 @@
 """Operations on large batches: NumPy in, NumPy out, nothing but numbers on the wire."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from io import BytesIO
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import Concatenate, ParamSpec, TypeVar
 
-import numpy as np
 from pydantic import BaseModel
 
-from app.calls.call import NPY, ROBOT, Call, Reply, Sent, documented
-from app.calls.operations import encoded, segment
+from app.calls.call import NPY, ROBOT, Awaited, Blocking, Call, Reply, Sent, documented
+from app.calls.exchange import encoded, segment
+from app.calls.npy import packed, query_of, unpacked
 from app.model.arrays import Array
 from app.schemas.dynamics import DynamicsOptions
 from app.schemas.ik import InverseOptions
@@ -57,39 +56,16 @@ class Sampled:
     failure: str | None
 
 
-def _array(reply: Reply) -> Array:
-    array: Array = np.load(BytesIO(reply.body), allow_pickle=False)
-    return array
-
-
 def _reached(reply: Reply) -> Reached:
     rows = reply.headers["gelenk-unsolved-rows"]
     named = tuple(int(row) for row in rows.split(",") if row)
-    return Reached(_array(reply), int(reply.headers["gelenk-unsolved"]), named)
+    return Reached(unpacked(reply), int(reply.headers["gelenk-unsolved"]), named)
 
 
 def _sampled(reply: Reply) -> Sampled:
     headers, failure = reply.headers, reply.headers["gelenk-failure"]
     fraction = float(headers["gelenk-completed-fraction"])
-    return Sampled(_array(reply), float(headers["gelenk-duration"]), fraction, None if failure == "none" else failure)
-
-
-def _packed(array: Array) -> bytes:
-    """Numbers in NumPy's own format; whole ones travel as they are."""
-    stream = BytesIO()
-    np.save(stream, np.ascontiguousarray(array), allow_pickle=False)
-    return stream.getvalue()
-
-
-def _query(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options as parameters: what is left out, or none, is the service's to decide."""
-    return {name: _parameter(value) for name, value in options.items() if value is not None}
-
-
-def _parameter(value: Any) -> Any:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return [str(item) for item in value] if isinstance(value, list | tuple) else str(value)
+    return Sampled(unpacked(reply), float(headers["gelenk-duration"]), fraction, None if failure == "none" else failure)
 
 
 def _batch(
@@ -106,7 +82,7 @@ def _batch(
 
     def describe(robot: str, array: Array, /, *_: P.args, **fields: P.kwargs) -> Call[T]:
         path = f"v1/robots/{segment(robot)}/{name}"
-        return Call("POST", path, read, _query(fields), _packed(array), NPY, accept=NPY)
+        return Call("POST", path, read, query_of(fields), packed(array), NPY, accept=NPY)
 
     array = inspect.Parameter("array", inspect.Parameter.POSITIONAL_ONLY, annotation=Array)
     sentences = f"The operation `{name}` of a batch; the array holds {field}."
@@ -122,7 +98,7 @@ def _trajectory(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P]
 
 def _result(job: str) -> Call[Array]:
     """The array that came out of a job."""
-    return Call("GET", f"v1/jobs/{segment(job)}/result", _array, accept=NPY)
+    return Call("GET", f"v1/jobs/{segment(job)}/result", unpacked, accept=NPY)
 
 
 _POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
@@ -131,8 +107,8 @@ _POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
 class ArrayOperations:
     """The operations on a robot that take an array, and jobs that end with one."""
 
-    fk = _batch("fk", ForwardOptions, _POSITIONS, _array)
-    jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, _array)
+    fk = _batch("fk", ForwardOptions, _POSITIONS, unpacked)
+    jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, unpacked)
     ik = _batch(
         "ik",
         InverseOptions,
@@ -144,11 +120,33 @@ class ArrayOperations:
         VelocityOptions,
         "of each configuration the joint positions, velocities and further derivatives, shape (N, k, n), or with "
         "`inverse` what the API's reference says",
-        _array,
+        unpacked,
     )
-    statics = _batch("statics", StaticsOptions, _POSITIONS, _array)
-    dynamics = _batch("dynamics", DynamicsOptions, _POSITIONS, _array)
-    manipulability = _batch("manipulability", ManipulabilityOptions, _POSITIONS, _array)
-    singularities = _batch("singularities", SingularityOptions, _POSITIONS, _array)
+    statics = _batch("statics", StaticsOptions, _POSITIONS, unpacked)
+    dynamics = _batch("dynamics", DynamicsOptions, _POSITIONS, unpacked)
+    manipulability = _batch("manipulability", ManipulabilityOptions, _POSITIONS, unpacked)
+    singularities = _batch("singularities", SingularityOptions, _POSITIONS, unpacked)
     trajectory = Sent(_trajectory(TrajectoryRequest))
     job_result = Sent(_result)
+
+
+class Arrays(ArrayOperations):
+    """These of a client that waits."""
+
+    def __init__(self, client: Blocking) -> None:
+        self._client = client
+
+    def send(self, call: Call[T]) -> T:
+        """As the client's."""
+        return self._client.send(call)
+
+
+class AsyncArrays(ArrayOperations):
+    """These, awaited."""
+
+    def __init__(self, client: Awaited) -> None:
+        self._client = client
+
+    async def send(self, call: Call[T]) -> T:
+        """As the client's."""
+        return await self._client.send(call)

@@ -40,6 +40,7 @@ class Call(Generic[T]):
         form: Fields of a form, in the place of a body.
         files: The form's files.
         accept: Media type that the answer is wanted in.
+        is_later: Whether it is to be answered by a job.
         is_repeatable: Whether it may be sent again when nobody knows whether it was done: it leaves nothing behind, or
             the same thing as before.
     """
@@ -53,12 +54,14 @@ class Call(Generic[T]):
     form: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, bytes] = field(default_factory=dict)
     accept: str = JSON
+    is_later: bool = False
     is_repeatable: bool = True
 
     @property
     def headers(self) -> dict[str, str]:
         """Those of the request."""
-        return {"Accept": self.accept, **({"Content-Type": self.media_type} if self.body else {})}
+        content = {"Content-Type": self.media_type} if self.body else {}
+        return {"Accept": self.accept, **content, **({"Prefer": "respond-async"} if self.is_later else {})}
 
 
 class Blocking(Protocol):

@@ -3,18 +3,18 @@
 The fields of a call are those of the request in the API's reference, by name; types come from the same models.
 """
 
-import inspect
-from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, Concatenate, Literal, ParamSpec, TypeVar
-from urllib.parse import quote
+from collections.abc import Callable
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
-import orjson
 from pydantic import BaseModel
 
-from app.calls.call import ROBOT, Call, Reply, Sent, documented
-from app.schemas.common import Answer, ChainEnds
+from app.calls import kept
+from app.calls.call import NPY, ROBOT, Call, Sent
+from app.calls.exchange import described_by, posted, reader, segment
+from app.calls.npy import fits_query, packed, query_of
+from app.model.arrays import Array
+from app.schemas.common import Answer
 from app.schemas.compare import CompareAnswer, CompareRequest
 from app.schemas.course_components import (
     DcMotorAnswer,
@@ -43,12 +43,10 @@ from app.schemas.dh import (
     ToUrdfRequest,
 )
 from app.schemas.dynamics import DynamicsAnswer, DynamicsRequest
-from app.schemas.health import Health
 from app.schemas.ik import InverseAnswer, InverseRequest
-from app.schemas.jobs import JobInfo
 from app.schemas.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
 from app.schemas.manipulability import ManipulabilityAnswer, ManipulabilityRequest
-from app.schemas.robots import NewRobot, RobotInfo, RobotList, RobotReplacement
+from app.schemas.robots import NewRobot, RobotReplacement
 from app.schemas.singularity import SingularityAnswer, SingularityRequest
 from app.schemas.statics import StaticsAnswer, StaticsRequest
 from app.schemas.trajectory import TrajectoryRequest
@@ -60,41 +58,35 @@ P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
 
-def posted(path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
-    """A call with JSON in both directions."""
-    return Call("POST", path, reader(answer), body=encoded(fields), **details)
+def _operation(
+    name: str, request: Callable[P, BaseModel], answer: type[A], batch: str = ""
+) -> Sent[Concatenate[str, P], A]:
+    """`POST /v1/robots/{robot}/{name}`.
 
-
-def encoded(fields: Mapping[str, Any]) -> bytes:
-    """The fields of a request as JSON; arrays and models go as what they hold."""
-    return orjson.dumps(dict(fields), option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, BaseModel):
-        return value.model_dump(exclude_unset=True)
-    if isinstance(value, np.ndarray):  # one that orjson does not take: not contiguous, or of another type
-        return value.tolist()
-    raise TypeError(f"a {type(value).__name__} cannot be sent as JSON")
-
-
-def reader(answer: type[A]) -> Callable[[Reply], A]:
-    """How an answer is read; what a newer service tells beside it is left out."""
-    return lambda reply: answer.model_validate_json(reply.body, extra="ignore")
-
-
-def segment(name: str) -> str:
-    """A name as a part of a path."""
-    return quote(name, safe="")
-
-
-def _operation(name: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[Concatenate[str, P], A]:
-    """`POST /v1/robots/{robot}/{name}`."""
+    Args:
+        name: The operation's.
+        request: Its model.
+        answer: Its model.
+        batch: The field that goes as npy where it is an array, and all other fields fit into the query.
+    """
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
-        return posted(f"v1/robots/{segment(robot)}/{name}", fields, answer)
+        path = f"v1/robots/{segment(robot)}/{name}"
+        array, rest = fields.get(batch), {field: value for field, value in fields.items() if field != batch}
+        if isinstance(array, np.ndarray) and fits_query(rest):
+            return Call("POST", path, reader(answer), query_of(rest), packed(array), NPY)
+        if isinstance(array, np.ndarray) and batch == "targets":
+            return posted(path, {**rest, batch: _poses(array)}, answer)
+        return posted(path, fields, answer)
 
-    return Sent(_documented(describe, request, answer, ROBOT))
+    return Sent(described_by(describe, request, answer, ROBOT))
+
+
+def _poses(array: Array) -> list[dict[str, Any]]:
+    """Poses of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), as the API writes them."""
+    if array.ndim == 2:
+        return [{"position": row[:3], "quaternion_xyzw": row[3:]} for row in array.tolist()]
+    return [{"matrix": matrix} for matrix in array.tolist()]
 
 
 def _calculator(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:
@@ -103,194 +95,44 @@ def _calculator(path: str, request: Callable[P, BaseModel], answer: type[A]) -> 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
         return posted(f"v1/{path}", fields, answer)
 
-    return Sent(_documented(describe, request, answer))
-
-
-def _documented(
-    describe: Callable[P, Call[A]], request: Callable[..., BaseModel], answer: type[A], *before: inspect.Parameter
-) -> Callable[P, Call[A]]:
-    sentences = f"{inspect.getdoc(request)}\n\nReturns:\n    {answer.__name__}: {inspect.getdoc(answer)}"
-    return documented(describe, request, sentences, *before)
-
-
-def _robots() -> Call[RobotList]:
-    """All robots: those of the catalogue, and those that were uploaded."""
-    return Call("GET", "v1/robots", reader(RobotList))
-
-
-def _robot(robot: str) -> Call[RobotInfo]:
-    """A robot's joints, links, limits, licence and warnings."""
-    return Call("GET", f"v1/robots/{segment(robot)}", reader(RobotInfo))
-
-
-def _urdf(robot: str) -> Call[str]:
-    """A robot as URDF."""
-    return Call("GET", f"v1/robots/{segment(robot)}/urdf", lambda reply: reply.body.decode(), accept="application/xml")
-
-
-def _table(
-    robot: str,
-    convention: Literal["standard", "modified"] = "standard",
-    base_frame: str | None = None,
-    tip_frame: str | None = None,
-    snap_tolerance: float | None = None,
-) -> Call[FromUrdfAnswer]:
-    """A chain of a robot as a Denavit-Hartenberg table, with its certificate.
-
-    Args:
-        robot: Its name.
-        convention: Of the table.
-        base_frame: Of the chain; the default chain's if left out.
-        tip_frame: Of the chain; the default chain's if left out.
-        snap_tolerance: How far a number may be moved to one that a person would write; not at all if left out.
-    """
-    chosen = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
-    query = {"convention": convention, **{name: value for name, value in chosen.items() if value is not None}}
-    return Call("GET", f"v1/robots/{segment(robot)}/dh", reader(FromUrdfAnswer), query)
-
-
-def _mesh(robot: str, path: str) -> Call[bytes]:
-    """A mesh that a robot's URDF names; `meshes` of `robot` lists their paths."""
-    return Call("GET", f"v1/robots/{segment(robot)}/meshes/{quote(path)}", lambda reply: reply.body, accept="*/*")
-
-
-def _adding(request: Callable[P, NewRobot]) -> Callable[P, Call[RobotInfo]]:
-    def describe(*_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
-        return posted("v1/robots", fields, RobotInfo)  # the same bytes under the same name change nothing
-
-    return _documented(describe, request, RobotInfo)
-
-
-def _replacing(request: Callable[P, RobotReplacement]) -> Callable[Concatenate[str, P], Call[RobotInfo]]:
-    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
-        return Call("PUT", f"v1/robots/{segment(robot)}", reader(RobotInfo), body=encoded(fields))
-
-    return _documented(describe, request, RobotInfo, ROBOT)
-
-
-def _add_archive(
-    name: str, archive: bytes | Path, description: str = "", default_chain: ChainEnds | None = None
-) -> Call[RobotInfo]:
-    """Add a robot with its meshes: a zip of one URDF and the files that it names."""
-    fields = _archive_fields(description, default_chain, name=name)
-    return Call("POST", "v1/robots", reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
-
-
-def _replace_archive(
-    robot: str, archive: bytes | Path, description: str = "", default_chain: ChainEnds | None = None
-) -> Call[RobotInfo]:
-    """Replace an uploaded robot by a zip of one URDF and the files that it names."""
-    fields, path = _archive_fields(description, default_chain), f"v1/robots/{segment(robot)}"
-    return Call("PUT", path, reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
-
-
-def _archive_fields(description: str, chain: ChainEnds | None, **further: str) -> dict[str, str]:
-    ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    return {**further, "description": description, **ends}
-
-
-def content_of(file: bytes | Path) -> bytes:
-    """The bytes of a file that is given as such or by its path."""
-    return file.read_bytes() if isinstance(file, Path) else file
-
-
-def _remove(robot: str) -> Call[None]:
-    """Remove an uploaded robot."""
-    return Call("DELETE", f"v1/robots/{segment(robot)}", lambda _: None, is_repeatable=False)
-
-
-def _workspace(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], Call[JobInfo]]:
-    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[JobInfo]:
-        # Under a name of its own the same call finds the same job.
-        is_named = fields.get("job_id") is not None
-        return posted(f"v1/robots/{segment(robot)}/workspace", fields, JobInfo, is_repeatable=is_named)
-
-    return _documented(describe, request, JobInfo, ROBOT)
-
-
-def _job(job: str) -> Call[JobInfo]:
-    """How far a job is."""
-    return Call("GET", f"v1/jobs/{segment(job)}", reader(JobInfo))
-
-
-def _cancel(job: str) -> Call[JobInfo]:
-    """Cancel a job, or remove one that has come to its end."""
-    return Call("DELETE", f"v1/jobs/{segment(job)}", reader(JobInfo), is_repeatable=False)
-
-
-def _result(answer: type[A]) -> Callable[[str], Call[A]]:
-    def describe(job: str) -> Call[A]:
-        """What came out of a job of this kind."""
-        return Call("GET", f"v1/jobs/{segment(job)}/result", reader(answer))
-
-    return describe
-
-
-def _picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | None = None) -> Call[bytes]:
-    """An answer as a picture, where there is one.
-
-    Args:
-        path: Of the operation or of a job's result, such as `v1/robots/panda/trajectory`.
-        kind: Of picture.
-        fields: Of the request; None where there is none.
-    """
-    method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
-    return Call(method, path, lambda reply: reply.body, body=body, accept=_PICTURES[kind])
-
-
-def _health() -> Call[Health]:
-    """Whether the process lives."""
-    return Call("GET", "healthz", reader(Health))
-
-
-def _readiness() -> Call[Health]:
-    """Whether the service is ready for work; one that is not is asked a few times, then it is an error."""
-    return Call("GET", "readyz", reader(Health))
-
-
-def _metrics() -> Call[str]:
-    """What the service does, in numbers: Prometheus's text format."""
-    return Call("GET", "metrics", lambda reply: reply.body.decode(), accept="text/plain")
-
-
-_PICTURES = {"svg": "image/svg+xml", "png": "image/png"}
+    return Sent(described_by(describe, request, answer))
 
 
 class Operations:
     """The calls of the service as methods."""
 
-    robots = Sent(_robots)
-    robot = Sent(_robot)
-    urdf = Sent(_urdf)
-    dh_table = Sent(_table)
-    mesh = Sent(_mesh)
-    add_robot = Sent(_adding(NewRobot))
-    add_archive = Sent(_add_archive)
-    replace_robot = Sent(_replacing(RobotReplacement))
-    replace_archive = Sent(_replace_archive)
-    remove_robot = Sent(_remove)
+    robots = Sent(kept.robots)
+    robot = Sent(kept.robot)
+    urdf = Sent(kept.urdf)
+    dh_table = Sent(kept.table)
+    mesh = Sent(kept.mesh)
+    add_robot = Sent(kept.adding(NewRobot))
+    add_archive = Sent(kept.add_archive)
+    replace_robot = Sent(kept.replacing(RobotReplacement))
+    replace_archive = Sent(kept.replace_archive)
+    remove_robot = Sent(kept.remove)
 
-    fk = _operation("fk", ForwardRequest, ForwardAnswer)
-    jacobian = _operation("jacobian", JacobianRequest, JacobianAnswer)
-    ik = _operation("ik", InverseRequest, InverseAnswer)
+    fk = _operation("fk", ForwardRequest, ForwardAnswer, "joint_positions")
+    jacobian = _operation("jacobian", JacobianRequest, JacobianAnswer, "joint_positions")
+    ik = _operation("ik", InverseRequest, InverseAnswer, "targets")
     velocity = _operation("velocity", VelocityRequest, VelocityAnswer)
-    statics = _operation("statics", StaticsRequest, StaticsAnswer)
-    dynamics = _operation("dynamics", DynamicsRequest, DynamicsAnswer)
-    manipulability = _operation("manipulability", ManipulabilityRequest, ManipulabilityAnswer)
-    singularities = _operation("singularities", SingularityRequest, SingularityAnswer)
+    statics = _operation("statics", StaticsRequest, StaticsAnswer, "joint_positions")
+    dynamics = _operation("dynamics", DynamicsRequest, DynamicsAnswer, "joint_positions")
+    manipulability = _operation("manipulability", ManipulabilityRequest, ManipulabilityAnswer, "joint_positions")
+    singularities = _operation("singularities", SingularityRequest, SingularityAnswer, "joint_positions")
     trajectory = _operation("trajectory", TrajectoryRequest, TrajectoryAnswer)
 
-    workspace = Sent(_workspace(WorkspaceRequest))
-    workspace_result = Sent(_result(WorkspaceAnswer))
-    ik_result = Sent(_result(InverseAnswer))
-    trajectory_result = Sent(_result(TrajectoryAnswer))
-    job = Sent(_job)
-    cancel_job = Sent(_cancel)
-    picture = Sent(_picture)
+    workspace = Sent(kept.beginning(WorkspaceRequest))
+    workspace_result = Sent(kept.result(WorkspaceAnswer))
+    ik_result = Sent(kept.result(InverseAnswer))
+    trajectory_result = Sent(kept.result(TrajectoryAnswer))
+    job = Sent(kept.job)
+    cancel_job = Sent(kept.cancel)
+    picture = Sent(kept.picture)
 
-    health = Sent(_health)
-    readiness = Sent(_readiness)
-    metrics = Sent(_metrics)
+    health = Sent(kept.health)
+    readiness = Sent(kept.readiness)
+    metrics = Sent(kept.metrics)
 
     dh_to_urdf = _calculator("dh/to-urdf", ToUrdfRequest, ToUrdfAnswer)
     dh_from_urdf = _calculator("dh/from-urdf", FromUrdfRequest, FromUrdfAnswer)

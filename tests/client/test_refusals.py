@@ -1,5 +1,7 @@
 """What the service refuses is raised as the core's own exception; what may be sent again, and what may not."""
 
+import io
+import json
 import pickle
 from collections.abc import Callable
 from typing import Any
@@ -114,6 +116,7 @@ CALLS: dict[str, tuple[Callable[[Client], Any], bool]] = {
     "removed": (lambda client: client.remove_robot("arm"), False),
     "begun": (lambda client: client.workspace("arm"), False),
     "begun under a name": (NAMED_JOB, True),
+    "put off": (lambda client: client.jobs.ik("arm", targets=[]), False),
 }
 
 
@@ -174,6 +177,41 @@ def test_a_stream_that_breaks_off_goes_on(monkeypatch: pytest.MonkeyPatch) -> No
     line = Line(first, httpx2.ReadError("broken off"), said(200, job(0.6)), last)
     client, _ = line.client(monkeypatch)
     assert [info.progress for info in client.watch("mine")] == [0.5, 1.0]
+
+
+def test_an_array_goes_as_one_where_all_else_fits_into_the_query() -> None:
+    asked: list[httpx2.Request] = []
+
+    def answer(request: httpx2.Request) -> httpx2.Response:
+        asked.append(request)
+        return said(404, {"type": "urn:gelenk:unknown-robot", "status": 404, "detail": "there is no such robot"})
+
+    client, qs = Client("http://gelenk.invalid", transport=httpx2.MockTransport(answer)), np.array([[0.1, 0.2]])
+    options: list[dict[str, Any]] = [
+        {"joint_positions": qs, "tip_frame": "tool", "respect_limits": True, "frames": ["a", "b"]},
+        {"joint_positions": qs.tolist(), "tip_frame": "tool"},
+    ]
+    for fields in options:
+        with pytest.raises(Refused):
+            client.fk("arm", **fields)
+    with pytest.raises(Refused):
+        client.statics("arm", joint_positions=qs, payload={"mass": 1.0})  # type: ignore[arg-type]
+    with pytest.raises(Refused):
+        client.ik("arm", targets=np.eye(4)[None], seeds=qs.tolist())  # type: ignore[arg-type]
+    with pytest.raises(Refused):
+        client.jobs.ik("arm", targets=np.eye(4)[None])  # type: ignore[arg-type]
+    array, listed, nested, seeded, later = asked
+    assert np.array_equal(np.load(io.BytesIO(array.content)), qs)
+    assert dict(array.url.params.multi_items()) == {"tip_frame": "tool", "respect_limits": "true", "frames": "b"}
+    assert array.url.params.get_list("frames") == ["a", "b"]
+    assert json.loads(listed.content) == {"joint_positions": [[0.1, 0.2]], "tip_frame": "tool"}
+    assert json.loads(nested.content) == {"joint_positions": [[0.1, 0.2]], "payload": {"mass": 1.0}}
+    assert json.loads(seeded.content) == {"targets": [{"matrix": np.eye(4).tolist()}], "seeds": [[0.1, 0.2]]}
+    kinds = [request.headers["content-type"] for request in asked]
+    assert kinds == ["application/x-npy", *["application/json"] * 3, "application/x-npy"]
+    assert {request.headers["accept"] for request in asked} == {"application/json"}
+    assert [request.headers.get("prefer") for request in asked] == [*[None] * 4, "respond-async"]
+    assert later.url.path == "/v1/robots/arm/ik"
 
 
 def test_nobody_there(monkeypatch: pytest.MonkeyPatch) -> None:

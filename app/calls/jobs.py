@@ -1,0 +1,232 @@
+"""Jobs: what the service does while nobody waits for it, as objects that know what comes out."""
+
+import functools
+import inspect
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
+from contextlib import suppress
+from types import TracebackType
+from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
+
+from app.calls.arrays import ArrayOperations
+from app.calls.call import Awaited, Blocking, Call
+from app.calls.exchange import reader
+from app.calls.operations import Operations
+from app.model.arrays import Array
+from app.model.errors import KinematicsError
+from app.schemas.jobs import JobInfo
+
+P = ParamSpec("P")
+A = TypeVar("A")
+
+Progress = Callable[[JobInfo], None]
+"""Is told of a job whenever it is further on."""
+_cancel = Operations.cancel_job.describe
+_array = ArrayOperations.job_result.describe
+
+
+class Watching(Blocking, Protocol):
+    """A client that waits."""
+
+    def watch(self, job: str) -> Iterator[JobInfo]:
+        """A job, whenever it is further on."""
+        ...
+
+
+class AwaitedWatching(Awaited, Protocol):
+    """A client that is awaited."""
+
+    def watch(self, job: str) -> AsyncIterator[JobInfo]:
+        """A job, whenever it is further on."""
+        ...
+
+
+class Job(Generic[A]):
+    """A job that was begun. Iterate over it to see how far it is; ask it for its result.
+
+    As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
+
+    Attributes:
+        info: How far it was when that was last told.
+    """
+
+    def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    @property
+    def id(self) -> str:
+        """By which the service knows it."""
+        return self.info.id
+
+    def __iter__(self) -> Iterator[JobInfo]:
+        for info in self._client.watch(self.id):
+            self.info = info
+            yield info
+
+    def wait(self, progress: Progress | None = None) -> JobInfo:
+        """The job at its end, whatever that is."""
+        for info in self:
+            if progress is not None:
+                progress(info)
+        return self.info
+
+    def result(self, progress: Progress | None = None) -> A:
+        """What has come out, when the job is at its end.
+
+        Raises:
+            Refused: It failed, which is the core's own exception, or was cancelled.
+        """
+        self.wait(progress)
+        return self._client.send(self._result(self.id))
+
+    def array(self, progress: Progress | None = None) -> Array:
+        """The same as an array; see `arrays` of the client for what it holds."""
+        self.wait(progress)
+        return self._client.send(_array(self.id))
+
+    def cancel(self) -> JobInfo:
+        """End it, or remove its result where it has come to its end."""
+        self.info = self._client.send(_cancel(self.id))
+        return self.info
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        with suppress(KinematicsError):  # someone else has removed it, or the service is away
+            self.cancel()
+
+
+class AsyncJob(Generic[A]):
+    """The same, awaited."""
+
+    def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    @property
+    def id(self) -> str:
+        """By which the service knows it."""
+        return self.info.id
+
+    async def __aiter__(self) -> AsyncIterator[JobInfo]:
+        async for info in self._client.watch(self.id):
+            self.info = info
+            yield info
+
+    async def wait(self, progress: Progress | None = None) -> JobInfo:
+        """As that of `Job`."""
+        async for info in self:
+            if progress is not None:
+                progress(info)
+        return self.info
+
+    async def result(self, progress: Progress | None = None) -> A:
+        """As that of `Job`."""
+        await self.wait(progress)
+        return await self._client.send(self._result(self.id))
+
+    async def array(self, progress: Progress | None = None) -> Array:
+        """As that of `Job`."""
+        await self.wait(progress)
+        return await self._client.send(_array(self.id))
+
+    async def cancel(self) -> JobInfo:
+        """As that of `Job`."""
+        self.info = await self._client.send(_cancel(self.id))
+        return self.info
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
+    ) -> None:
+        with suppress(KinematicsError):
+            await self.cancel()
+
+
+class Begins(Protocol):
+    """The jobs of a client that waits."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """The job of a call."""
+        ...
+
+
+class BeginsAwaited(Protocol):
+    """The jobs of a client that is awaited."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[Any, Any, AsyncJob[A]]:
+        """The job of a call, once awaited."""
+        ...
+
+
+class Begun(Generic[P, A]):
+    """A method of both clients: it begins a job whose result is the answer to a call."""
+
+    def __init__(self, describe: Callable[P, Call[JobInfo]], result: Callable[[str], Call[A]]) -> None:
+        self.describe, self._result = describe, result
+        self.__doc__ = describe.__doc__
+
+    @overload
+    def __get__(self, jobs: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, jobs: Begins, owner: type) -> Callable[P, Job[A]]: ...
+    @overload
+    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[Any, Any, AsyncJob[A]]]: ...
+
+    def __get__(self, jobs: Any, owner: type) -> Any:
+        """The description itself of the class; of a client's jobs the method."""
+        if jobs is None:
+            return self
+
+        def method(*args: P.args, **kwargs: P.kwargs) -> Any:
+            return jobs.begin(self.describe(*args, **kwargs), self._result)
+
+        functools.update_wrapper(method, self.describe)
+        method.__signature__ = inspect.signature(self.describe)  # type: ignore[attr-defined]
+        return method
+
+
+def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
+    """The call that is answered by a job; sent twice it would be two of them."""
+
+    @functools.wraps(describe)
+    def described(*args: P.args, **kwargs: P.kwargs) -> Call[JobInfo]:
+        call = describe(*args, **kwargs)
+        read = reader(JobInfo)
+        return Call(
+            *(call.method, call.path, read, call.query, call.body, call.media_type), is_later=True, is_repeatable=False
+        )
+
+    described.__signature__ = inspect.signature(describe)  # type: ignore[attr-defined]
+    return described
+
+
+class JobOperations:
+    """The operations that may take long, as jobs: they may be larger than those that are answered at once."""
+
+    ik = Begun(_later(Operations.ik.describe), Operations.ik_result.describe)
+    trajectory = Begun(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
+    workspace = Begun(Operations.workspace.describe, Operations.workspace_result.describe)
+
+
+class Jobs(JobOperations):
+    """These of a client that waits."""
+
+    def __init__(self, client: Watching) -> None:
+        self._client = client
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """The job of a call."""
+        return Job(self._client, self._client.send(call), result)
+
+
+class AsyncJobs(JobOperations):
+    """These, awaited."""
+
+    def __init__(self, client: AwaitedWatching) -> None:
+        self._client = client
+
+    async def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
+        """The job of a call."""
+        return AsyncJob(self._client, await self._client.send(call), result)

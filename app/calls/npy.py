@@ -1,0 +1,47 @@
+"""Arrays on the wire: NumPy's own format, beside which all else goes in the query."""
+
+from collections.abc import Mapping
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+
+from app.calls.call import Reply
+from app.model.arrays import Array
+
+
+def packed(array: Array) -> bytes:
+    """Numbers in NumPy's own format; whole ones travel as they are."""
+    stream = BytesIO()
+    np.save(stream, np.ascontiguousarray(array), allow_pickle=False)
+    return stream.getvalue()
+
+
+def unpacked(reply: Reply) -> Array:
+    """The array that has come back."""
+    array: Array = np.load(BytesIO(reply.body), allow_pickle=False)
+    return array
+
+
+def fits_query(fields: Mapping[str, Any]) -> bool:
+    """Whether fields can stand in a query: numbers, words, and lists of words."""
+    return all(_is_plain(value) or _is_words(value) for value in fields.values())
+
+
+def query_of(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields as parameters: what is left out, or none, is the service's to decide."""
+    return {name: _parameter(value) for name, value in fields.items() if value is not None}
+
+
+def _is_plain(value: Any) -> bool:
+    return value is None or isinstance(value, bool | int | float | str)
+
+
+def _is_words(value: Any) -> bool:
+    return isinstance(value, list | tuple) and all(isinstance(item, str) for item in value)
+
+
+def _parameter(value: Any) -> Any:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return [str(item) for item in value] if isinstance(value, list | tuple) else str(value)
