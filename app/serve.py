@@ -32,7 +32,8 @@ OPEN_TO_ALL = (
 
 def main() -> None:
     """Parse the arguments and serve until told to stop."""
-    parser = argparse.ArgumentParser(prog="./dev serve", description=__doc__)
+    program = sys.argv[0] if sys.argv[0] == "gelenk serve" else "./dev serve"
+    parser = argparse.ArgumentParser(prog=program, description="Run the service.")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine alone)")
     parser.add_argument("--port", default=8000, type=int, choices=range(1, 65536), metavar="PORT")
     parser.add_argument("--workers", default=1, type=int, choices=range(1, 129), metavar="N", help="processes")

@@ -1,16 +1,18 @@
 """Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from app.cli.inputs import fields_of, rows_of
 from app.cli.outputs import Rows
-from app.cli.session import BaseOption, FieldsOption, FromOption, RobotArgument, TipOption, session
+from app.cli.session import BaseOption, FieldsOption, FromOption, LaterOption, RobotArgument, TipOption, session
 from app.model.errors import InvalidField
-from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
-from app.schemas.pose import Pose
+
+if TYPE_CHECKING:
+    from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from app.schemas.pose import Pose
 
 QOption = Annotated[
     list[str] | None,
@@ -25,6 +27,8 @@ _POSE_COLUMNS = {
     "rotation_vector": ("rx", "ry", "rz"),
 }
 _DEFAULT_POSE = "quaternion_xyzw"
+_MOST_AT_ONCE = 10_000
+"""Targets that are waited for without a word; more are a job, with a bar on the screen."""
 UNREACHED = 1
 """Exit code."""
 
@@ -52,7 +56,7 @@ def fk(
     shared.write(answer, Rows((*_AXES, *_POSE_COLUMNS[pose_format]), rows, (note,)))
 
 
-def _pose_row(pose: Pose, pose_format: str) -> list[float]:
+def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
     return [*(pose.position or ()), *getattr(pose, pose_format)]
 
 
@@ -109,6 +113,7 @@ def ik(
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
     free: Annotated[bool, typer.Option("--ignore-limits", help="Whether solutions may exceed joint limits.")] = False,
     fields: FieldsOption = None,
+    later: LaterOption = False,
 ) -> None:
     """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
     shared, numbers = session(context), rows_of(target or [], file, "targets")
@@ -121,13 +126,20 @@ def ik(
         body["seeds"] = rows_of([seed], None, "seeds").tolist()
     body |= fields_of(fields)
     with shared.robot(robot) as (client, name):
-        answer = client.ik(name, **body)
+        if later:
+            shared.tell_job(client.jobs.ik(name, **body).info)
+            return
+        if len(numbers) > _MOST_AT_ONCE:
+            with client.jobs.ik(name, **body) as job:
+                answer = shared.result_of(job)
+        else:
+            answer = client.ik(name, **body)
     shared.write(answer, _solutions(answer))
     if any(not result.solutions for result in answer.results):
         raise typer.Exit(UNREACHED)
 
 
-def target_of(row: Sequence[float], position_suffices: bool) -> Pose:
+def target_of(row: Sequence[float], position_suffices: bool) -> dict[str, Any]:
     """The pose that a row of numbers means.
 
     Raises:
@@ -136,13 +148,13 @@ def target_of(row: Sequence[float], position_suffices: bool) -> Pose:
     position = [float(value) for value in row[:3]]
     match len(row):
         case 3 if position_suffices:
-            return Pose(position=position, quaternion_xyzw=[0.0, 0.0, 0.0, 1.0])
+            return {"position": position, "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}
         case 6:
-            return Pose(position=position, rpy=list(row[3:]))
+            return {"position": position, "rpy": list(row[3:])}
         case 7:
-            return Pose(position=position, quaternion_xyzw=list(row[3:]))
+            return {"position": position, "quaternion_xyzw": list(row[3:])}
         case 16:
-            return Pose(matrix=[list(row[4 * i : 4 * i + 4]) for i in range(4)])
+            return {"matrix": [list(row[4 * i : 4 * i + 4]) for i in range(4)]}
     raise InvalidField(
         "targets",
         f"a target has {len(row)} numbers; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z w), 16 (a "
@@ -150,7 +162,7 @@ def target_of(row: Sequence[float], position_suffices: bool) -> Pose:
     )
 
 
-def _solutions(answer: InverseAnswer) -> Rows:
+def _solutions(answer: "InverseAnswer") -> Rows:
     columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
     rows: list[tuple[Any, ...]] = []
     for index, result in enumerate(answer.results):

@@ -11,14 +11,16 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from io import BytesIO, StringIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from app.cli.xacro import expanded
-from app.client import Client
-from app.model.arrays import Array
 from app.model.errors import InvalidArray, InvalidDhTable, InvalidField
+
+if TYPE_CHECKING:
+    from app.client import Client
+    from app.model.arrays import Array
 
 STDIN = "-"
 _TABLES = {".json", ".toml", ".csv"}
@@ -30,7 +32,7 @@ _CONVENTION = re.compile(r"#\s*convention\s*[:=]\s*(standard|modified)\s*")
 
 @contextmanager
 def robot_named(
-    client: Client, argument: str, arguments: Mapping[str, str], packages: Mapping[str, Path]
+    client: "Client", argument: str, arguments: Mapping[str, str], packages: Mapping[str, Path]
 ) -> Iterator[str]:
     """The name of a robot at the service: its own, or one that a file goes by until this is over.
 
@@ -155,7 +157,7 @@ def fields_of(text: str | None) -> dict[str, Any]:
     return content
 
 
-def rows_of(given: list[str], file: str | None, field: str) -> Array:
+def rows_of(given: list[str], file: str | None, field: str) -> "Array":
     """Rows of numbers from arguments, or from a file or standard input: CSV, npy, or JSON.
 
     Args:
@@ -181,7 +183,7 @@ def _content(file: str) -> bytes:
     return Path(file).read_bytes()
 
 
-def _rows(content: bytes, file: str) -> Array:
+def _rows(content: bytes, file: str) -> "Array":
     if content.startswith(b"\x93NUMPY"):
         array = np.load(BytesIO(content), allow_pickle=False)
         return np.atleast_2d(np.asarray(array, dtype=float))
@@ -209,7 +211,7 @@ def _numbers(text: str, where: str) -> list[float]:
         raise InvalidArray(f"{where}: {text.strip()[:80]!r} holds something that is not a number") from None
 
 
-def _same_length(rows: list[list[float]], what: str) -> Array:
+def _same_length(rows: list[list[float]], what: str) -> "Array":
     if not rows or len({len(row) for row in rows}) > 1:
         counts = sorted({len(row) for row in rows})
         raise InvalidArray(f"{what}: all rows must have as many numbers; these have {counts or 'none'}")

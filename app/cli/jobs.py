@@ -4,9 +4,8 @@ from typing import Annotated
 
 import typer
 
-from app.cli.outputs import Format, Rows
+from app.cli.outputs import Format
 from app.cli.session import session
-from app.schemas.jobs import JobInfo
 
 JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
 
@@ -19,7 +18,7 @@ def show(context: typer.Context, job: JobArgument) -> None:
     shared = session(context)
     with shared.client() as client:
         info = client.job(job)
-    shared.write(info, rows_of_job(info))
+    shared.tell_job(info)
 
 
 @jobs.command("watch")
@@ -28,7 +27,7 @@ def watch(context: typer.Context, job: JobArgument) -> None:
     shared = session(context)
     with shared.client() as client, shared.bar(job) as progress:
         info = client.wait(job, lambda info: progress(info.progress))
-    shared.write(info, rows_of_job(info))
+    shared.tell_job(info)
 
 
 @jobs.command("result")
@@ -50,11 +49,4 @@ def cancel(context: typer.Context, job: JobArgument) -> None:
     shared = session(context)
     with shared.client() as client:
         info = client.cancel_job(job)
-    shared.write(info, rows_of_job(info))
-
-
-def rows_of_job(info: JobInfo) -> Rows:
-    """A job, for people."""
-    columns = ("id", "kind", "state", "progress", "created", "finished")
-    notes = () if info.error is None else (info.error.detail,)
-    return Rows(columns, [(info.id, info.kind, info.state, info.progress, info.created, info.finished)], notes)
+    shared.tell_job(info)

@@ -1,12 +1,11 @@
 """`gelenk`: its options, its commands, and how it ends.
 
-Exit codes: 0, all is well; 1, the answer is no (a target out of reach, another robot, a motion that cannot be done to
-its end); 2, something is wrong with what was asked; 3, no service answers; 4, the service refuses for reasons of its
-own, or something went wrong.
+How it ends is `EXIT_CODES`.
 """
 
 import runpy
 import sys
+from http import HTTPStatus
 from pathlib import Path
 from typing import Annotated
 
@@ -14,16 +13,23 @@ import typer
 from rich.console import Console
 
 from app.calls.refusals import NotAnswering, Refused
-from app.cli import arms, ask, jobs, motions, robots, tables
+from app.cli import arms, ask, bench, jobs, motions, robots, tables
 from app.cli.outputs import Format, Output
 from app.cli.session import Session
 from app.model.errors import InvalidInput, KinematicsError, NotFound
 
 _ASKED_WRONG, _NO_SERVICE, _FAILED = 2, 3, 4
+EXIT_CODES = (
+    "Exit codes: 0, all is well; 1, the answer is no (a target out of reach, another robot, a motion that cannot be "
+    "done to its end); 2, something is wrong with what was asked; 3, no service answers; 4, the service refuses for "
+    "reasons of its own (a key is missing, it has too much to do), or something went wrong; 130, Ctrl-C."
+)
+_NO_FAULT_OF_THE_CALL = frozenset({HTTPStatus.UNAUTHORIZED, HTTPStatus.TOO_MANY_REQUESTS})
 
 cli = typer.Typer(
     name="gelenk",
     help="Robot kinematics in a shell: on a server with --server, else in this very process.",
+    epilog=EXIT_CODES,
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -62,7 +68,7 @@ for command in (
     *(robots.robots, robots.add, robots.remove),
     *(arms.fk, arms.jacobian, arms.ik, arms.manipulability),
     *(motions.trajectory, motions.workspace),
-    ask.ask,
+    *(bench.bench, ask.ask),
 ):
     cli.command()(command)
 cli.add_typer(tables.tables)
@@ -72,7 +78,7 @@ cli.add_typer(jobs.jobs)
 def main() -> None:
     """Run a command, and end with a sentence and a code where something is wrong."""
     try:
-        cli()
+        cli(prog_name="gelenk")
     except NotAnswering as error:
         _end(error.detail, _NO_SERVICE)
     except KinematicsError as error:
@@ -84,9 +90,9 @@ def main() -> None:
 
 
 def _is_the_callers(error: KinematicsError) -> bool:
-    if isinstance(error, InvalidInput | NotFound):
-        return True
-    return isinstance(error, Refused) and 400 <= error.status < 500
+    if isinstance(error, Refused):
+        return 400 <= error.status < 500 and error.status not in _NO_FAULT_OF_THE_CALL
+    return isinstance(error, InvalidInput | NotFound)
 
 
 def _end(sentence: str, code: int) -> None:

@@ -9,10 +9,8 @@ import typer
 
 from app.cli.arms import UNREACHED, target_of
 from app.cli.inputs import fields_of, rows_of
-from app.cli.jobs import rows_of_job
 from app.cli.outputs import Format, Rows, picture_kind
 from app.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
-from app.model.errors import JobFailed
 
 
 def trajectory(
@@ -30,15 +28,19 @@ def trajectory(
     law: Annotated[str, typer.Option(help="trapezoidal, cubic, quintic, time_optimal, …")] = "trapezoidal",
     period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
     plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
+    later: LaterOption = False,
 ) -> None:
     """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
-    shared = session(context)
+    shared, kind = session(context), None if plot is None else picture_kind(plot)
     fields = _motion(start, joint or [], line or [], motion)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
     with shared.robot(robot) as (client, name):
+        if later:
+            shared.tell_job(client.jobs.trajectory(name, **fields).info)
+            return
         answer = client.trajectory(name, **fields)
-        if plot is not None:
-            plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", picture_kind(plot), fields))
+        if plot is not None and kind is not None:
+            plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
     names = answer.joint_names
     columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
     table = zip(
@@ -80,22 +82,19 @@ def workspace(
     later: LaterOption = False,
 ) -> None:
     """What the tip can reach: points as CSV or npy, a summary otherwise."""
-    shared = session(context)
+    shared, picture = session(context), None if plot is None else picture_kind(plot)
     body: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
-        info = client.workspace(name, **body)
+        job = client.jobs.workspace(name, **body)
         if later:
-            shared.write(info, rows_of_job(info))
+            shared.tell_job(job.info)
             return
-        job = shared.wait(client, info)
-        if job.state != "succeeded":
-            raise JobFailed(job.error.detail if job.error else f"the job is {job.state}")
-        answer = client.workspace_result(job.id)
-        wants_points = shared.output.format in {Format.CSV, Format.NPY}
-        points = client.arrays.job_result(job.id).tolist() if wants_points else []
-        if plot is not None:
-            plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture_kind(plot)))
-        client.cancel_job(job.id)
+        with job:
+            answer = shared.result_of(job)
+            wants_points = shared.output.format in {Format.CSV, Format.NPY}
+            points = job.array().tolist() if wants_points else []
+            if plot is not None and picture is not None:
+                plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture))
     if wants_points:
         shared.write(answer, Rows(answer.array.columns, points))
         return

@@ -8,15 +8,18 @@ from dataclasses import dataclass
 from enum import StrEnum
 from io import BytesIO, StringIO
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel
 from rich.console import Console
 from rich.table import Table
 
-from app.model.arrays import Array
 from app.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from app.model.arrays import Array
 
 _SHOWN = 40
 """Rows of a table for people."""
@@ -85,12 +88,12 @@ class Output:
             case _:
                 self._show(rows)
 
-    def tell(self, answer: BaseModel) -> None:
+    def tell(self, answer: "BaseModel") -> None:
         """An answer that has no rows: JSON, unless another format is asked for."""
         content = answer.model_dump(mode="json", exclude_unset=True)
         Output(self.form or Format.JSON, self.file).write(content, Rows(("field", "value"), list(content.items())))
 
-    def save(self, array: Array) -> None:
+    def save(self, array: "Array") -> None:
         """An array as npy."""
         stream = BytesIO()
         np.save(stream, array, allow_pickle=False)
@@ -105,7 +108,7 @@ class Output:
         sys.stdout.buffer.flush()
 
     def _show(self, rows: Rows) -> None:
-        table = Table(*rows.columns, box=None, header_style="bold", pad_edge=False)
+        table = Table(*map(_word, rows.columns), box=None, header_style="bold", pad_edge=False)
         for row in rows.rows[:_SHOWN]:
             table.add_row(*(_word(cell) for cell in row))
         left = len(rows.rows) - _SHOWN
@@ -157,7 +160,7 @@ def _csv(rows: Rows) -> bytes:
     return text.getvalue().encode()
 
 
-def _numbers(rows: Rows) -> Array:
+def _numbers(rows: Rows) -> "Array":
     numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
     if len(numbers) < len(rows.columns):
         words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)

@@ -1,21 +1,26 @@
 """Commands about the robots that the service has."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.cli.completion import robots_beginning_with
 from app.cli.inputs import description_from, is_file, name_of
 from app.cli.outputs import Rows
 from app.cli.session import BaseOption, TipOption, session
 from app.model.errors import InvalidField
-from app.schemas.common import ChainEnds
-from app.schemas.robots import RobotInfo
+
+if TYPE_CHECKING:
+    from app.schemas.robots import RobotInfo
 
 
 def robots(
     context: typer.Context,
-    robot: Annotated[str | None, typer.Argument(help="One of them, or a file: tells its joints.")] = None,
+    robot: Annotated[
+        str | None,
+        typer.Argument(help="One of them, or a file: tells its joints.", autocompletion=robots_beginning_with),
+    ] = None,
     urdf: Annotated[bool, typer.Option("--urdf", help="Its URDF instead.")] = False,
 ) -> None:
     """List the robots, or tell about one."""
@@ -34,7 +39,7 @@ def robots(
     shared.write(info, _joints(info))
 
 
-def _joints(info: RobotInfo) -> Rows:
+def _joints(info: "RobotInfo") -> Rows:
     columns = ("joint", "type", "parent", "child", "lower", "upper", "velocity", "effort")
     rows = [
         (
@@ -62,6 +67,8 @@ def add(
         raise InvalidField("file", f"there is no file {str(file)!r} that a robot can be in")
     if (base is None) != (tip is None):
         raise InvalidField("base" if base is None else "tip", "a default chain has two ends: give --base and --tip")
+    from app.schemas.common import ChainEnds  # noqa: PLC0415 - takes seconds to load
+
     ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
     shared, name = session(context), name or name_of(file)
     about: dict[str, Any] = {"description": description, "default_chain": ends}
@@ -76,7 +83,10 @@ def add(
     shared.write(info, _joints(info))
 
 
-def remove(context: typer.Context, robot: Annotated[str, typer.Argument(help="Name of an uploaded one.")]) -> None:
+def remove(
+    context: typer.Context,
+    robot: Annotated[str, typer.Argument(help="Name of an uploaded one.", autocompletion=robots_beginning_with)],
+) -> None:
     """Remove an uploaded robot from the service."""
     with session(context).client() as client:
         client.remove_robot(robot)

@@ -3,23 +3,30 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
-from pydantic import BaseModel
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+from app.cli.completion import robots_beginning_with
 from app.cli.inputs import pairs_of, robot_named
-from app.cli.local import InProcess
 from app.cli.outputs import Output, Rows
-from app.client import Client
-from app.schemas.jobs import JobInfo
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from app.calls.jobs import Job
+    from app.client import Client
+    from app.schemas.jobs import JobInfo
+
+A = TypeVar("A")
 
 RobotArgument = Annotated[
     str,
     typer.Argument(
         metavar="ROBOT",
+        autocompletion=robots_beginning_with,
         help="A robot's name, or a file: URDF, xacro, a zip of a URDF and its meshes, a DH table as JSON, TOML or CSV.",
     ),
 ]
@@ -62,21 +69,28 @@ class Session:
         return pairs_of(list(self._given_packages), "package", Path)
 
     @contextmanager
-    def client(self) -> Iterator[Client]:
+    def client(self) -> Iterator["Client"]:
         """The service."""
-        transport = None if self.server else InProcess()
+        # What computes takes seconds to load: completion and --help need not wait for it.
+        from app.client import Client  # noqa: PLC0415
+
+        transport = None
+        if not self.server:
+            from app.cli.local import InProcess  # noqa: PLC0415
+
+            transport = InProcess()
         # In this very process there is no name to look up, and no key to show.
         with Client(self.server or "http://127.0.0.1", transport=transport) as client:
             yield client
 
     @contextmanager
-    def robot(self, argument: str) -> Iterator[tuple[Client, str]]:
+    def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
         """The service, and the name that a robot has there."""
         arguments, packages = self.arguments, self.packages
         with self.client() as client, robot_named(client, argument, arguments, packages) as name:
             yield client, name
 
-    def write(self, answer: BaseModel, rows: Rows) -> None:
+    def write(self, answer: "BaseModel", rows: Rows) -> None:
         """An answer of the API."""
         self.output.write(answer.model_dump(mode="json", exclude_unset=True), rows)
 
@@ -91,14 +105,17 @@ class Session:
             bar = shown.add_task(what, total=1.0)
             yield lambda progress: shown.update(bar, completed=progress)
 
-    def wait(self, client: Client, job: JobInfo) -> JobInfo:
-        """A job that has come to its end, its progress on the screen; Ctrl-C cancels it."""
-        with self.bar(job.kind) as progress:
-            try:
-                return client.wait(job.id, lambda info: progress(info.progress))
-            except KeyboardInterrupt:
-                client.cancel_job(job.id)
-                raise
+    def result_of(self, job: "Job[A]") -> A:
+        """What comes out of a job, its progress on the screen."""
+        with self.bar(job.info.kind) as progress:
+            return job.result(lambda info: progress(info.progress))
+
+    def tell_job(self, info: "JobInfo") -> None:
+        """A job as an answer."""
+        columns = ("id", "kind", "state", "progress", "created", "finished")
+        notes = () if info.error is None else (info.error.detail,)
+        row = (info.id, info.kind, info.state, info.progress, info.created, info.finished)
+        self.write(info, Rows(columns, [row], notes))
 
 
 def session(context: typer.Context) -> Session:

@@ -1,7 +1,7 @@
 """Commands about Denavit-Hartenberg tables."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -9,7 +9,9 @@ from app.cli.inputs import fields_of, is_file, table_from
 from app.cli.outputs import Format, Rows
 from app.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
 from app.model.errors import InvalidField
-from app.schemas.dh import DhTablePayload
+
+if TYPE_CHECKING:
+    from app.schemas.dh import DhTablePayload
 
 TableArgument = Annotated[Path, typer.Argument(metavar="TABLE", help="DH table as JSON, TOML or CSV.")]
 ConventionOption = Annotated[str, typer.Option(help="standard or modified.")]
@@ -24,7 +26,7 @@ def _table(file: Path) -> Any:
     return table_from(file)
 
 
-def _rows(dh: DhTablePayload, notes: tuple[str, ...] = ()) -> Rows:
+def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> Rows:
     rows = [(row.name, row.type, row.a, row.alpha, row.d, row.theta, row.lower, row.upper) for row in dh.joints]
     columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper")
     return Rows(columns, rows, (f"{dh.convention} convention", *notes))

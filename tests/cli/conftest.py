@@ -55,6 +55,6 @@ class Shell:
 @pytest.fixture
 def shell(own: local.InProcess, capfdbinary: pytest.CaptureFixture[bytes], monkeypatch: pytest.MonkeyPatch) -> Shell:
     monkeypatch.delenv("GELENK_SERVER", raising=False)
-    monkeypatch.setattr("app.cli.session.InProcess", lambda: own)
+    monkeypatch.setattr("app.cli.local.InProcess", lambda: own)
     monkeypatch.setattr(own, "close", lambda: None)
     return Shell(capfdbinary, monkeypatch)

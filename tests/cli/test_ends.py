@@ -1,0 +1,195 @@
+"""How commands end and what else a shell sees of them: codes, bars, completion, the benchmark, `serve`."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx2
+import numpy as np
+import pytest
+
+from app.cli.main import EXIT_CODES
+from app.client import Client
+from tests.cli.conftest import Shell
+from tests.test_serve import free_port, get, wait_until_ready
+
+COMMAND = [sys.executable, "-m", "app.cli.main"]
+
+
+def refusing(status: int, kind: str, **headers: str) -> Callable[..., Client]:
+    """A client of a service that refuses everything."""
+    problem = {"type": f"urn:gelenk:{kind}", "status": status, "detail": f"the service says {kind}"}
+
+    def answer(_: httpx2.Request) -> httpx2.Response:
+        return httpx2.Response(status, json=problem, headers=headers)
+
+    return lambda url, transport=None: Client(url, transport=httpx2.MockTransport(answer))  # noqa: ARG005
+
+
+@pytest.mark.parametrize(
+    ("status", "kind", "code"),
+    [
+        (422, "invalid-payload", 2),
+        (404, "unknown-robot", 2),
+        (403, "forbidden", 2),
+        (409, "name-taken", 2),
+        (413, "too-large", 2),
+        (401, "unauthorized", 4),
+        (429, "too-many-requests", 4),
+        (500, "internal-error", 4),
+        (503, "service-busy", 4),
+    ],
+)
+def test_a_refusal_ends_with_its_code(
+    shell: Shell, monkeypatch: pytest.MonkeyPatch, status: int, kind: str, code: int
+) -> None:
+    monkeypatch.setattr("app.client.Client", refusing(status, kind))
+    out, err = shell("--server", "http://gelenk.invalid", "robots", code=code)
+    assert (out, err) == ("", f"gelenk: the service says {kind}\n")
+
+
+def test_the_codes_are_those_that_the_help_tells(shell: Shell) -> None:
+    told = " ".join(shell("--help")[0].split())
+    assert EXIT_CODES in told
+    assert [word for word in ("0,", "1,", "2,", "3,", "4,", "130,") if word in told] == [
+        "0,",
+        "1,",
+        "2,",
+        "3,",
+        "4,",
+        "130,",
+    ]
+    shell("robots", "panda")
+    shell("ik", "planar_2r", "--to", "9 0 0", "--task", "x,y", code=1)
+    shell("fk", "planar_2r", code=2)
+    shell("no-such-command", code=2)
+    shell("fk", "planar_2r", "--no-such-option", code=2)
+
+
+def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the job that was waited for is gone."""
+
+    def interrupted(*_: object) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("app.calls.jobs.Job.result", interrupted)
+    ended: list[str] = []
+    monkeypatch.setattr("app.calls.jobs.Job.cancel", lambda job: ended.append(job.id))
+    shell("workspace", "planar_2r", "--samples", 1000, code=130)
+    assert len(ended) == 1
+
+
+def test_a_bar_is_shown_on_a_terminal_alone(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    arguments = ["--format", "csv", "workspace", "planar_2r", "--samples", "2000"]
+    monkeypatch.delenv("FORCE_COLOR", raising=False)
+    out, err = shell(*arguments)
+    assert err == ""
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    shown, bar = shell(*arguments)
+    assert "workspace" in bar
+    assert shown == out
+
+
+def test_many_targets_are_a_job(shell: Shell, url: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the answer that the call has at once; nothing is left behind."""
+    angles = np.random.default_rng(1).uniform(0.2, 1.2, (60, 2))
+    np.save(tmp_path / "q.npy", angles)
+    poses = tmp_path / "poses.npy"
+    shell("--output", poses, "fk", "planar_2r", "--from", tmp_path / "q.npy")
+    asked = ["--server", url, "ik", "planar_2r", "--from", poses, "--task", "x,y"]
+    at_once = shell.json(*asked)
+    monkeypatch.setattr("app.cli.arms._MOST_AT_ONCE", 50)
+    assert shell.json(*asked) == at_once
+    begun = shell.json(*asked, "--job")
+    assert begun["kind"] == "ik"
+    assert shell.json("--server", url, "jobs", "watch", begun["id"])["state"] == "succeeded"
+    assert shell.json("--server", url, "jobs", "result", begun["id"]) == at_once
+    rows = shell.bytes("--server", url, "--format", "npy", "-o", tmp_path / "found.npy", "jobs", "result", begun["id"])
+    assert rows == b""
+    expected = [result["solutions"][0]["joint_positions"] for result in at_once["results"]]
+    assert np.array_equal(np.load(tmp_path / "found.npy"), expected)
+    assert shell.json("--server", url, "jobs", "cancel", begun["id"])["state"] == "succeeded"
+    shell("--server", url, "jobs", "show", begun["id"], code=2)
+
+
+@pytest.mark.parametrize("kind", ["svg", "png"])
+def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
+    head = {"svg": b"<?xml", "png": b"\x89PNG"}[kind]
+    motion = ["trajectory", "planar_2r", "--start", "0.3 0.8", "--joint", "0.5 0.2"]
+    shell(*motion, "--plot", tmp_path / f"motion.{kind}")
+    assert (tmp_path / f"motion.{kind}").read_bytes().startswith(head)
+
+
+def test_what_cannot_be_drawn_is_refused_before_the_work(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.cli.local.InProcess", lambda: pytest.fail("it was asked"))
+    assert "must end in .svg or .png" in shell("workspace", "planar_2r", "--plot", "reach.gif", code=2)[1]
+
+
+def test_the_benchmark_measures_what_it_says(shell: Shell, url: str) -> None:
+    for options in ((), ("--server", url)):
+        told = shell.json(*options, "bench", "planar_2r", "--batch", "200", "--seconds", "0.1")
+        assert [row["operation"] for row in told["rows"]] == ["fk", "jacobian", "ik"]
+        for row in told["rows"]:
+            ratio = 1e3 * row["single_milliseconds"] / row["batch_microseconds_each"]
+            assert row["ratio"] == pytest.approx(ratio)
+            assert row["single_milliseconds"] > 0.0
+        assert told["where"] == (url if options else "this very process")
+    assert "one call [ms]" in shell("bench", "planar_2r", "--batch", "20", "--seconds", "0.1")[0]
+
+
+def ran(*arguments: str, **environment: str) -> str:
+    """What a command of its own process writes."""
+    known = {name: value for name, value in os.environ.items() if not name.startswith("GELENK_")}
+    run = subprocess.run(
+        [*COMMAND, *arguments], capture_output=True, text=True, timeout=120, check=True, env={**known, **environment}
+    )
+    return run.stdout
+
+
+@pytest.mark.parametrize("name", ["bash", "zsh", "fish"])
+def test_a_shell_completes(name: str) -> None:
+    script = ran("--show-completion", name, _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
+    assert "gelenk" in script
+    assert f"complete_{name}" in script
+
+
+def test_names_of_robots_are_completed(url: str) -> None:
+    dh = {"convention": "standard", "joints": [{"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}]}
+    assert get(f"{url}/v1/robots", "POST", {"name": "panda_of_mine", "dh": dh})[0] == 201
+    typed = {"_GELENK_COMPLETE": "complete_bash", "COMP_WORDS": "gelenk fk panda", "COMP_CWORD": "2"}
+    assert ran(**typed).split() == ["panda", "panda_collision", "panda_dh"]
+    there = {**typed, "GELENK_SERVER": url}
+    assert ran(**there).split() == ["panda", "panda_collision", "panda_dh", "panda_of_mine"]
+    assert get(f"{url}/v1/robots/panda_of_mine", "DELETE")[0] == 204
+    assert ran(**{**typed, "GELENK_SERVER": f"http://127.0.0.1:{free_port()}"}) == "\n"
+
+
+def test_help_and_completion_need_not_wait_for_what_computes() -> None:
+    heavy = "{'pinocchio', 'numba', 'fastapi', 'pydantic', 'matplotlib', 'app.client'} & set(sys.modules)"
+    script = f"import sys, app.cli.main; print({heavy})"
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
+    assert run.stdout == "set()\n"
+
+
+@pytest.mark.slow
+def test_the_service_is_served(tmp_path: Path) -> None:
+    port = free_port()
+    command = [*COMMAND, "serve", "--port", str(port), "--workers", "2"]
+    environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as run:
+        try:
+            url = f"http://127.0.0.1:{port}"
+            wait_until_ready(url, run)
+            assert json.loads(ran("--server", url, "--format", "json", "fk", "planar_2r", "-q", "0 0"))["poses"]
+        finally:
+            run.send_signal(signal.SIGTERM)
+            told = run.communicate(timeout=60)[0]
+    assert run.returncode in {0, -signal.SIGTERM}
+    assert f"Gelenk at http://127.0.0.1:{port}/" in told
+    usage = subprocess.run([*COMMAND, "serve", "--help"], capture_output=True, text=True, timeout=120, check=True)
+    assert usage.stdout.startswith("usage: gelenk serve ")
