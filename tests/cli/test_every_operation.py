@@ -210,7 +210,7 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
     "cancel_job": lambda f, _: ["jobs", "cancel", f["job"]],
 }
 """Each operation that has a command of its own, with the arguments that say what its example does."""
-NO_OPERATION = {"ask", "serve"}
+NO_OPERATION = {"ask", "serve", "bench"}
 
 
 def by_commands(shell: Shell, folder: Path, *options: str) -> Way:
