@@ -3,14 +3,17 @@
 import argparse
 import asyncio
 import contextlib
+import fcntl
 import ipaddress
 import os
 import resource
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
 from functools import partial
 from importlib.util import find_spec
+from pathlib import Path
 from typing import cast
 
 import uvicorn
@@ -23,6 +26,8 @@ from app.supervisor import Supervisor
 
 SHUTDOWN_SECONDS = 6
 """How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
+
+_METRICS, _LOCK = "gelenk-metrics-", "lock"
 
 OPEN_TO_ALL = (
     "at {host} others than this machine could do everything without a key: make keys with `./dev keys` and name their "
@@ -84,16 +89,24 @@ def main() -> None:
 
 @contextlib.contextmanager
 def metrics_folder(workers: int) -> Iterator[None]:
-    """Where several worker processes keep what each has counted, as long as the service runs."""
+    """Where several worker processes keep what each has counted, as long as the service runs.
+
+    What services left that were killed goes first: nobody holds its lock any more.
+    """
     if workers == 1:
         yield
         return
-    with tempfile.TemporaryDirectory(prefix="gelenk-metrics-") as folder:
+    for left in Path(tempfile.gettempdir()).glob(f"{_METRICS}*"):
+        with contextlib.suppress(OSError), (left / _LOCK).open() as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(left)
+    with tempfile.TemporaryDirectory(prefix=_METRICS) as folder, Path(folder, _LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
         os.environ["PROMETHEUS_MULTIPROC_DIR"] = folder
         try:
             yield
         finally:
-            del os.environ["PROMETHEUS_MULTIPROC_DIR"]
+            os.environ.pop("PROMETHEUS_MULTIPROC_DIR", None)
 
 
 def is_loopback(host: str) -> bool:

@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.error
 import urllib.request
@@ -151,6 +152,23 @@ def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
     with ThreadPoolExecutor(1) as pool:
         pool.submit(uvloop.run, let_in()).result()
     assert connected[-1] < at_most
+
+
+def test_what_a_killed_service_has_counted_goes_at_the_next_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    left, foreign = tmp_path / "gelenk-metrics-left", tmp_path / "gelenk-metrics-foreign"
+    left.mkdir()
+    (left / "lock").touch()
+    foreign.mkdir()
+    with serve.metrics_folder(2):
+        (ours,) = {path for path in tmp_path.iterdir() if path not in {left, foreign}}
+        assert not left.exists()
+        with serve.metrics_folder(2):
+            assert ours.exists()
+        assert ours.exists()
+    assert list(tmp_path.iterdir()) == [foreign]
 
 
 def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
