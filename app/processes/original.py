@@ -165,8 +165,9 @@ class Original:
 
     def _let_go(self, pid: int) -> None:
         """End a copy whose lifeline was closed; `_reap` tells of it where somebody still listens."""
-        self._selector.unregister(self._lifelines[pid])
-        os.kill(pid, signal.SIGKILL)
+        if pid in self._lifelines:  # else it was reaped in this very turn
+            self._selector.unregister(self._lifelines[pid])
+            os.kill(pid, signal.SIGKILL)
 
     def _reap(self) -> None:
         """Tell of the copies that have ended."""
