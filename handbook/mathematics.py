@@ -23,6 +23,10 @@ _ROOT = re.compile(r'<svg [^>]*width="([-.\d]+)" height="([-.\d]+)" viewBox="([^
 _SIGN = re.compile(r"([=(\[,<>]|\\(?:in|le|ge|approx|to)\b)\s*-")
 """A minus that is no difference; it stands next to its number, which ziamath must be told."""
 
+_MATRIX = re.compile(r"\\begin\{([bp]matrix)\}.*?\\end\{\1\}", re.DOTALL)
+_COLUMN = re.compile(r"&\s*(-?)")
+"""Columns of a matrix would stand too near to each other."""
+
 _logger = logging.getLogger(__name__)
 
 config.svg2 = True
@@ -47,7 +51,9 @@ def drawn(latex: str, is_display: bool, known: set[str]) -> str:
         ValueError: The formula cannot be read.
     """
     try:
-        formula = Latex(_SIGN.sub(r"\1{-}", latex), size=_SIZE, color="currentColor", inline=not is_display)
+        formula = Latex(
+            _MATRIX.sub(_spaced, _SIGN.sub(r"\1{-}", latex)), size=_SIZE, color="currentColor", inline=not is_display
+        )
         svg, below = formula.svg(), formula.getyofst()
     except Exception as error:
         raise ValueError(f"{latex!r} cannot be set: {error}") from error
@@ -56,6 +62,10 @@ def drawn(latex: str, is_display: bool, known: set[str]) -> str:
     style = f"width:{float(width) / _EM:.3f}em;height:{float(height) / _EM:.3f}em;{shift}"
     head = f'<svg role="img" aria-label="{escape(latex)}" viewBox="{box}" style="{style}">'
     return _GLYPH.sub(lambda glyph: _once(glyph, known), _ROOT.sub(lambda _: head, svg, count=1))
+
+
+def _spaced(matrix: re.Match[str]) -> str:
+    return _COLUMN.sub(lambda column: r"\;&\;{-}" if column[1] else r"\;&\;", matrix[0])
 
 
 def _once(glyph: re.Match[str], known: set[str]) -> str:
