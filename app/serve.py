@@ -64,7 +64,8 @@ def main() -> None:
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
     _open_as_many_files_as_allowed()
-    print(f"Gelenk at http://{arguments.host}:{arguments.port}/, robots of your own in {settings.data_dir}")
+    where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
+    print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
     bounds = Bounds(connections=settings.connections, waiting=settings.requests_waiting)
     config = uvicorn.Config(
         "app.main:from_environment",

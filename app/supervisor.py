@@ -19,6 +19,7 @@ from app.processes.copies import Copy
 
 LISTENERS = 8
 """Connections that are let in in one turn of an event loop, each in less than a tenth of a millisecond."""
+STILL_STARTING = "getting ready: once for a processor the kernels are compiled, which takes a minute or two"
 STARTUP_FAILURE = 3
 """How a worker ends that could not begin to serve."""
 _BEAT_SECONDS = 5.0
@@ -49,7 +50,7 @@ class Supervisor:
         self._seats, self._early = [_Seat() for _ in range(config.workers)], _Seat()
         self._warming: socket.socket | None = None
         self._since = 0.0
-        self._goes_on = True
+        self._goes_on, self._has_told = True, False
 
     def run(self) -> None:
         """Serve until SIGINT or SIGTERM, or until a worker cannot even begin to.
@@ -107,6 +108,9 @@ class Supervisor:
             self._warming = None
             self._early.stop()
         elif time.monotonic() > self._since + _PATIENCE_SECONDS:
+            if not self._has_told:
+                print(STILL_STARTING, flush=True)
+                self._has_told = True
             self._early.serve(self._listener)
 
     def _signs(self) -> list[int | socket.socket]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import uvicorn
 
-from app.supervisor import STARTUP_FAILURE, _Seat
+from app.supervisor import STARTUP_FAILURE, STILL_STARTING, _Seat
 from tests.raw_http import processes
 from tests.test_faults import QUICK, called, children, is_alive, wait_for
 from tests.test_serve import HOST, free_port, get, service
@@ -101,3 +101,32 @@ def test_a_worker_that_hangs_is_killed_unless_the_supervisor_was_stopped_itself(
             assert not seat.cannot_begin
         finally:
             seat.leave(0.0)
+
+
+@pytest.mark.slow
+def test_who_waits_for_the_kernels_is_told(tmp_path: Path) -> None:
+    """The first start on a processor: it says where it is, then what it does, and answers meanwhile."""
+    port = free_port()
+    environment = {
+        **os.environ,
+        "GELENK_DATA_DIR": str(tmp_path / "data"),
+        "NUMBA_CACHE_DIR": str(tmp_path / "kernels"),
+    }
+    command = [sys.executable, "-m", "app.serve", "--port", str(port), "--root-path", "/gelenk"]
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as run:
+        try:
+            assert run.stdout is not None
+            assert run.stdout.readline().startswith(f"Gelenk at http://{HOST}:{port}/gelenk/, ")
+            assert run.stdout.readline() == f"{STILL_STARTING}\n"
+            wait_for(lambda: answers(f"http://{HOST}:{port}/readyz") == 503)
+        finally:
+            run.terminate()
+            assert run.wait(timeout=60) == 0
+
+
+def answers(url: str) -> int | None:
+    """The status, if there is an answer."""
+    try:
+        return get(url)[0]
+    except OSError:
+        return None
