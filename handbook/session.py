@@ -160,5 +160,6 @@ def curl(call: Call[Any]) -> str:
     words += [word for name, text in call.form.items() for word in ("-F", f"{name}={text}")]
     words += [word for name in call.files for word in ("-F", f"{name}=@FILE")]
     if call.body:
-        words += ["-H", f"Content-Type: {call.media_type}", "-d", call.body.decode()]
+        content = ["-d", call.body.decode()] if call.media_type == JSON else ["--data-binary", "@array.npy"]
+        words += ["-H", f"Content-Type: {call.media_type}", *content]
     return shlex.join(words)
