@@ -36,7 +36,7 @@ def chromium() -> str | None:
 class Pages:
     """Pages of one browser profile, each used by a test after the other: a new one costs several times its studio.
 
-    The studio keeps nothing in the browser, and a test begins at an empty page.
+    The studio keeps nothing in the browser but a key for a service that wants one, and a test begins at an empty page.
     """
 
     def __init__(self, browser: Browser, *, is_certificate_checked: bool = True) -> None:

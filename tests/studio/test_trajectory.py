@@ -464,3 +464,35 @@ def test_axe_finds_nothing_serious_in_a_planned_motion(another: Callable[..., St
         ]
         assert serious == []
     assert studio.run(CUT_OFF) == []
+
+
+@pytest.mark.slow
+def test_task_blends_and_the_shortest_time(studio: Studio) -> None:
+    """They go into the call, come back from a link, and the durations shown are the service's."""
+    studio.open("trajectory", robot="panda", tip="panda_link8")
+    put(studio, HOME)
+    for configuration in (ABOVE, ASIDE, FAR):
+        put(studio, configuration)
+        studio.button("Spline" if configuration is ABOVE else "Waypoint").click()
+    studio.page.get_by_role("button", name="3 waypoints").click()
+    studio.field("Segment 1, between waypoints").select_option("blends")
+    assert not studio.field("Segment 1, at its ends").is_visible()
+    add(studio, "Joint target", HOME)
+    studio.page.get_by_text("Law and limits").click()
+    directions = studio.page.get_by_role("group", name="Directions in which the way counts")
+    directions.get_by_role("button", name="rz").click()
+    studio.button("Compare with time-optimal").click()
+    answer = plan(studio)
+    motion = studio.state("motion")
+    assert motion["task"] == ["x", "y", "z", "rx", "ry"]
+    assert motion["compare_timing"] is True
+    assert motion["segments"][0]["blends"] is True
+    lines = studio.page.locator(".timing tbody tr").all()
+    assert len(lines) >= 1
+    for line, timing in zip(lines, answer["timing"], strict=True):
+        words = line.text_content() or ""
+        assert f"{timing['uniform_duration']:.3f} s" in words
+        assert f"{timing['time_optimal_duration']:.3f} s" in words
+    studio.page.reload()
+    studio.wait_for_robot("panda")
+    assert studio.state("motion") == motion

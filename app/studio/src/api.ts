@@ -1,5 +1,7 @@
 /** The public API, spoken like any other client does: JSON, problems, and a record of each call to show as a script. */
 
+import type { Key } from "./key.ts";
+
 export interface Call {
   method: "GET" | "POST" | "PUT" | "DELETE";
   /** Below the service's address, without a slash in front. */
@@ -30,18 +32,21 @@ export class Problem extends Error {
   }
 }
 
+const UNAUTHORIZED = 401;
 export const NO_ANSWER = 0;
 export const NOT_OF_THE_SERVICE = -1;
 
 export class Api {
+  /** @param key that calls carry, and that is asked for where the service wants another one. */
   constructor(
     readonly root: URL,
+    readonly key: Key,
     private readonly record: (call: Call) => void = () => {},
   ) {}
 
   /** The same API, with every call told to someone. */
   recorded(record: (call: Call) => void): Api {
-    return new Api(this.root, record);
+    return new Api(this.root, this.key, record);
   }
 
   url(path: string): string {
@@ -76,19 +81,29 @@ export class Api {
 
   private async answer(call: Call, signal?: AbortSignal): Promise<Response> {
     this.record(call);
-    let answer: Response;
+    for (;;) {
+      const { text } = this.key;
+      const answer = await this.sent(call, signal);
+      if (answer.ok) return answer;
+      const refusal = await problem(answer);
+      if (answer.status !== UNAUTHORIZED || !(await this.key.renew(text, refusal.detail))) throw refusal;
+      signal?.throwIfAborted();
+    }
+  }
+
+  private async sent(call: Call, signal?: AbortSignal): Promise<Response> {
+    const { body, headers } = content(call);
+    const request = { method: call.method, body, headers: { ...headers, ...this.key.headers }, signal: signal ?? null };
     try {
-      answer = await fetch(this.url(call.path), { method: call.method, ...content(call), signal: signal ?? null });
+      return await fetch(this.url(call.path), request);
     } catch (error) {
       if (signal?.aborted) throw error;
       throw new Problem(NO_ANSWER, "No answer", "The service does not answer. Is it still running?");
     }
-    if (!answer.ok) throw await problem(answer);
-    return answer;
   }
 }
 
-function content(call: Call): RequestInit {
+function content(call: Call): { body: BodyInit | null; headers: Record<string, string> } {
   const accept: Record<string, string> = call.accept === undefined ? {} : { Accept: call.accept };
   if (call.form) {
     const body = new FormData();
@@ -96,7 +111,7 @@ function content(call: Call): RequestInit {
     body.set("archive", call.form.archive);
     return { body, headers: accept };
   }
-  if (call.body === undefined) return { headers: accept };
+  if (call.body === undefined) return { body: null, headers: accept };
   return { body: JSON.stringify(call.body), headers: { "Content-Type": "application/json", ...accept } };
 }
 

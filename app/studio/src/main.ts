@@ -5,12 +5,14 @@ import "./styles/studio.css";
 import { mirror, read } from "./address.ts";
 import { Api } from "./api.ts";
 import { acceptDrops } from "./dropping.ts";
-import { followTheme, furnish } from "./page.ts";
+import { Key } from "./key.ts";
+import { followTheme, furnish, keySwitch } from "./page.ts";
 import type { Studio } from "./panels/panel.ts";
 import { showPart } from "./panels/robot/index.ts";
 import { Loader } from "./robot/load.ts";
 import { initial } from "./state.ts";
 import { Store } from "./store.ts";
+import { askForKey, listenForHelp } from "./ui/dialogs.ts";
 import { element } from "./ui/dom.ts";
 import { mark } from "./view/marks.ts";
 import { View } from "./view/view.ts";
@@ -20,7 +22,10 @@ const place = (id: string): HTMLElement => document.getElementById(id)!;
 function start(): void {
   const { linked, positions } = read(location.hash);
   const store = new Store(initial(linked));
-  const api = new Api(new URL(".", document.baseURI));
+  const tools = place("tools");
+  const key = new Key(askForKey, ({ isWanted }) => (keyTool.hidden = !isWanted));
+  const keyTool = keySwitch(key);
+  const api = new Api(new URL(".", document.baseURI), key);
   followTheme(store);
   const view = makeView(place("view"));
   const studio: Studio = { store, api, view };
@@ -45,10 +50,12 @@ function start(): void {
       panel: place("panel"),
       heading: place("heading"),
       marks: place("marks"),
-      tools: place("tools"),
+      tools,
     },
     studio,
   );
+  tools.prepend(keyTool);
+  listenForHelp();
   loader.follow(positions);
   mirror(store, (address) => {
     loader.startAt(address.positions);

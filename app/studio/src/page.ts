@@ -1,10 +1,12 @@
 /** The page around the panels: tabs, the robot's chain above the picture, what is drawn in it, light and dark. */
 
+import type { Key } from "./key.ts";
 import { PANELS } from "./panels/index.ts";
 import type { Studio } from "./panels/panel.ts";
 import { shownChain } from "./robot/chain.ts";
 import type { State } from "./state.ts";
 import type { Store } from "./store.ts";
+import { askForKey, showShortcuts } from "./ui/dialogs.ts";
 import { button, element, toggle } from "./ui/dom.ts";
 
 const MARKS = [
@@ -27,7 +29,8 @@ export function furnish(places: Places, studio: Studio): void {
   tabs(places, studio);
   heading(places.heading, studio.store);
   marks(places.marks, studio);
-  places.tools.append(themeSwitch(studio), element("a", { class: "tool", href: "docs" }, "API"));
+  const help = button("Help", showShortcuts, { class: "tool", title: "What the keyboard does (?)" });
+  places.tools.append(help, themeSwitch(studio), element("a", { class: "tool", href: "docs" }, "API"));
 }
 
 function tabs({ tabs: host, panel }: Places, studio: Studio): void {
@@ -129,6 +132,21 @@ export function followTheme(store: Store<State>): void {
   };
   store.watch(["theme"], follow);
   system.addEventListener("change", follow);
+}
+
+/** Another key in the place of the one that is used; only where the service wants any. */
+export function keySwitch(key: Key): HTMLElement {
+  const change = async () => {
+    const text = await askForKey(
+      key.isSet ? "Calls are sent with a key; this one takes its place." : "None is used yet.",
+    );
+    if (text === null) return;
+    key.set(text);
+    location.reload(); // everything is asked again; the address bar has what is shown
+  };
+  const flip = button("Key", () => void change(), { class: "tool", title: "Use another key of the service" });
+  flip.hidden = !key.isWanted;
+  return flip;
 }
 
 function themeSwitch({ store }: Studio): HTMLElement {

@@ -60,8 +60,9 @@ export class Loader {
       this.api.get<RobotInfo>(path, signal),
       this.api.text(`${path}/urdf`, signal),
     ]);
-    const source = meshSource((file) =>
-      this.api.url(`${path}/meshes/${file.split("/").map(encodeURIComponent).join("/")}`),
+    const source = meshSource(
+      (file) => this.api.url(`${path}/meshes/${file.split("/").map(encodeURIComponent).join("/")}`),
+      this.api.key.headers,
     );
     const paths = new Map(info.meshes.map(({ reference, path: file }) => [reference, file]));
     return this.#model(name, urdf, info.default_chain, info, (reference) => paths.get(reference) ?? null, source);

@@ -22,26 +22,27 @@ const BARE = new Color(0xffffff);
 /** Where the files of one robot come from.
  *
  * @param url of a file below the robot's meshes.
+ * @param headers that it is asked for with.
  */
-export function meshSource(url: (path: string) => string): MeshSource {
+export function meshSource(url: (path: string) => string, headers: Record<string, string>): MeshSource {
   const fetched = new Map<string, Promise<Object3D>>();
   return async (path, material) => {
-    const found = fetched.get(path) ?? load(url(path), path);
+    const found = fetched.get(path) ?? load(url(path), path, headers);
     fetched.set(path, found);
     return dressed((await found).clone(true), path, material);
   };
 }
 
-async function load(url: string, path: string): Promise<Object3D> {
+async function load(url: string, path: string, headers: Record<string, string>): Promise<Object3D> {
   const manager = new LoadingManager();
   switch (path.split(".").pop()?.toLowerCase()) {
     case "stl":
-      return new Mesh(await new STLLoader(manager).loadAsync(url));
+      return new Mesh(await new STLLoader(manager).setRequestHeader(headers).loadAsync(url));
     case "obj":
-      return new OBJLoader(manager).loadAsync(url);
+      return new OBJLoader(manager).setRequestHeader(headers).loadAsync(url);
     case "dae": {
       const collada = new ColladaLoader(manager).parse(
-        asItStands(await new FileLoader(manager).loadAsync(url)),
+        asItStands(await new FileLoader(manager).setRequestHeader(headers).loadAsync(url)),
         folder(url),
       );
       if (!collada) throw new Error("no Collada document");

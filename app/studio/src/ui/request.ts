@@ -58,16 +58,22 @@ export class RequestView {
   #write(): void {
     this.host.hidden = this.#call === null;
     this.#choice.show(this.#language);
-    if (this.#call) this.#code.textContent = WRITERS[this.#language](this.service.url(this.#call.path), this.#call);
+    if (this.#call)
+      this.#code.textContent = WRITERS[this.#language](
+        this.service.url(this.#call.path),
+        this.#call,
+        this.service.key.isSet,
+      );
   }
 }
 
-const WRITERS: Record<Language, (url: string, call: Call) => string> = { curl, python, json };
+const WRITERS: Record<Language, (url: string, call: Call, hasKey: boolean) => string> = { curl, python, json };
 
-function curl(url: string, call: Call): string {
+function curl(url: string, call: Call, hasKey: boolean): string {
   const method =
     call.method === "GET" || (call.method === "POST" && (call.body || call.form)) ? "" : ` -X ${call.method}`;
   const parts = [`curl -s${method} ${quoted(url)}`];
+  if (hasKey) parts.push(`-H "Authorization: Bearer $GELENK_KEY"`);
   if (call.form) {
     for (const [name, value] of Object.entries(call.form.fields)) parts.push(`-F ${quoted(`${name}=${value}`)}`);
     parts.push(`-F ${quoted(`archive=@${call.form.archive.name}`)}`);
@@ -79,10 +85,14 @@ function curl(url: string, call: Call): string {
   return parts.join(" \\\n  ");
 }
 
+/** The key itself is never shown. */
+const KEY = `"Authorization": "Bearer " + os.environ["GELENK_KEY"]`;
+
 /** The standard library is enough for JSON; for a form there is `requests`. */
-function python(url: string, call: Call): string {
+function python(url: string, call: Call, hasKey: boolean): string {
   if (call.form) {
     return [
+      ...(hasKey ? ["import os", ""] : []),
       "import requests",
       "",
       `with open(${literal(call.form.archive.name)}, "rb") as archive:`,
@@ -90,13 +100,16 @@ function python(url: string, call: Call): string {
       `        ${literal(url)},`,
       `        data=${literal(call.form.fields)},`,
       `        files={"archive": archive},`,
+      ...(hasKey ? [`        headers={${KEY}},`] : []),
       "    )",
       "print(answer.json())",
     ].join("\n");
   }
-  const open = call.body === undefined && call.method === "GET" ? `urlopen(${literal(url)})` : "urlopen(request)";
+  const isPlain = call.body === undefined && call.method === "GET" && !hasKey;
+  const open = isPlain ? `urlopen(${literal(url)})` : "urlopen(request)";
   const lines = [
     "import json",
+    ...(hasKey ? ["import os"] : []),
     `from urllib.request import ${open.includes("request)") ? "Request, " : ""}urlopen`,
     "",
   ];
@@ -105,8 +118,9 @@ function python(url: string, call: Call): string {
     lines.push("request = Request(", `    ${literal(url)},`);
     if (call.body !== undefined) {
       const headers = { "Content-Type": "application/json", ...(call.accept ? { Accept: call.accept } : {}) };
-      lines.push("    data=json.dumps(call).encode(),", `    headers=${literal(headers)},`);
-    }
+      const all = hasKey ? `{**${literal(headers)}, ${KEY}}` : literal(headers);
+      lines.push("    data=json.dumps(call).encode(),", `    headers=${all},`);
+    } else if (hasKey) lines.push(`    headers={${KEY}},`);
     if (call.method !== "POST" || call.body === undefined) lines.push(`    method=${literal(call.method)},`);
     lines.push(")");
   }

@@ -64,6 +64,14 @@ export interface Audit {
   reasons: { check: string; detail: string; joint: string | null; time: number }[];
 }
 
+/** How long a way takes by its law, scaled until a limit is reached, and at least; [s]. */
+export interface Timing {
+  segments: number[];
+  law: Law;
+  uniform_duration: number;
+  time_optimal_duration: number;
+}
+
 export interface TrajectoryAnswer {
   joint_names: string[];
   base_frame: string;
@@ -76,6 +84,7 @@ export interface TrajectoryAnswer {
   limits: JointLimits;
   limit_sources: Record<keyof JointLimits, ("request" | "robot" | "assumed")[]>;
   notes: string[];
+  timing: Timing[] | null;
 }
 
 /** An answer, and the motion that it is of. */

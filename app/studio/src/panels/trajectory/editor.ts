@@ -24,6 +24,11 @@ const PASSED = [
   { value: "timed", text: "At given times" },
 ] as const;
 
+const WAYS = [
+  { value: "spline", text: "A cubic spline" },
+  { value: "blends", text: "Lines with blends" },
+] as const;
+
 type Blend = "blend_radius" | "blend_time" | "blend_acceleration";
 
 const BLENDS: readonly { value: Blend; text: string; unit: string }[] = [
@@ -247,11 +252,20 @@ export class Editor {
       this.#edit({ boundary }),
     );
     const boundary = this.#follow(ends, (segment) => segment.boundary ?? "clamped");
+    const way = choice("Between waypoints", `${this.#name}, between waypoints`, WAYS, (chosen) =>
+      this.#edit({ blends: chosen === "blends" || undefined, ...(chosen === "blends" && { boundary: undefined }) }),
+    );
+    const between = this.#follow(way, ({ blends }) => (blends ? "blends" : "spline"));
+    this.#shows.push(({ blends, waypoints }) => {
+      boundary.hidden = blends === true;
+      between.hidden = !blends && waypoints!.some(isPose); // blends are of the joints
+    });
     const passed = choice("Waypoints are passed", `${this.#name}, waypoints are passed`, PASSED, (when) =>
       this.#edit({ times: when === "timed" ? this.#segment.waypoints!.map((_, i) => i + 1) : undefined }),
     );
     return [
       element("div", { class: "setting" }, element("span", { class: "field" }, "A spline of"), through.host),
+      between,
       boundary,
       this.#follow(passed, ({ times }) => (times ? "timed" : "soon")),
     ];

@@ -1,6 +1,7 @@
 /** A motion from the address bar, where anybody can have written anything. */
 
 import { isPose } from "../../robot/pose.ts";
+import { DIRECTIONS } from "../../types.ts";
 import { type Motion, type Place, type Segment, TYPES } from "./motion.ts";
 
 const NUMBERS = ["duration", "velocity_scale", "acceleration_scale"] as const;
@@ -18,12 +19,14 @@ export function asMotion(value: unknown): Motion | null {
     Array.isArray(motion.segments) &&
     motion.segments.every((segment) => isSegment(segment, motion.start.length)) &&
     hasNumbers(motion, OF_THE_WHOLE) &&
+    (motion.task === undefined || isTask(motion.task)) &&
+    isFlag(motion.compare_timing) &&
     areLimits(motion.limits);
   return isMotion ? motion : null;
 }
 
 function isSegment(value: unknown, joints: number): value is Segment {
-  if (!isObject(value) || !hasNumbers(value, OF_A_SEGMENT)) return false;
+  if (!isObject(value) || !hasNumbers(value, OF_A_SEGMENT) || !isFlag(value["blends"])) return false;
   const { type, via, target, waypoints, times } = value as Partial<Segment>;
   const isThere = (place: unknown) => isPlace(place, joints);
   const isTip = (place: unknown) => isThere(place) && !Array.isArray(place);
@@ -48,6 +51,16 @@ function isSegment(value: unknown, joints: number): value is Segment {
 
 function isPlace(value: unknown, joints: number): value is Place {
   return isPose(value) || (areNumbers(value) && value.length === joints);
+}
+
+/** Some of the directions, in their order. */
+function isTask(value: unknown): boolean {
+  if (!Array.isArray(value) || value.length === 0) return false;
+  return JSON.stringify(DIRECTIONS.filter((direction) => value.includes(direction))) === JSON.stringify(value);
+}
+
+function isFlag(value: unknown): boolean {
+  return value === undefined || typeof value === "boolean";
 }
 
 function areLimits(value: unknown): boolean {

@@ -2,7 +2,7 @@
 
 import type { ShownChain } from "../../robot/chain.ts";
 import { asPose, isPose } from "../../robot/pose.ts";
-import type { Pose } from "../../types.ts";
+import type { Direction, Pose } from "../../types.ts";
 import { poseAt } from "./configurations.ts";
 
 export type Law = "cubic" | "quintic" | "septic" | "trapezoidal" | "jerk_limited" | "time_optimal";
@@ -48,6 +48,8 @@ export interface Segment extends Pace {
   blend_acceleration?: number;
   orientation?: OrientationLaw;
   boundary?: Boundary;
+  /** Of a spline through configurations: straight lines of the joints with parabolas, beside the inner ones. */
+  blends?: boolean;
 }
 
 export interface Motion extends Pace {
@@ -62,6 +64,10 @@ export interface Motion extends Pace {
   orientation_tolerance?: number;
   min_singular_value?: number;
   near_singularity?: NearSingularity;
+  /** Directions in which a way of the tip counts; all of them if left out. */
+  task?: Direction[];
+  /** Whether the time-optimal duration of each way is told beside that of its law. */
+  compare_timing?: boolean;
 }
 
 export const TYPES: readonly { value: SegmentType; text: string }[] = [

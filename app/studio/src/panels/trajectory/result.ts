@@ -12,7 +12,7 @@ import { belongs, request } from "./motion.ts";
 import { Player } from "./player.ts";
 import { Profiles } from "./profiles.ts";
 import { type MotionMarks, tipPath } from "./scene.ts";
-import { auditTable, failureBox } from "./verdict.ts";
+import { auditTable, failureBox, timingTable } from "./verdict.ts";
 
 export class Result {
   readonly host: HTMLElement;
@@ -114,6 +114,7 @@ export class Result {
     const go = (time: number) => this.#player.seek(time);
     this.#title.textContent = `Motion of ${answer.duration.toFixed(3)} s`;
     const failure = failureBox(answer, go);
+    const timing = timingTable(answer);
     const notes = [
       ...answer.notes,
       ...answer.segments.flatMap(({ index, notes }) => notes.map((note) => `Segment ${index + 1}: ${note}`)),
@@ -122,6 +123,7 @@ export class Result {
     this.#ended.replaceChildren(...(failure ? [failure] : []));
     this.#body.replaceChildren(
       auditTable(answer, chain.joints, degrees, go),
+      ...(timing ? [timing] : []),
       ...(notes.length ? [remarks(notes)] : []),
     );
   }

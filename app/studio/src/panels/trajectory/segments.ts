@@ -194,11 +194,11 @@ export class SegmentList {
 /** A segment in a line. */
 function summary(segment: Segment, { chain, degrees }: Draft): string {
   const say = (place: Place) => told(place, chain.joints, degrees);
-  const { via, target, waypoints, blend_radius, blend_time, blend_acceleration } = segment;
+  const { via, target, waypoints, blends, blend_radius, blend_time, blend_acceleration } = segment;
   if (waypoints)
     return waypoints.length === 1
       ? `to ${say(waypoints[0]!)}`
-      : `${waypoints.length} waypoints, to ${say(waypoints.at(-1)!)}`;
+      : `${waypoints.length} waypoints${blends ? ", blended" : ""}, to ${say(waypoints.at(-1)!)}`;
   if (via) return target ? `to ${say(target)}` : "its target is missing";
   const blend = [
     blend_radius && `, blended at ${blend_radius} m`,

@@ -1,6 +1,7 @@
 /** Law and limits of the whole motion. */
 
-import { element } from "../../ui/dom.ts";
+import { DIRECTIONS } from "../../types.ts";
+import { element, toggle } from "../../ui/dom.ts";
 import { NumberField } from "../../ui/number.ts";
 import { format, type Kind, unitOf } from "../../ui/quantity.ts";
 import type { JointLimits } from "./answer.ts";
@@ -75,6 +76,8 @@ export class Settings {
     this.#shows = [];
     this.#body.replaceChildren(
       element("div", { class: "settings thirds" }, this.#law(), this.#near(), ...this.#numbers()),
+      this.#task(),
+      this.#timing(),
       element("div", { class: "settings" }, ...this.#tip()),
       this.#joints(),
     );
@@ -94,6 +97,37 @@ export class Settings {
     const change = (near_singularity: NearSingularity) => this.draft.set({ near_singularity });
     const field = choice("Near a singularity", "Near a singularity", NEAR, change);
     return this.#follow(field, ({ near_singularity }) => near_singularity ?? "stop");
+  }
+
+  /** The directions in which a way of the tip counts: with fewer the arm has freedom. */
+  #task(): HTMLElement {
+    const task = () => this.draft.motion.task ?? DIRECTIONS;
+    const toggles = DIRECTIONS.map((direction) => {
+      const flip = () => {
+        const wanted = DIRECTIONS.filter((one) => (one === direction) !== task().includes(one));
+        if (wanted.length) this.draft.set({ task: wanted.length < DIRECTIONS.length ? wanted : undefined });
+      };
+      const made = toggle(direction, `Whether the way counts in ${direction}`, flip);
+      this.#shows.push(() => made.setAttribute("aria-pressed", String(task().includes(direction))));
+      return made;
+    });
+    return element(
+      "div",
+      { class: "bar", role: "group", "aria-label": "Directions in which the way counts" },
+      element("span", { class: "field" }, "The way counts in"),
+      ...toggles,
+    );
+  }
+
+  #timing(): HTMLElement {
+    const flip = () => this.draft.set({ compare_timing: this.draft.motion.compare_timing ? undefined : true });
+    const made = toggle(
+      "Compare with time-optimal",
+      "How long each way takes by its law, and how long at least within the same limits",
+      flip,
+    );
+    this.#shows.push(({ compare_timing }) => made.setAttribute("aria-pressed", String(compare_timing === true)));
+    return element("div", { class: "bar" }, made);
   }
 
   #numbers(): HTMLElement[] {
@@ -185,6 +219,7 @@ function summary(motion: Motion): string {
     duration !== undefined && `in ${duration} s`,
     near_singularity && near_singularity !== "stop" && `near a singularity ${near_singularity.replace("_", " ")}`,
     limits && "limits of its own",
+    motion.task && `counts in ${motion.task.join(" ")}`,
   ];
   return said.filter(Boolean).join(" · ");
 }

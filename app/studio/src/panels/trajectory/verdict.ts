@@ -97,6 +97,29 @@ export function auditTable(
   );
 }
 
+/** What the time-optimal law would gain on each way, where that was asked for. */
+export function timingTable({ timing }: TrajectoryAnswer): HTMLElement | null {
+  if (!timing?.length) return null;
+  const rows = timing.map(({ segments, law, uniform_duration, time_optimal_duration }) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, segments.map((index) => index + 1).join(", ")),
+      element("td", {}, law.replace("_", "-")),
+      element("td", { class: "value" }, `${fixed(uniform_duration, 3)} s`),
+      element("td", { class: "value" }, `${fixed(time_optimal_duration, 3)} s`),
+      element("td", { class: "value" }, percent(time_optimal_duration / uniform_duration)),
+    ),
+  );
+  const titles = ["Way of segment", "Law", "Takes", "Time-optimal", "Ratio"];
+  return element(
+    "table",
+    { class: "findings timing" },
+    element("thead", {}, element("tr", {}, ...titles.map((title) => element("th", { scope: "col" }, title)))),
+    element("tbody", {}, ...rows),
+  );
+}
+
 /** Why the motion ends early, and where. */
 export function failureBox(answer: TrajectoryAnswer, go: (time: number) => void): HTMLElement | null {
   const { failure, completed_fraction } = answer;

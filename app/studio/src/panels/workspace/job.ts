@@ -15,6 +15,7 @@ export interface Result {
 
 export const NPY = "application/x-npy";
 
+const LOOK = 500; // [ms]
 const RETRY = 1000; // after the service has refused to tell events, [ms]
 const LOST = new Problem(
   NO_ANSWER,
@@ -51,7 +52,7 @@ export class Follower {
       const job = await this.api.get<JobInfo>(pathOf(id), signal);
       if (signal.aborted) return;
       this.listener.progress(job);
-      if (job.state === "queued" || job.state === "running") this.#listen(id);
+      if (job.state === "queued" || job.state === "running") this.#goOn(id);
       else if (job.state === "succeeded") await this.#fetch(id, signal);
     });
   }
@@ -68,6 +69,12 @@ export class Follower {
     clearTimeout(this.#retry);
     this.#events?.close();
     this.#events = null;
+  }
+
+  #goOn(id: string): void {
+    // An event stream of the browser carries no key: then the job is looked at again and again.
+    if (this.api.key.isSet) this.#retry = window.setTimeout(() => void this.follow(id), LOOK);
+    else this.#listen(id);
   }
 
   /** The service sends what is new; when the connection is lost, the browser takes it up again. */
