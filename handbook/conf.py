@@ -11,9 +11,9 @@ author = "the authors of Gelenk"
 html_title = "Gelenk handbook"
 language = "en"
 
-extensions = ["myst_parser", "handbook.directives", "handbook.mathematics", "handbook.reference"]
+extensions = ["myst_parser", "handbook.directives", "handbook.mathematics", "handbook.reference_directives"]
 source_suffix = {".md": "markdown"}
-myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
 html_theme = "furo"

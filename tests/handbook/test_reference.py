@@ -1,57 +1,148 @@
-"""The reference has every operation, and every kind of problem."""
+"""The built reference has every operation, object, field, kind of problem and setting, found here in another way."""
 
+import ast
+import dataclasses
 import re
+import shutil
+import subprocess
+import sys
+from collections import Counter
 from collections.abc import Iterator
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from app.api.problems import status_of
 from app.main import create_app
-from app.model.errors import kinds
+from app.model.errors import KinematicsError, kinds
 from app.settings import Settings
-from handbook.reference import object_sections, operation_sections, problem_table
+from handbook.operations import compact
+from handbook.problem_kinds import OF_HTTP, all_kinds
+from handbook.settings_list import bounds, settings
 
-PAGES = {path.stem: path.read_text(encoding="utf-8") for path in Path("docs/reference").glob("*.md")}
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCHEMA: dict[str, Any] = create_app(Settings(data_dir=Path("unused"))).openapi()
+OPERATIONS = [content for operations in SCHEMA["paths"].values() for content in operations.values()]
 
 
-@pytest.fixture(scope="module")
-def schema(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
-    yield create_app(Settings(data_dir=tmp_path_factory.mktemp("data"))).openapi()
-
-
-def test_every_operation_is_in_one_page(schema: Any) -> None:
-    tags = [tag for page in PAGES.values() for tag in re.findall(r"```\{operations\} (.+)", page)]
-    shown = [section for tag in tags for section in operation_sections(schema, tag)]
-    calls = [f"`{method.upper()} {path}`" for path, methods in schema["paths"].items() for method in methods]
-    assert sorted(re.findall(r"^`([A-Z]+ /.*)`$", "\n".join(shown), re.MULTILINE)) == sorted(
-        call.strip("`") for call in calls
+def dashed(name: str) -> str:
+    return (
+        re.sub("([a-z0-9])([A-Z])", r"\1-\2", name.replace("app__schemas__", ""))
+        .replace("__", "-")
+        .replace("_", "-")
+        .lower()
     )
 
 
-def test_a_request_is_told_by_its_fields(schema: Any) -> None:
-    (section,) = [each for each in operation_sections(schema, "Kinematics") if each.startswith("## Inverse kinematics")]
-    assert "| `targets` | list (at most 1,000,000) of [Pose](#object-pose); required |" in section
-    assert "| `position_tolerance` | number ≥ 1e-12, ≤ 1; `1e-06` if left out | \\[m\\]. |" in section
-    assert '| `solutions` | `"one"` · `"all"`; `"one"` if left out |' in section
-    assert "**Answer, 200** `application/json`" in section
-    assert "| `closed_form` | text or `null`; required |" in section
+def places() -> Iterator[str]:
+    """Where something must stand in the reference."""
+    for content in OPERATIONS:
+        operation = dashed(content["operationId"])
+        yield f"operation-{operation}"
+        yield from (f"field-{operation}-{dashed(entry['name'])}" for entry in content.get("parameters", []))
+        for body in content.get("requestBody", {}).get("content", {}).values():
+            yield from (f"field-{operation}-form-{dashed(name)}" for name in body["schema"].get("properties", {}))
+        yield from (f"status-{status}" for status in content["responses"] if status >= "400")
+    for name, schema in SCHEMA["components"]["schemas"].items():
+        yield f"object-{dashed(name)}"
+        yield from (f"field-{dashed(name)}-{dashed(field)}" for field in schema.get("properties", ()))
+    for kind, error in kinds().items():
+        if error.detail is not KinematicsError.detail:
+            yield f"problem-{kind}"
+    yield from (f"problem-{kind}" for _, kind in kinds_of_http())
+    yield from (f"setting-{dashed(field.name)}" for field in dataclasses.fields(Settings))
 
 
-def test_links_between_objects_lead_to_one_each(schema: Any) -> None:
-    text = "\n\n".join(object_sections(schema))
-    places = re.findall(r"^\((object-[a-z0-9-_]+)\)=$", text, re.MULTILINE)
-    assert len(places) == len(set(places)) == len(schema["components"]["schemas"])
-    assert set(re.findall(r"\]\(#(object-[^)]+)\)", text)) <= set(places)
-    headings = re.findall(r"^## (.+)$", text, re.MULTILINE)
-    assert len(headings) == len(set(headings))
+def kinds_of_http() -> set[tuple[HTTPStatus, str]]:
+    """What the code answers with beside the errors of the core: every kind that it names, with the status before it."""
+    found = {
+        (HTTPStatus.NOT_FOUND, "not-found"),
+        (HTTPStatus.METHOD_NOT_ALLOWED, "method-not-allowed"),
+    }  # by the router
+    for path in [*ROOT.glob("app/api/**/*.py"), ROOT / "app/connections.py"]:
+        functions = (
+            node
+            for node in ast.walk(ast.parse(path.read_text()))
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+        )
+        found |= {named for function in functions for named in _named(function)}
+    return found
 
 
-def test_every_kind_of_problem_is_told() -> None:
-    table = "\n".join(problem_table(kinds()))
-    assert re.findall(r"^\| `([a-z-]+)` \| \d{3} \| \S", table, re.MULTILINE) == sorted(kinds())
-    # A string of small words joined by hyphens that follows a status is the kind of a problem.
-    sources = "\n".join(path.read_text(encoding="utf-8") for path in Path("app/api").rglob("*.py"))
-    named = set(re.findall(r'(?:HTTPStatus\.[A-Z_]+|status), "([a-z]+(?:-[a-z]+)+)"', sources))
-    assert {"malformed-json", "key-needed", "internal-error"} <= named
-    assert [kind for kind in sorted(named) if f"`{kind}`" not in PAGES["errors"]] == []
+def _named(tree: ast.FunctionDef | ast.AsyncFunctionDef) -> Iterator[tuple[HTTPStatus, str]]:
+    statuses: dict[str, ast.expr] = {}
+    for node in ast.walk(tree):
+        match node:
+            case ast.Assign([ast.Name(name)], value) | ast.Assign(
+                [ast.Tuple([ast.Name(name), *_])], ast.Tuple([value, *_])
+            ):
+                statuses[name] = value
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call) and ast.unparse(call.func) in {"problem", "self._refuse", "_answer"}:
+            for status, kind in zip(call.args, call.args[1:], strict=False):
+                if isinstance(kind, ast.Constant) and re.fullmatch(r"[a-z]+(-[a-z]+)+", str(kind.value)):
+                    told = statuses[status.id] if isinstance(status, ast.Name) else status
+                    yield HTTPStatus[ast.unparse(told).removeprefix("HTTPStatus.")], str(kind.value)
+
+
+@pytest.mark.slow
+def test_nothing_is_missing_and_nothing_stands_twice(tmp_path: Path) -> None:
+    sources, output = tmp_path / "docs", tmp_path / "built"
+    shutil.copytree(ROOT / "docs" / "reference", sources / "reference")
+    (sources / "index.md").write_text("# Alone\n\n```{toctree}\n:glob:\n\nreference/*\n```\n")
+    code = "import sys, pathlib, handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
+    command = [sys.executable, "-c", code, str(sources), str(output)]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    found = Counter(
+        name for page in output.glob("reference/*.html") for name in re.findall(r'\bid="([^"]+)"', page.read_text())
+    )
+    assert [place for place in sorted(set(places())) if found[place] != 1] == []
+
+
+def test_every_kind_has_its_status() -> None:
+    found = {kind.name: kind for kind in all_kinds()}
+    assert len(found) == len(all_kinds())
+    for name, error in kinds().items():
+        if name in found and error.detail is not KinematicsError.detail:
+            assert found[name].status == status_of(error)
+            assert found[name].exception == error.__name__
+    own = {(kind.status, kind.name) for kind in OF_HTTP}
+    assert own == kinds_of_http() - {(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy")}
+
+
+def test_kinds_say_which_facts_they_carry() -> None:
+    facts = {kind.name: kind.facts for kind in all_kinds()}
+    assert facts["wrong-joint-count"] == {
+        "given": "whole number",
+        "expected": "list of texts",
+        "index": "whole number or `null`",
+        "field": "text",
+    }
+    assert facts["unknown-robot"] == {"close": "list of texts"}  # the name itself is kept out of the answer
+    assert facts["service-stopping"] == {}
+
+
+def test_settings_say_their_variable_and_default() -> None:
+    entries = {entry.partition("\n")[0]: entry for entry in settings().split("\n\n")}
+    assert "[`GELENK_CREW_WAITING`]{#setting-crew-waiting} default: `160`" in entries
+    assert "[`GELENK_MAX_BODY_BYTES`]{#setting-max-body-bytes} default: `67108864` (64 MiB)" in entries
+    assert "[`GELENK_API_KEYS`]{#setting-api-keys} default: none" in entries
+    assert all("GELENK" not in entry.partition("\n")[2] for entry in entries.values())
+    assert all(entry.partition("\n: ")[2].endswith(".") for entry in entries.values())
+
+
+def test_bounds_are_those_of_the_code() -> None:
+    assert "| links | 512 |" in bounds()
+    assert "| zip, unpacked | 256 MiB |" in bounds()
+
+
+def test_examples_are_short_where_they_can_be() -> None:
+    assert compact({"a": [1, 2], "b": "ü"}) == '{"a": [1, 2], "b": "ü"}'
+    rows = [[float(i)] * 9 for i in range(2)]
+    assert compact({"rows": rows}) == (
+        '{\n  "rows": [\n    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],\n'
+        "    [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]\n  ]\n}"
+    )

@@ -1,0 +1,156 @@
+"""All kinds of problems as Markdown: of the core from its tree of errors, and those that HTTP adds."""
+
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from http import HTTPStatus
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from app.api.problems import status_of
+from app.model.errors import KinematicsError, kinds
+from handbook.schema_words import anchor
+
+_WORDS: Mapping[Any, tuple[str, object]] = {
+    str: ("text", "text"),
+    int: ("whole number", 1),
+    float: ("number", 1.0),
+    tuple[str, ...]: ("list of texts", ("text",)),
+}
+"""By the type of a fact: what it is, and one such value."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of problem.
+
+    Attributes:
+        name: The last part of its `type`.
+        status: Of HTTP.
+        meaning: In a sentence or two.
+        facts: What its problems carry beside the members that all have: what each is, by its name.
+        exception: What the client raises, if there is a class of its own.
+    """
+
+    name: str
+    status: HTTPStatus
+    meaning: str
+    facts: Mapping[str, str] = field(default_factory=dict)
+    exception: str | None = None
+
+
+OF_HTTP = (
+    Kind(
+        "malformed-request",
+        HTTPStatus.BAD_REQUEST,
+        "What came is not HTTP. The connection is closed.",
+    ),
+    Kind("invalid-host", HTTPStatus.BAD_REQUEST, "The request does not name the host that it is for exactly once."),
+    Kind("malformed-json", HTTPStatus.BAD_REQUEST, "The body is not JSON: where its reader had to stop."),
+    Kind(
+        "key-needed",
+        HTTPStatus.UNAUTHORIZED,
+        "Keys are on, and the request has none, or one that is not or no longer among them.",
+    ),
+    Kind(
+        "missing-scope",
+        HTTPStatus.FORBIDDEN,
+        "The key is good, but not for this.",
+        {"missing_scope": "text", "scopes": "list of texts"},
+    ),
+    Kind(
+        "cross-origin-refused",
+        HTTPStatus.FORBIDDEN,
+        "A page of another origin may not do this; `GELENK_ALLOWED_ORIGINS` adds origins.",
+    ),
+    Kind("not-found", HTTPStatus.NOT_FOUND, "There is nothing at this path."),
+    Kind(
+        "method-not-allowed",
+        HTTPStatus.METHOD_NOT_ALLOWED,
+        "There is something at this path, but not for this method; `Allow` in the header lists those that there are.",
+    ),
+    Kind(
+        "request-too-slow",
+        HTTPStatus.REQUEST_TIMEOUT,
+        "The head or the body of the request did not come in time. The connection is closed.",
+    ),
+    Kind(
+        "unsupported-media-type",
+        HTTPStatus.UNSUPPORTED_MEDIA_TYPE,
+        "The operation does not take a body of this `Content-Type`.",
+        {"allowed": "list of texts"},
+    ),
+    Kind(
+        "unknown-host",
+        HTTPStatus.MISDIRECTED_REQUEST,
+        "The service does not answer for this host; `GELENK_TRUSTED_HOSTS` adds names.",
+    ),
+    Kind(
+        "invalid-payload",
+        HTTPStatus.UNPROCESSABLE_ENTITY,
+        "Fields of the body or of the query are missing, unknown, of another type, or beyond a limit of the schema.",
+        {"errors": "list of objects with `pointer` and `detail`, at most 20"},
+    ),
+    Kind(
+        "head-too-large",
+        HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE,
+        "The request line and the header fields have too many bytes. The connection is closed.",
+    ),
+    Kind(
+        "internal-error",
+        HTTPStatus.INTERNAL_SERVER_ERROR,
+        "Something went wrong in the service; its log tells more, under the `request_id`.",
+    ),
+    Kind(
+        "not-ready",
+        HTTPStatus.SERVICE_UNAVAILABLE,
+        "Of `/readyz`: the service is not ready for work.",
+        {"waiting_for": "list of texts", "reasons": "object of texts by name", "failure": "text or `null`"},
+    ),
+)
+"""What is found before or outside the core."""
+
+
+def all_kinds() -> list[Kind]:
+    """Every kind that an answer may have, by status and name."""
+    return sorted([*OF_HTTP, *_of_the_core()], key=lambda kind: (kind.status, kind.name))
+
+
+def problems() -> str:
+    """The kinds, each below the heading of its status."""
+    return "\n\n".join(_paragraphs(all_kinds()))
+
+
+def _paragraphs(found: list[Kind]) -> Iterator[str]:
+    status: HTTPStatus | None = None
+    for kind in found:
+        if kind.status != status:
+            status = kind.status
+            yield f"(status-{status.value})=\n## {status.value} {status.phrase}"
+        yield f"({anchor('problem', kind.name)})=\n### {kind.name}"
+        raised = "" if kind.exception is None else f" In Python `{kind.exception}`."
+        yield f"{kind.meaning}{raised}"
+        if kind.facts:
+            yield "Facts: " + "; ".join(f"`{name}`, {what}" for name, what in kind.facts.items()) + "."
+
+
+def _of_the_core() -> Iterator[Kind]:
+    for name, error in kinds().items():
+        if error.detail is not KinematicsError.detail:  # others are never raised, only what derives from them
+            meaning = " ".join((error.__doc__ or "").split())
+            yield Kind(name, status_of(error), meaning, _facts(error), error.__name__)
+
+
+def _facts(error: type[KinematicsError]) -> dict[str, str]:
+    """What the problems of a class carry: an instance is asked, as some keep a field to themselves."""
+    hints = get_type_hints(error)
+    instance = error(*(_told(hints[entry.name])[1] for entry in fields(error)))
+    return {name: _told(hints[name])[0] for name in instance.facts()}
+
+
+def _told(hint: Any) -> tuple[str, object]:
+    """A type in words, and one such value."""
+    if get_origin(hint) in {types.UnionType, Union}:
+        (inner,) = (choice for choice in get_args(hint) if choice is not type(None))
+        words, value = _WORDS[inner]
+        return f"{words} or `null`", value
+    return _WORDS[hint]
