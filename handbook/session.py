@@ -98,12 +98,10 @@ class Session:
         try:
             with redirect_stdout(printed):
                 value = self._execute(code)
-        except KinematicsError as error:
-            if kind_of(error) != refusal:
-                raise Unexpected(f"the service refuses it, {kind_of(error)}: {error.detail}") from error
-            value, refusal = f"{type(error).__name__}: {error.detail}", None
         except Exception as error:
-            raise Unexpected(f"{type(error).__name__}: {error}") from error
+            if not isinstance(error, KinematicsError) or kind_of(error) != refusal:
+                raise Unexpected(_told(error)) from error
+            value, refusal = f"{type(error).__name__}: {error.detail}", None
         if refusal is not None:
             raise Unexpected(f"it is answered where {refusal} should refuse it")
         output = printed.getvalue() + ("" if value is None else written(value, digits))
@@ -118,7 +116,7 @@ class Session:
         try:
             return eval(expression, self._names)  # noqa: S307 - the project's own pages
         except Exception as error:
-            raise Unexpected(f"{type(error).__name__}: {error}") from error
+            raise Unexpected(_told(error)) from error
 
     def recorded(self, expression: str) -> tuple[Any, tuple[str, ...]]:
         """The value of an expression, and its calls as commands of curl; raises as `value` does."""
@@ -145,6 +143,13 @@ def kind_of(error: KinematicsError) -> str:
     """Such as `unknown-frame`."""
     problem: Mapping[str, Any] = getattr(error, "problem", {})
     return str(problem.get("type", "")).removeprefix("urn:gelenk:")
+
+
+def _told(error: Exception) -> str:
+    """What has gone wrong, for whoever writes the page."""
+    if isinstance(error, KinematicsError):
+        return f"the service refuses it, {kind_of(error)}: {error.detail}"
+    return f"{type(error).__name__}: {error}"
 
 
 def curl(call: Call[Any]) -> str:

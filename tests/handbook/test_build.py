@@ -62,7 +62,8 @@ gelenk.robot("ur5").name
 1 / 0
 ```
 
-Stated is {is}`3 = 1 + 1`, and {is}`nothing`, and {is}`1 = unheard`, and a [dead link](nowhere.md).
+Stated is {is}`3 = 1 + 1`, and {is}`nothing`, and {is}`1 = unheard`,
+and {is}`1 = gelenk.fk("ur5", joint_positions=[[0.0]])`, and a [dead link](nowhere.md).
 
 ```{picture}
 :alt: No picture.
@@ -77,6 +78,7 @@ $$\\begin{pmatrix} 1$$
 """
 FAULTS = (
     "the service refuses it, unknown-robot",
+    "the service refuses it, wrong-joint-count",
     "it is answered where unknown-robot should refuse it",
     "ZeroDivisionError",
     "stated is '3', and the call gives 2",
