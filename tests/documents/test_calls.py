@@ -62,7 +62,7 @@ def test_what_python_prints(page: Path, url: str) -> None:
 
 def test_a_key_is_made_and_used(tmp_path: Path) -> None:
     """As the page on labs has it, but that the service is reached from this machine alone."""
-    make, serve, ask = shell(Path("docs/how-to/run-it-for-a-lab.md"))
+    make, serve, ask, *_ = shell(Path("docs/how-to/run-it-for-a-lab.md"))
     (tmp_path / "dev").symlink_to(Path("dev").resolve())
     made = subprocess.run(["bash", "-c", make], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True)
     settings = dict(word.split("=") for word in serve.split() if word.startswith("GELENK_"))

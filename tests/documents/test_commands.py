@@ -16,6 +16,9 @@ DEV: set[str] = set(re.findall(r'^        "(\w+)": \w+,$', Path("dev").read_text
 BENCHMARKS: set[str] = set(
     re.findall(r'^    "([\w-]+)": [\w.]+,$', Path("tests/benchmarks/__main__.py").read_text(), re.MULTILINE)
 ) | {"ik"}
+DOCKERFILE = Path("Dockerfile").read_text(encoding="utf-8")
+DEBIAN = "python3,python3-pip,ca-certificates"
+"""What the Dockerfile needs of its base."""
 ALL = [(page, line) for page in PAGES for line in (*shell(page), *(command.line for command in console(page)))]
 MENTIONED = [
     (page, words)
@@ -56,6 +59,12 @@ def test_a_command_is_one(page: Path, line: str, monkeypatch: pytest.MonkeyPatch
             pass  # what a page says of the last two is run in `test_calls`
         case ["ray", "start", *arguments]:
             assert "--disable-usage-stats" in arguments
+        case ["debootstrap", *_]:
+            assert f"--include={DEBIAN}" in words
+        case ["buildah", "build", *_]:
+            assert re.search(rf"^ARG {words[words.index('--build-arg') + 1].split('=')[0]}=", DOCKERFILE, re.MULTILINE)
+        case ["buildah", "from" | "add" | "commit" | "images", *_]:
+            pass
         case _:
             pytest.fail(f"{page}: nobody knows the command {words[0]}")
 
