@@ -15,13 +15,13 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 @pytest.mark.parametrize("page", PAGES, ids=str)
 def test_every_link_leads_somewhere(page: Path) -> None:
-    """The handbook checks those of its own pages too; here are the others, and headings."""
+    """Places in a page are looked up where the handbook's build does not: its own pages have some that it makes."""
     targets = [target for target in LINK.findall(page.read_text(encoding="utf-8")) if "://" not in target]
     for target in targets:
         name, _, heading = target.partition("#")
         file = page.parent / name if name else page
         assert file.exists(), target
-        if heading:
+        if heading and not page.is_relative_to("docs"):
             assert heading in anchors(file), target
 
 
