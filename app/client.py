@@ -170,6 +170,7 @@ class Client(Operations):
 
     def watch(self, job: str) -> Iterator[JobInfo]:
         """A job, whenever it is further on, until it has come to its end."""
+        last = None
         while True:
             try:
                 with self._http.stream("GET", _events_path(job), timeout=_EVENTS) as response:
@@ -177,9 +178,12 @@ class Client(Operations):
                         response.read()
                         raise refusal(_problem(response))
                     for event in httpx2.EventSource(response):
-                        yield JobInfo.model_validate_json(event.data, extra="ignore")
+                        info = JobInfo.model_validate_json(event.data, extra="ignore")
+                        if info != last:  # a stream that was broken off begins with what is known
+                            yield info
                         if event.event == "finished":
                             return
+                        last = info
             except httpx2.TransportError:
                 self.job(job)  # raises where the service is gone for good; else the stream goes on
 
@@ -235,6 +239,7 @@ class AsyncClient(Operations):
 
     async def watch(self, job: str) -> AsyncIterator[JobInfo]:
         """A job, whenever it is further on, until it has come to its end."""
+        last = None
         while True:
             try:
                 async with self._http.stream("GET", _events_path(job), timeout=_EVENTS) as response:
@@ -242,9 +247,12 @@ class AsyncClient(Operations):
                         await response.aread()
                         raise refusal(_problem(response))
                     async for event in httpx2.EventSource(response):
-                        yield JobInfo.model_validate_json(event.data, extra="ignore")
+                        info = JobInfo.model_validate_json(event.data, extra="ignore")
+                        if info != last:  # a stream that was broken off begins with what is known
+                            yield info
                         if event.event == "finished":
                             return
+                        last = info
             except httpx2.TransportError:
                 await self.job(job)
 

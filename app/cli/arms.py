@@ -117,6 +117,8 @@ def ik(
 ) -> None:
     """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
     shared, numbers = session(context), rows_of(target or [], file, "targets")
+    if later:
+        shared.check_server()
     body: dict[str, Any] = {"targets": [target_of(row, task is not None) for row in numbers.tolist()]}
     body |= {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
     body["solutions"] = "all" if every else "one"

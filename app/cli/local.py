@@ -10,11 +10,14 @@ from typing import Any, TypeVar
 
 import httpx2
 from anyio.from_thread import start_blocking_portal
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from app.crew.crew import Crew
 from app.main import create_app
 from app.settings import Settings
 
+_EVENTS = "/events"
+_LOOK_SECONDS = 0.05
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
@@ -38,6 +41,18 @@ class _Alone(Crew):
         return await asyncio.to_thread(function, argument)
 
 
+def _looked_at(app: ASGIApp) -> ASGIApp:
+    """An application whose events end after the first: an answer comes as a whole here, and the client asks again."""
+
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["path"].endswith(_EVENTS):
+            await asyncio.sleep(_LOOK_SECONDS)
+            scope = {**scope, "state": {"stopping": True}}
+        await app(scope, receive, send)
+
+    return answer
+
+
 class InProcess(httpx2.BaseTransport):
     """A way to an application of its own, which forgets everything when it is closed.
 
@@ -53,7 +68,7 @@ class InProcess(httpx2.BaseTransport):
         self._portal = self._stack.enter_context(start_blocking_portal())
         lifespan = app.router.lifespan_context(app)
         self._stack.enter_context(self._portal.wrap_async_context_manager(lifespan))
-        self._transport = httpx2.ASGITransport(app)
+        self._transport = httpx2.ASGITransport(_looked_at(app))
 
     def handle_request(self, request: httpx2.Request) -> httpx2.Response:
         """The answer, as a whole."""

@@ -32,6 +32,8 @@ def trajectory(
 ) -> None:
     """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
     shared, kind = session(context), None if plot is None else picture_kind(plot)
+    if later:
+        shared.check_server()
     fields = _motion(start, joint or [], line or [], motion)
     fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
     with shared.robot(robot) as (client, name):
@@ -83,6 +85,8 @@ def workspace(
 ) -> None:
     """What the tip can reach: points as CSV or npy, a summary otherwise."""
     shared, picture = session(context), None if plot is None else picture_kind(plot)
+    if later:
+        shared.check_server()
     body: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
         job = client.jobs.workspace(name, **body)

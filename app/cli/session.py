@@ -12,6 +12,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from app.cli.completion import robots_beginning_with
 from app.cli.inputs import pairs_of, robot_named
 from app.cli.outputs import Output, Rows
+from app.model.errors import InvalidField
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -109,6 +110,11 @@ class Session:
         """What comes out of a job, its progress on the screen."""
         with self.bar(job.info.kind) as progress:
             return job.result(lambda info: progress(info.progress))
+
+    def check_server(self) -> None:
+        """Raises InvalidField where a job would end with this very process."""
+        if not self.server:
+            raise InvalidField("job", "needs --server: without one the job would end with this command")
 
     def tell_job(self, info: "JobInfo") -> None:
         """A job as an answer."""

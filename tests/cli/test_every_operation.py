@@ -210,6 +210,8 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
     "cancel_job": lambda f, _: ["jobs", "cancel", f["job"]],
 }
 """Each operation that has a command of its own, with the arguments that say what its example does."""
+ON_A_SERVER = {"workspace"}
+"""Whose command begins a job for others to look at, which ends with the process that does it."""
 NO_OPERATION = {"ask", "serve", "bench"}
 
 
@@ -219,7 +221,7 @@ def by_commands(shell: Shell, folder: Path, *options: str) -> Way:
 
     def ask(question: Question) -> Any:
         command = COMMANDS.get(question.id)
-        if command is None:
+        if command is None or (question.id in ON_A_SERVER and not options):
             return otherwise(question)
         arguments = command({**question.names, **question.fields}, Files(folder))
         code = DIFFERENT.get(question.id, 0)
