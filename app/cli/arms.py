@@ -1,12 +1,13 @@
 """Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from app.cli.inputs import fields_of, rows_of
-from app.cli.outputs import Rows
+from app.cli.outputs import Rows, picture_kind
 from app.cli.session import BaseOption, FieldsOption, FromOption, LaterOption, RobotArgument, TipOption, session
 from app.model.errors import InvalidField
 
@@ -185,13 +186,17 @@ def manipulability(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw the ellipsoids into this file, SVG or PNG.")] = None,
     fields: FieldsOption = None,
 ) -> None:
     """How well the tip can move and push at each configuration."""
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
+    kind = None if plot is None else picture_kind(plot)
     body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
         answer = client.manipulability(name, **body)
+        if plot is not None and kind is not None:
+            plot.write_bytes(client.picture(f"v1/robots/{name}/manipulability", kind, body))
     rows = []
     for index, result in enumerate(answer.results):
         for part, info in (("translation", result.translation), ("rotation", result.rotation)):

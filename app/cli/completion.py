@@ -8,7 +8,7 @@ from pathlib import Path
 
 import typer
 
-_CATALOGUE = Path(__file__).parents[2] / "robots"
+_CATALOGUE = Path(os.environ.get("GELENK_CATALOGUE_DIR") or Path(__file__).parents[2] / "robots")
 _PATIENCE = 2.0
 """[s]; who has pressed a key waits."""
 

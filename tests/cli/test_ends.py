@@ -121,7 +121,7 @@ def test_progress_is_told_as_it_goes_on(own: InProcess) -> None:
     """Without a server too, where an answer comes as a whole."""
     told: list[tuple[float, float]] = []
     gelenk = Client("http://127.0.0.1", transport=own)  # not closed: others go on with what is behind it
-    with gelenk.jobs.workspace("panda", samples=300_000) as job:
+    with gelenk.jobs.workspace("panda", samples=600_000) as job:
         job.wait(lambda info: told.append((time.monotonic(), info.progress)))
     moments, progress = zip(*told, strict=True)
     assert progress[-1] == 1.0
@@ -134,7 +134,9 @@ def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
     head = {"svg": b"<?xml", "png": b"\x89PNG"}[kind]
     motion = ["trajectory", "planar_2r", "--start", "0.3 0.8", "--joint", "0.5 0.2"]
     shell(*motion, "--plot", tmp_path / f"motion.{kind}")
-    assert (tmp_path / f"motion.{kind}").read_bytes().startswith(head)
+    shell("manipulability", "planar_2r", "-q", "0.3 0.8", "--plot", tmp_path / f"ellipse.{kind}")
+    for name in ("motion", "ellipse"):
+        assert (tmp_path / f"{name}.{kind}").read_bytes().startswith(head)
 
 
 def test_what_cannot_be_drawn_is_refused_before_the_work(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
