@@ -1,17 +1,29 @@
 """Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
 from collections.abc import Sequence
+from http import HTTPStatus
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.calls.refusals import Refused
 from app.cli.inputs import fields_of, rows_of
 from app.cli.outputs import Rows, picture_kind
-from app.cli.session import BaseOption, FieldsOption, FromOption, LaterOption, RobotArgument, TipOption, session
+from app.cli.session import (
+    BaseOption,
+    FieldsOption,
+    FromOption,
+    LaterOption,
+    RobotArgument,
+    Session,
+    TipOption,
+    session,
+)
 from app.model.errors import InvalidField
 
 if TYPE_CHECKING:
+    from app.client import Client
     from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
     from app.schemas.pose import Pose
 
@@ -132,14 +144,24 @@ def ik(
         if later:
             shared.tell_job(client.jobs.ik(name, **body).info)
             return
-        if len(numbers) > _MOST_AT_ONCE:
-            with client.jobs.ik(name, **body) as job:
-                answer = shared.result_of(job)
-        else:
-            answer = client.ik(name, **body)
+        answer = _reached(shared, client, name, body)
     shared.write(answer, _solutions(answer))
     if any(not result.solutions for result in answer.results):
         raise typer.Exit(UNREACHED)
+
+
+def _reached(shared: Session, client: "Client", name: str, body: dict[str, Any]) -> "InverseAnswer":
+    """The answer; many targets are a job, with a bar on the screen, unless the key is not good for jobs."""
+    if len(body["targets"]) > _MOST_AT_ONCE:
+        try:
+            job = client.jobs.ik(name, **body)
+        except Refused as refused:
+            if refused.status != HTTPStatus.FORBIDDEN:
+                raise
+        else:
+            with job:
+                return shared.result_of(job)
+    return client.ik(name, **body)
 
 
 def target_of(row: Sequence[float], position_suffices: bool) -> dict[str, Any]:

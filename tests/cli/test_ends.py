@@ -111,6 +111,28 @@ def test_many_targets_are_a_job(shell: Shell, url: str, tmp_path: Path, monkeypa
     shell("--server", url, "jobs", "show", begun["id"], code=2)
 
 
+def test_a_key_that_is_not_good_for_jobs_suffices(
+    shell: Shell, own: InProcess, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = {"type": "urn:gelenk:forbidden", "status": 403, "detail": "the key lacks the scope `write`"}
+    refused: list[str] = []
+
+    def answer(request: httpx2.Request) -> httpx2.Response:
+        if "prefer" in request.headers:
+            refused.append(request.url.path)
+            return httpx2.Response(403, json=problem)
+        return own.handle_request(request)
+
+    reader = Client("http://127.0.0.1", transport=httpx2.MockTransport(answer))
+    np.save(tmp_path / "poses.npy", [[0.8 + 0.01 * i, 0.9, 0.0, 0.0, 0.0, 0.0] for i in range(20)])
+    asked = ["ik", "planar_2r", "--from", tmp_path / "poses.npy", "--task", "x,y"]
+    expected = shell.json(*asked)
+    monkeypatch.setattr("app.client.Client", lambda *_, **__: reader)
+    monkeypatch.setattr("app.cli.arms._MOST_AT_ONCE", 10)
+    assert shell.json("--server", "http://gelenk.invalid", *asked) == expected
+    assert refused == ["/v1/robots/planar_2r/ik"]
+
+
 def test_a_job_that_nobody_would_do_is_not_begun(shell: Shell) -> None:
     for arguments in (["ik", "planar_2r", "--to", "1 1 0 0 0 0"], ["trajectory", "planar_2r", "--start", "0 0"]):
         assert "needs --server" in shell(*arguments, "--job", code=2)[1]
