@@ -168,12 +168,12 @@ def field(owner: str, name: str, schema: Schema, objects: Objects, is_required: 
         told.append(f"default {_code(schema['default'])}")
     elif is_required:
         told.append("required")
-    meaning = " ".join(_meaning(schema, objects).split()) or f"{schema.get('title', name)}."
+    meaning = " ".join(_meaning(schema, objects).split())
     return f"[`{name}`]{{#{anchor('field', owner, name)}}} {'; '.join(told)}\n: {meaning}"
 
 
 def _meaning(schema: Schema, objects: Objects) -> str:
-    """What a field is, or where it does not say so, what the first object is that it may hold; may be empty."""
+    """What a field is, or where it does not say so, what the first object is that it may hold."""
     match schema:
         case {"description": str(description)}:
             return description

@@ -75,9 +75,9 @@ class UnverifiedEntry(Answer):
     """A number that is not checked, because what was found would make up for another one."""
 
     row: int = Field(description="The row, from 1.")
-    joint: str
-    parameter: Literal["a", "alpha", "d", "theta"]
-    absorbed_by: Literal["base", "tool", "offsets"]
+    joint: str = Field(description="Of the row.")
+    parameter: Literal["a", "alpha", "d", "theta"] = Field(description="Whose number is not checked.")
+    absorbed_by: Literal["base", "tool", "offsets"] = Field(description="What would make up for another number.")
 
 
 class CompareAnswer(Answer):

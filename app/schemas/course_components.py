@@ -207,7 +207,7 @@ class BackDrivingInfo(Answer):
 
     efficiency: float | None = Field(description="2 - 1/η, no unit; null where the gear locks itself.")
     self_locking: bool = Field(description="Whether no load can turn the motor: η ≤ 1/2.")
-    note: str
+    note: str = Field(description="The same in a sentence.")
 
 
 class GearAnswer(Answer):

@@ -76,7 +76,7 @@ class FlyOverBlend(Answer):
 class PhaseInfo(Answer):
     """A part of the motion with constant acceleration."""
 
-    name: PhaseName
+    name: PhaseName = Field(description="What happens in it.")
     duration: float = Field(description="How long it takes, [s]; 0 where it is left out.")
 
 

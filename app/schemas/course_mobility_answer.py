@@ -11,9 +11,9 @@ from app.schemas.derive import StepInfo
 class PairInfo(Answer):
     """A kinematic pair as it is counted."""
 
-    name: str
-    link_a: str
-    link_b: str
+    name: str = Field(description="Of the pair.")
+    link_a: str = Field(description="One of the two links.")
+    link_b: str = Field(description="The other one.")
     type: str = Field(description="Kind; of a robot also `floating`, which is no pair and takes nothing.")
     order: Literal["low", "high"] | None = Field(
         description="Low where the links touch in a surface, high in a line or point."
@@ -27,8 +27,10 @@ class PairInfo(Answer):
 class PairCount(Answer):
     """The pairs of one kind."""
 
-    type: str
-    order: Literal["low", "high"] | None
+    type: str = Field(description="Of the pairs.")
+    order: Literal["low", "high"] | None = Field(
+        description="Low where links touch in a surface, high where in a line or a point; null where neither is said."
+    )
     count: int = Field(description="Number of them.")
     constraints: int = Field(description="c of each.")
 
@@ -36,7 +38,7 @@ class PairCount(Answer):
 class JointSplitInfo(Answer):
     """A joint of more than two links."""
 
-    joint: str
+    joint: str = Field(description="Its name.")
     links: int = Field(description="k: links that meet there.")
     pairs: int = Field(description="k - 1: pairs that it is.")
     added: int = Field(description="How many of these had not been given.")
@@ -46,7 +48,7 @@ class JointSplitInfo(Answer):
 class IdleInfo(Answer):
     """A freedom that moves nothing but the links that have it: they spin about the line of two spherical joints."""
 
-    links: list[str]
+    links: list[str] = Field(description="Those that can move alone.")
     joints: list[str] = Field(description="The two spherical joints.")
 
 
@@ -85,8 +87,8 @@ class TaskInfo(Answer):
 class SpacesInfo(Answer):
     """Joint space and task space of a robot's default chain."""
 
-    base_frame: str
-    tip_frame: str
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
     configuration_dimension: int = Field(description="n: joints of the chain with a position of their own.")
     tasks: list[TaskInfo]
 
@@ -98,7 +100,7 @@ class MobilityAnswer(Answer):
     verdict: Literal["mechanism", "structure", "overconstrained"] = Field(
         description="By the mobility less the idle freedoms: ≥ 1, 0, < 0; that of `posture` where there is one."
     )
-    space: Literal["planar", "spatial"]
+    space: Literal["planar", "spatial"] = Field(description="In which its links move.")
     space_freedoms: int = Field(description="λ: freedoms of a free body.")
     link_count: int = Field(description="n, the ground included.")
     pair_count: int = Field(description="j, after joints of more than two links have been split.")

@@ -70,8 +70,8 @@ class SampledRequest(Payload):
 class SegmentInfo(Answer):
     """A piece of the motion, q(t) = Σ c_k (t - start_time)^k."""
 
-    start_time: float = Field(description="[s]")
-    end_time: float = Field(description="[s]")
+    start_time: float = Field(description="When it begins, [s].")
+    end_time: float = Field(description="When it ends, [s].")
     coefficients: list[list[float]] = Field(
         description="A row a joint, lowest power first: c_0 is the position where the piece begins, "
         "[rad or m per sᵏ]. The lecture lists them the other way round."
@@ -114,7 +114,7 @@ class MotionCertificate(Answer):
 class MotionAnswer(Answer):
     """A motion: its pieces, its peaks, its samples."""
 
-    duration: float = Field(description="[s]")
+    duration: float = Field(description="Of the whole, [s].")
     switching_times: list[float] = Field(description="Where the pieces begin and end, [s].")
     segments: list[SegmentInfo]
     peaks: PeaksInfo

@@ -159,7 +159,7 @@ class AxisAngleInfo(Answer):
 class DegeneracyInfo(Answer):
     """A notation at which something is not determined."""
 
-    notation: Literal["zyz", "rpy", "axis_angle"]
+    notation: Literal["zyz", "rpy", "axis_angle"] = Field(description="Which one it is.")
     case: str = Field(description="What makes it so.")
     determined: str | None = Field(description="What still is; null where nothing more is.")
     value: float | None = Field(description="Of the combination that is determined, in (-π, π], [rad].")

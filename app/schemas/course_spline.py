@@ -52,7 +52,7 @@ class SystemInfo(Answer):
 class KnotInfo(Answer):
     """A knot."""
 
-    time: float = Field(description="[s]")
+    time: float = Field(description="When the knot is passed, [s].")
     positions: list[float] = Field(description="One a joint, [rad or m].")
     velocities: list[float] = Field(description="v, one a joint, [rad/s or m/s].")
     accelerations: list[float] = Field(description="One a joint, [rad/s² or m/s²].")
@@ -62,7 +62,7 @@ class KnotInfo(Answer):
 class SplineAnswer(MotionAnswer):
     """A cubic spline."""
 
-    boundary: Boundary
+    boundary: Boundary = Field(description="What holds at its ends.")
     system: SystemInfo | None = Field(description="Null where no velocity is unknown.")
     knots: list[KnotInfo] = Field(description="In order, fictitious ones among them.")
     steps: Steps

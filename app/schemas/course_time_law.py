@@ -88,7 +88,7 @@ class BlendsInfo(Answer):
 class TimeLawAnswer(MotionAnswer):
     """A motion by a time law."""
 
-    law: Law
+    law: Law = Field(description="As it was asked for.")
     normalised: list[list[float] | None] | None = Field(
         description="Of a cubic, quintic or septic: the lecture's a, b, c, … of q = q0 + Δq (a λⁿ + b λⁿ⁻¹ + …) in "
         "λ = t/T, highest power first, a list a joint, no unit; null for a joint with Δq = 0, which has none."

@@ -52,7 +52,7 @@ class TimeScalingRequest(SampledRequest):
 class BindingInfo(Answer):
     """The joint that is nearest to its limit of a quantity, or furthest beyond, in the motion as it came."""
 
-    quantity: Quantity
+    quantity: Quantity = Field(description="Whose limit sets the duration.")
     ratio: float = Field(description="Peak over limit, no unit.")
     factor: float = Field(
         description="The k that this quantity alone asks for: the ratio of a velocity, the square root of that of an "

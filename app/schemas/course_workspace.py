@@ -34,7 +34,7 @@ class RegionInfo(Answer):
         description="Smallest and largest distance from the base of each ring, both included, from the inside out, "
         "[m]. From 0 on it is a disc; with both the same a circle, or the base alone; empty where there is none."
     )
-    area: float = Field(description="[m²]")
+    area: float = Field(description="Of the region, [m²].")
 
 
 class PlaceInfo(Answer):

@@ -41,10 +41,10 @@ class DeriveRequest(Payload):
 class LegendEntry(Answer):
     """A symbol and what it stands for."""
 
-    latex: str
-    plain: str
-    meaning_latex: str
-    meaning: str
+    latex: str = Field(description="The symbol in LaTeX.")
+    plain: str = Field(description="The symbol as plain text.")
+    meaning_latex: str = Field(description="What it stands for, in LaTeX.")
+    meaning: str = Field(description="What it stands for, as plain text.")
     value: float | None = Field(
         description="What the table gives for it, [m], or a cosine or sine; null for variables."
     )
@@ -53,7 +53,7 @@ class LegendEntry(Answer):
 class ColumnInfo(Answer):
     """A column of the geometric Jacobian in the axes of the base."""
 
-    joint: str
+    joint: str = Field(description="The joint whose rate the column is multiplied by.")
     axis: MatrixInfo = Field(description="z of the joint: z_{i-1} in a standard table, z_i in a modified one.")
     arm: MatrixInfo | None = Field(description="p from the joint's frame to the tip; null for a prismatic joint.")
     linear: MatrixInfo = Field(description="z × p, simplified; z for a prismatic joint.")
@@ -73,13 +73,15 @@ class DeterminantInfo(Answer):
     block: Literal["full", "moving", "linear", "angular"] = Field(
         description="The whole Jacobian; the rows that ever differ from zero; the linear, or the angular ones of these."
     )
-    rows: list[Literal["v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"]]
+    rows: list[Literal["v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"]] = Field(
+        description="Of the Jacobian, those that the block has."
+    )
     frame: int = Field(description="Number of the frame in whose axes these rows are meant.")
     why: str = Field(description="Why this block.")
     latex: str | None = Field(
         description="The determinant as a product; null where it has too many terms, or failed its check."
     )
-    plain: str | None
+    plain: str | None = Field(description="The same as plain text; null where that is.")
     factors: list[FormulaInfo] = Field(description="The factors of the product beside its number, each one once.")
 
 
@@ -115,14 +117,14 @@ class NumericColumnInfo(Answer):
 
     axis: list[float] = Field(description="z of the joint.")
     arm: list[float] = Field(description="From the joint's frame to the tip, [m].")
-    linear: list[float] = Field(description="[m per rad or m]")
-    angular: list[float] = Field(description="[rad per rad or m]")
+    linear: list[float] = Field(description="Its upper three numbers, [m per rad or m].")
+    angular: list[float] = Field(description="Its lower three numbers, [rad per rad or m].")
 
 
 class NumericInfo(Answer):
     """The numbers at one configuration."""
 
-    joint_positions: list[float] = Field(description="[rad or m]")
+    joint_positions: list[float] = Field(description="At which the numbers are, [rad or m].")
     A: list[Grid] = Field(description="A_1 … A_n, translation in [m].")
     T_0: list[Grid] = Field(description="T_0_1 … T_0_n, translation in [m].")
     T_base_tool: Grid = Field(description="Translation in [m].")
@@ -138,8 +140,8 @@ class NumericInfo(Answer):
 class StepInfo(Answer):
     """A section of the worked solution."""
 
-    title: str
-    text: str
+    title: str = Field(description="What the step does.")
+    text: str = Field(description="The step in a sentence or two.")
     latex: list[str] = Field(description="Formulas, each to stand on a line of its own.")
 
 
@@ -163,10 +165,10 @@ class NumericCertificate(Answer):
 class DeriveAnswer(Answer):
     """The worked solution."""
 
-    convention: Literal["standard", "modified"]
+    convention: Literal["standard", "modified"] = Field(description="Of the table.")
     joint_names: list[str] = Field(description="The order of a configuration.")
-    notation: Literal["short", "full"]
-    symbolic: bool
+    notation: Literal["short", "full"] = Field(description="As it was asked for.")
+    symbolic: bool = Field(description="Whether there are formulas; else numbers alone.")
     legend: list[LegendEntry] = Field(description="What each symbol stands for.")
     A: list[MatrixInfo] = Field(description="A_1 … A_n.")
     T_0: list[MatrixInfo] = Field(description="T_0_1 … T_0_n.")

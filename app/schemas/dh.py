@@ -23,8 +23,8 @@ class MimicPayload(Payload):
         description="A row with a position of its own, or a joint outside the table: that is a variable then, in its "
         "place where the first row needs it."
     )
-    multiplier: float = Field(1.0, description="[rad or m] per [rad or m].")
-    offset: float = Field(0.0, description="[rad or m]")
+    multiplier: float = Field(1.0, description="Of the position of the leader, [rad or m] per [rad or m].")
+    offset: float = Field(0.0, description="Added to the multiple of the leader's position, [rad or m].")
 
 
 class DhJointRow(Payload):

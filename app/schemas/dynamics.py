@@ -71,8 +71,8 @@ class DynamicsAnswer(Answer):
     """M q̈ + C q̇ + g + Jᵀγ = τ, one entry a configuration, in order; rows and columns as `joint_names`."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str
-    tip_frame: str
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
     root_frame: str = Field(description="The root link, which stands still, and in whose axes gravity is given.")
     gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
     mass_matrices: list[Matrix] | None = Field(

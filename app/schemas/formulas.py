@@ -17,6 +17,6 @@ class FormulaInfo(Answer):
 class MatrixInfo(Answer):
     """A matrix; null where an entry has too many terms to be written out."""
 
-    name: str
+    name: str = Field(description="Such as `T_base_tool`.")
     latex: str | None = Field(description="The whole matrix, for KaTeX or LaTeX with amsmath.")
     plain: list[list[str]] | None = Field(description="Entry by entry, row by row.")

@@ -50,8 +50,15 @@ class InverseOptions(ChainOptions):
         description="`all`: every distinct solution, nearest to the seed first; of a redundant arm a sample of its "
         "self-motion, no two nearer than 0.2 rad (or m) in every joint.",
     )
-    position_tolerance: float = Field(1e-6, ge=1e-12, le=1.0, description="[m].")
-    orientation_tolerance: float = Field(1e-6, ge=1e-12, le=1.0, description="[rad].")
+    position_tolerance: float = Field(
+        1e-6, ge=1e-12, le=1.0, description="How far a solution may be from the target's position, [m]."
+    )
+    orientation_tolerance: float = Field(
+        1e-6,
+        ge=1e-12,
+        le=1.0,
+        description="By what angle a solution may be turned from the target's orientation, [rad].",
+    )
     task: list[Direction] | None = Field(
         None,
         min_length=1,
@@ -164,7 +171,7 @@ class NearestInfo(Answer):
 class BlockingJointInfo(Answer):
     """A joint whose limit is in the way."""
 
-    name: str
+    name: str = Field(description="Of the joint.")
     position: float = Field(description="Where it would have to be, [rad or m].")
     lower: float = Field(description="Lower limit, [rad or m].")
     upper: float = Field(description="Upper limit, [rad or m].")
@@ -178,7 +185,7 @@ class IterationInfo(Answer):
     min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")
     step_length: float | None = Field(description="‖Δq‖ of the step from here, [rad or m]; null at the last.")
     method: str | None = Field(description="Which step that was; null at the last.")
-    joint_positions: list[float] = Field(description="[rad or m].")
+    joint_positions: list[float] = Field(description="The configuration itself, [rad or m].")
 
 
 class InverseResult(Answer):

@@ -21,15 +21,15 @@ class JobError(Answer):
     """Why a job failed."""
 
     type: str = Field(description="The same as of the problem that its result answers with.")
-    detail: str
+    detail: str = Field(description="What went wrong, in a sentence.")
     facts: dict[str, Any] = Field(description="Typed data of this kind of problem.")
 
 
 class JobInfo(Answer):
     """A job."""
 
-    id: str
-    kind: Literal["workspace", "ik", "trajectory"]
+    id: str = Field(description="By which it is asked for.")
+    kind: Literal["workspace", "ik", "trajectory"] = Field(description="What it works on.")
     state: Literal["queued", "running", "succeeded", "failed", "cancelled"] = Field(
         description="The last three are final."
     )

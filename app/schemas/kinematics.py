@@ -137,10 +137,10 @@ class JacobianAnswer(Answer):
     """Jacobians, one entry a configuration; rows linear (x, y, z), then angular; columns as joint_names."""
 
     joint_names: list[str] = Field(description="The chain's joints: the columns.")
-    base_frame: str
-    tip_frame: str
-    reference: Literal["local_world_aligned", "local", "world"]
-    representation: Literal["geometric", "zyz", "rpy"]
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
+    reference: Literal["local_world_aligned", "local", "world"] = Field(description="As it was asked for.")
+    representation: Literal["geometric", "zyz", "rpy"] = Field(description="As it was asked for.")
     jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
     ranks: list[int] = Field(description="Singular values that count, see `rank_tolerance`.")
     singular_values: list[list[float]] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")

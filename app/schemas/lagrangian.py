@@ -107,7 +107,7 @@ class DynamicsPayload(Payload):
 class BodyInfo(Answer):
     """A link, as the Lagrangian sees it; vectors in the axes of frame 0."""
 
-    joint: str
+    joint: str = Field(description="The joint that moves the body.")
     center_of_mass: MatrixInfo = Field(description="p_ci from the origin of frame 0.")
     velocity: MatrixInfo = Field(description="v_ci, of the centre of mass.")
     angular_velocity: FormulaInfo = Field(description="ω_i about the normal of the plane.")
@@ -126,7 +126,7 @@ class ChristoffelInfo(FormulaInfo):
 class MotionNumbers(Answer):
     """The equations of motion at one configuration."""
 
-    joint_positions: list[float] = Field(description="[rad or m]")
+    joint_positions: list[float] = Field(description="At which the numbers are, [rad or m].")
     joint_velocities: list[float] | None = Field(description="[rad/s or m/s]; null where none were given.")
     mass_matrix: Grid = Field(description="M, [kg m², kg m or kg].")
     coriolis: Grid | None = Field(description="C, [kg m²/s, kg m/s or kg/s]; null without velocities.")

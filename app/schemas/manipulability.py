@@ -87,7 +87,9 @@ class ManipulabilityRequest(ManipulabilityOptions):
 class SpaceInfo(Answer):
     """The directions of one part in which the chain moves at all, and the units of its numbers."""
 
-    part: Literal["translation", "rotation", "combined"]
+    part: Literal["translation", "rotation", "combined"] = Field(
+        description="Of the motion that the ellipsoid is about."
+    )
     dimension: int = Field(
         description="Axes of its ellipsoids: the rank of these rows of the Jacobian at almost every configuration."
     )

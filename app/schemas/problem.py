@@ -7,7 +7,7 @@ class FieldError(BaseModel):
     """What is wrong in one place of a payload."""
 
     pointer: str = Field(description="JSON pointer into the payload, or the name of a query parameter.")
-    detail: str
+    detail: str = Field(description="What is wrong there, in a sentence.")
 
 
 class Problem(BaseModel):

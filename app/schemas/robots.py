@@ -59,7 +59,7 @@ class NewRobot(RobotReplacement):
 class ArchiveReplacement(Payload):
     """The text fields that come with an archive."""
 
-    description: Text = ""
+    description: Text = Field("", description="One sentence for people.")
     base_frame: FrameName | None = Field(None, description="Of the default chain, together with `tip_frame`.")
     tip_frame: FrameName | None = Field(None, description="Of the default chain, together with `base_frame`.")
 
@@ -85,10 +85,10 @@ class NewArchive(ArchiveReplacement):
 class RobotSummary(Answer):
     """A robot in the list."""
 
-    name: str
-    description: str
-    source: Literal["catalogue", "uploaded"]
-    format: Literal["urdf", "dh"]
+    name: str = Field(description="By which it is asked.")
+    description: str = Field(description="One sentence for people; may be empty.")
+    source: Literal["catalogue", "uploaded"] = Field(description="Whether it came with the service.")
+    format: Literal["urdf", "dh"] = Field(description="What it was described by.")
     default_chain: ChainEnds
 
 
@@ -101,27 +101,29 @@ class RobotList(Answer):
 class LimitsInfo(Answer):
     """Limits of a joint; null where there is none."""
 
-    lower: float | None = Field(description="[rad or m]")
-    upper: float | None = Field(description="[rad or m]")
-    velocity: float | None = Field(description="[rad/s or m/s]")
-    effort: float | None = Field(description="[N m or N]")
+    lower: float | None = Field(description="Least position; null where there is none, [rad or m].")
+    upper: float | None = Field(description="Greatest position; null where there is none, [rad or m].")
+    velocity: float | None = Field(description="Greatest speed; null where none is given, [rad/s or m/s].")
+    effort: float | None = Field(description="Greatest torque or force; null where none is given, [N m or N].")
 
 
 class MimicInfo(Answer):
     """The joint's position is `multiplier` · position of `joint` + `offset`."""
 
-    joint: str
-    multiplier: float = Field(description="[rad or m] per [rad or m]")
-    offset: float = Field(description="[rad or m]")
+    joint: str = Field(description="The joint that it follows.")
+    multiplier: float = Field(description="Of the leader's position, [rad or m] per [rad or m].")
+    offset: float = Field(description="Added to the multiple, [rad or m].")
 
 
 class JointInfo(Answer):
     """A joint of a robot."""
 
-    name: str
-    type: Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
-    parent: str
-    child: str
+    name: str = Field(description="Of the joint.")
+    type: Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"] = Field(
+        description="How it moves."
+    )
+    parent: str = Field(description="The link nearer to the root.")
+    child: str = Field(description="The link that it moves.")
     origin: Pose = Field(description="Pose of the joint's frame in the parent link, at position zero.")
     axis: list[float] | None = Field(description="Unit vector in the joint's frame; null where a joint has none.")
     limits: LimitsInfo
@@ -144,11 +146,11 @@ class RobotInfo(RobotSummary):
     joint_names: list[str] = Field(description="The default chain's joints, base to tip: the order of a configuration.")
     dh: DhTablePayload | None = Field(None, description="The table, of a robot that was given as one.")
     degrees_of_freedom: int = Field(description="Joints of the whole robot with a position of their own.")
-    links: list[str]
-    frames: list[str]
+    links: list[str] = Field(description="Their names.")
+    frames: list[str] = Field(description="Their names: those that calls may name.")
     leaf_tips: list[str] = Field(description="Links without children.")
     meshes: list[MeshInfo]
-    licence: str | None
+    licence: str | None = Field(description="Of its description; null where none is known.")
     provenance: str | None = Field(description="Where the description comes from.")
     warnings: list[str] = Field(description="What is odd about the description, though accepted.")
 

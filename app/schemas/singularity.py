@@ -211,8 +211,8 @@ class SingularityAnswer(Answer):
     """Singularity reports, one entry a configuration, in order."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str
-    tip_frame: str
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
     reference: Literal["local_world_aligned", "local", "world"] = Field(description="Whose directions they are.")
     task: list[Direction] = Field(description="The directions that count, in the order as given.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")

@@ -39,7 +39,7 @@ _Vectors = Annotated[
 class PayloadInfo(Payload):
     """A rigid body on the tip."""
 
-    mass: float = Field(gt=0, le=1e6, description="[kg].")
+    mass: float = Field(gt=0, le=1e6, description="Of the load, [kg].")
     center_of_mass: Annotated[list[_Length], Field(min_length=3, max_length=3)] = Field(
         default=[0.0, 0.0, 0.0], description="In the tip frame, [m]."
     )
@@ -197,8 +197,8 @@ class StaticsAnswer(Answer):
     """Forces at rest, one entry a configuration, in order."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str
-    tip_frame: str
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
     root_frame: str = Field(description="The root link, in whose axes gravity is given.")
     gravity: list[float] | None = Field(description="In the axes of the root link, [m/s²]; null where left out.")
     task: list[Direction] = Field(description="The components of a wrench.")

@@ -114,7 +114,7 @@ class SegmentOptions(MotionOptions):
 class JointSegment(SegmentOptions):
     """All joints together to a configuration, the tip wherever that leads it."""
 
-    type: Literal["joint"]
+    type: Literal["joint"] = Field(description="All joints together.")
     target: Target = Field(
         description="A configuration, one number a joint or by joint name, [rad or m]; or a pose of `tip_frame` in "
         "`base_frame`, for which the solution nearest to where the segment begins is taken."
@@ -124,7 +124,7 @@ class JointSegment(SegmentOptions):
 class LineSegment(SegmentOptions):
     """The tip straight to a pose, from rest to rest unless it is blended."""
 
-    type: Literal["line"]
+    type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
     blend_radius: float | None = Field(
         None,
@@ -158,7 +158,7 @@ class LineSegment(SegmentOptions):
 class CircleSegment(SegmentOptions):
     """The tip along the arc through a pose to another, less than once round."""
 
-    type: Literal["circle"]
+    type: Literal["circle"] = Field(description="Along a circle.")
     via: Pose = Field(description="Pose of `tip_frame` in `base_frame` on the way, its orientation too.")
     target: Pose = Field(description="Pose at its end.")
     orientation: OrientationLaw = Field("axis_angle", description=_ORIENTATION_THROUGH)
@@ -167,7 +167,7 @@ class CircleSegment(SegmentOptions):
 class SplineSegment(SegmentOptions):
     """A cubic spline through configurations, or a smooth way of the tip through poses."""
 
-    type: Literal["spline"]
+    type: Literal["spline"] = Field(description="Through points, along a spline.")
     waypoints: list[Target] = Field(
         min_length=1,
         max_length=MAX_WAYPOINTS,

@@ -16,9 +16,9 @@ LimitSource = Literal["request", "robot", "assumed"]
 class MotionLimitsInfo(Answer):
     """What joints and tip may do, scales applied; one number a joint, base to tip."""
 
-    joint_velocity: list[float] = Field(description="[rad/s or m/s].")
-    joint_acceleration: list[float] = Field(description="[rad/s² or m/s²].")
-    joint_jerk: list[float] = Field(description="[rad/s³ or m/s³].")
+    joint_velocity: list[float] = Field(description="One number a joint, [rad/s or m/s].")
+    joint_acceleration: list[float] = Field(description="One number a joint, [rad/s² or m/s²].")
+    joint_jerk: list[float] = Field(description="One number a joint, [rad/s³ or m/s³].")
     tip_velocity: float | None = Field(description="[m/s]; null without one.")
     tip_acceleration: float | None = Field(description="[m/s²]; null without one.")
     tip_angular_velocity: float | None = Field(description="[rad/s]; null without one.")
@@ -28,9 +28,9 @@ class MotionLimitsInfo(Answer):
 class LimitSourcesInfo(Answer):
     """Where each joint's limits are from: the request, the robot's description, or assumed for want of both."""
 
-    joint_velocity: list[LimitSource]
-    joint_acceleration: list[LimitSource]
-    joint_jerk: list[LimitSource]
+    joint_velocity: list[LimitSource] = Field(description="One entry a joint.")
+    joint_acceleration: list[LimitSource] = Field(description="One entry a joint.")
+    joint_jerk: list[LimitSource] = Field(description="One entry a joint.")
 
 
 class PolynomialsInfo(Answer):
@@ -53,8 +53,8 @@ class SegmentBlend(Answer):
     """How a line went over into the next."""
 
     radius: float = Field(description="Distance from the corner at which the line is left, [m].")
-    start_time: float = Field(description="[s].")
-    end_time: float = Field(description="[s].")
+    start_time: float = Field(description="When it begins, [s].")
+    end_time: float = Field(description="When it ends, [s].")
     acceleration: float | None = Field(
         description="Limit of the tip's in it, [m/s²]; null where `blend_radius` was given, and only the limits of the "
         "lines count."
@@ -65,10 +65,10 @@ class TrajectorySegmentInfo(Answer):
     """What came of a segment, as far as it was done."""
 
     index: int = Field(description="Which, from 0.")
-    type: SegmentType
-    law: Law
-    start_time: float = Field(description="[s].")
-    end_time: float = Field(description="[s].")
+    type: SegmentType = Field(description="What moves.")
+    law: Law = Field(description="As it was asked for.")
+    start_time: float = Field(description="When it begins, [s].")
+    end_time: float = Field(description="When it ends, [s].")
     length: float | None = Field(description="Of the tip's way, [m]; null of a joint motion.")
     angle: float | None = Field(description="By which the tip turns on it, [rad]; null of a joint motion.")
     blended: bool = Field(description="Whether it is left for the next without a stop.")
@@ -84,12 +84,12 @@ class TrajectorySegmentInfo(Answer):
 class FailureInfo(Answer):
     """Why a trajectory ends before its time."""
 
-    reason: StopReason
+    reason: StopReason = Field(description="Why the motion ends before its goal.")
     segment: int = Field(description="Which one could not be done, from 0.")
     time: float = Field(description="Where the motion ends, [s].")
     position: list[float] = Field(description="Of the tip, in the base frame, where it could not go on, [m].")
     joint: str | None = Field(description="Which one is at its limit.")
-    detail: str
+    detail: str = Field(description="The same in a sentence with numbers.")
 
 
 class TrajectoryPeakInfo(Answer):
@@ -107,8 +107,8 @@ class TrajectoryPeakInfo(Answer):
 class JumpInfo(Answer):
     """The largest jump of a quantity where pieces meet."""
 
-    value: float = Field(description="[rad or m per sᵏ].")
-    joint: str | None
+    value: float = Field(description="How far it jumps, [rad or m per sᵏ].")
+    joint: str | None = Field(description="That jumps furthest; null where none does.")
     time: float = Field(description="When, [s].")
 
 
@@ -125,15 +125,15 @@ class MarginInfo(Answer):
     """How near the joints come to their limits."""
 
     value: float = Field(description="Smallest distance to a limit, negative beyond, [rad or m].")
-    joint: str
-    bound: Literal["lower", "upper"]
+    joint: str = Field(description="The joint that comes nearest to a limit.")
+    bound: Literal["lower", "upper"] = Field(description="Which of its limits.")
     time: float = Field(description="When, [s].")
 
 
 class SmallestInfo(Answer):
     """The smallest singular value of the Jacobian along the way."""
 
-    value: float = Field(description="[m or rad] per [rad or m]: units are mixed.")
+    value: float = Field(description="Its own, [m or rad] per [rad or m]: units are mixed.")
     time: float = Field(description="When, [s].")
 
 
@@ -149,9 +149,9 @@ class TipPeaksInfo(Answer):
 class ReasonInfo(Answer):
     """Why a motion does not pass."""
 
-    check: Check
-    detail: str
-    joint: str | None
+    check: Check = Field(description="What is not kept.")
+    detail: str = Field(description="By how much, in a sentence.")
+    joint: str | None = Field(description="Whose doing it is; null where it is no single joint's.")
     time: float = Field(description="When, [s].")
 
 
@@ -161,7 +161,7 @@ class AuditInfo(Answer):
     A ratio is that to the limit in force at the time.
     """
 
-    passed: bool
+    passed: bool = Field(description="Whether it keeps all that was promised of it; one that does not is not sent.")
     velocity: TrajectoryPeakInfo | None = Field(description="Of the joint nearest to its limit; null without joints.")
     acceleration: TrajectoryPeakInfo | None
     jerk: TrajectoryPeakInfo | None = Field(
@@ -196,7 +196,7 @@ class TimingInfo(Answer):
         description="k_acc, likewise of accelerations; no unit. The law's duration is the larger one of k_vel and "
         "√k_acc in seconds, longer where the limits of jerk ask for it."
     )
-    time_optimal_duration: float = Field(description="[s].")
+    time_optimal_duration: float = Field(description="Of the quickest motion along the same way, [s].")
 
 
 class TrajectoryAnswer(Answer):

@@ -172,8 +172,8 @@ class VelocityRequest(VelocityOptions):
 class ExceededLimit(Answer):
     """A joint that is faster than its description allows."""
 
-    joint: str
-    velocity: float = Field(description="[rad/s or m/s].")
+    joint: str = Field(description="Whose limit it is.")
+    velocity: float = Field(description="Of the joint, [rad/s or m/s].")
     limit: float = Field(description="Of this joint and of those that mimic it on the way, [rad/s or m/s].")
     ratio: float = Field(description="Speed by limit, above 1; no unit.")
 
@@ -255,9 +255,9 @@ class VelocityAnswer(Answer):
     """The motion that was asked for, one entry a configuration, in order; what was not asked for is left out."""
 
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str
-    tip_frame: str
-    reference: Literal["local_world_aligned", "local", "world"]
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
+    reference: Literal["local_world_aligned", "local", "world"] = Field(description="As it was asked for.")
     task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
     twists: _Rows | None = Field(None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")

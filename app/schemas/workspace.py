@@ -194,11 +194,11 @@ class WorkspaceAnswer(Answer):
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame in which positions are expressed.")
     tip_frame: str = Field(description="Frame whose positions they are.")
-    kind: Literal["cloud", "grid", "dexterity"]
+    kind: Literal["cloud", "grid", "dexterity"] = Field(description="What was asked for.")
     samples: int = Field(description="Configurations that were computed; no unit.")
     samples_counted: int = Field(description="Those of them whose position counts: all without a plane; no unit.")
     plane: PlaneInfo | None = Field(description="The slice that positions are restricted to; null without one.")
-    sequence: Literal["random", "low_discrepancy"]
+    sequence: Literal["random", "low_discrepancy"] = Field(description="How configurations were drawn.")
     random_seed: int = Field(description="Of the samples; no unit.")
     joint_ranges: list[list[float]] = Field(description="Between what each joint was sampled, [rad or m].")
     bounding_box: BoxInfo | None = Field(description="Null where no sample counts.")

@@ -20,6 +20,7 @@ from app.model.errors import KinematicsError, kinds
 from app.settings import Settings
 from handbook.operations import compact
 from handbook.problem_kinds import OF_HTTP, all_kinds
+from handbook.reference import GROUPS, Reference
 from handbook.settings_list import bounds, settings
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -100,6 +101,14 @@ def test_nothing_is_missing_and_nothing_stands_twice(tmp_path: Path) -> None:
         name for page in output.glob("reference/*.html") for name in re.findall(r'\bid="([^"]+)"', page.read_text())
     )
     assert [place for place in sorted(set(places())) if found[place] != 1] == []
+
+
+def test_every_field_says_what_it_is() -> None:
+    reference = Reference(SCHEMA)
+    text = "\n".join([*map(reference.group, GROUPS), reference.object("Problem"), reference.object("FieldError")])
+    entries = re.findall(r"^\[`([^`]+)`\]\{#(field-[^}]+)\} (.*)\n: (.*)$", text, re.MULTILINE)
+    assert len(entries) == text.count("]{#field-") > 1000
+    assert [place for _, place, kind, meaning in entries if not kind or re.fullmatch(r"(\[[^]]*\])?\.?", meaning)] == []
 
 
 def test_every_kind_has_its_status() -> None:
