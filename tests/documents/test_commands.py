@@ -57,6 +57,10 @@ def test_a_command_is_one(page: Path, line: str, monkeypatch: pytest.MonkeyPatch
             keys.main()
         case ["./dev", "test"] | ["./dev", "gelenk", *_] | ["curl", *_]:
             pass  # what a page says of the last two is run in `test_calls`
+        case ["./dev", "bench", *arguments]:
+            assert set(arguments) <= BENCHMARKS
+        case ["wrk", *_, url]:
+            assert url.startswith("http://127.0.0.1:8000/v1/robots/")
         case ["ray", "start", *arguments]:
             assert "--disable-usage-stats" in arguments
         case ["debootstrap", *_]:
