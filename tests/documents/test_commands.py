@@ -61,6 +61,8 @@ def test_a_command_is_one(page: Path, line: str, monkeypatch: pytest.MonkeyPatch
             assert set(arguments) <= BENCHMARKS
         case ["wrk", *_, url]:
             assert url.startswith("http://127.0.0.1:8000/v1/robots/")
+        case ["python3", "-m", "pip", *_, "install", "jupyterlab"] | [".venv/bin/jupyter", "lab", *_]:
+            pass  # Jupyter is the user's; `tests/handbook/test_notebooks` runs what is opened in it
         case ["ray", "start", *arguments]:
             assert "--disable-usage-stats" in arguments
         case ["debootstrap", *_]:
