@@ -35,7 +35,7 @@ _SHORTEST_PAUSE = 0.75
 Or refusing would take all time. Who waits as told is read from again by then. Who does not has to wait, a crowd of them
 not all until the same moment: together they would hold up the event loop.
 """
-_LONGEST_PAUSE = 5.0
+_LONGEST_PAUSE = 8.0
 """No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
 _EVICTED = 16
 """Connections that make room together where there are too many."""

@@ -31,6 +31,8 @@ _END_SECONDS = 0.5
 _PATIENCE = 0.05
 """A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""
 _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
+_CROWD_SECONDS = 10.0
+"""Those that were refused are told to come back over so long a time at most: many of them have left for good."""
 _SMOOTHING = 0.1
 _MOMENT = 1.0
 """How long processes may be missing until that is worth to be told, [s]."""
@@ -63,6 +65,7 @@ class Crew:
         self._seats: list[_Seat] = []
         self._renewals: set[asyncio.Task[None]] = set()
         self._seconds_a_call = 0.0
+        self._outside, self._outside_since = 0.0, 0.0
         self._whole_until = -math.inf
         self._is_begun = self._closed = False
 
@@ -78,8 +81,9 @@ class Crew:
 
     @property
     def retry_after(self) -> int:
-        """Seconds until the queue will have been worked off, as far as can be told."""
-        return max(1, math.ceil(self._seconds_a_call * (len(self._turns) + 1) / self.size))
+        """Seconds until the queue is worked off, and those whom it had no room for, as far as can be told."""
+        queue = self._seconds_a_call * (len(self._turns) + 1) / self.size
+        return max(1, math.ceil(queue), math.ceil(min(_CROWD_SECONDS, queue + self._crowd_seconds())))
 
     @property
     def is_short(self) -> bool:
@@ -99,8 +103,19 @@ class Crew:
             ServiceBusy: Too many calls wait.
         """
         if not self._idle and len(self._turns) >= self.waiting:
-            self.refused += 1
+            self._turn_away()
             raise ServiceBusy(self.retry_after)
+
+    def _turn_away(self) -> None:
+        """Count a call that is refused among those that will come again."""
+        self.refused += 1
+        self._outside = self._crowd_seconds() * self.size / max(self._seconds_a_call, 1e-6) + 1.0
+        self._outside_since = time.monotonic()
+
+    def _crowd_seconds(self) -> float:
+        """How long those that were refused would take, one after the other; time has worked off the first of them."""
+        seconds = self._outside * self._seconds_a_call / self.size
+        return min(_CROWD_SECONDS, max(0.0, seconds - (time.monotonic() - self._outside_since)))
 
     async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
         """The function's result; cancelling this ends the call.
@@ -166,7 +181,7 @@ class Crew:
                 self._give_back(turn.result())
             if not isinstance(error, TimeoutError):
                 raise
-            self.refused += 1
+            self._turn_away()
             raise ServiceBusy(self.retry_after) from None
 
     async def _worked(self, seat: "_Seat", call: Call) -> Any:

@@ -28,13 +28,14 @@ from tests.benchmarks.table import Row
 from tests.test_serve import HOST, free_port
 
 WORKERS = 2
-POLITE = 20
+CROWD_A_POLITE = 10
+"""Clients of the crowd beside each polite one."""
 PATIENCE = 0.1
 """What a polite client waits before it asks again where it is not told for how long, [s]."""
 HEALTH_PERIOD = 0.05
 CROWD_NICENESS = 5
 """The crowd stands for other machines: the service and those who watch it go first."""
-WARM_UP_SECONDS = 60.0
+FIRST, WARM_UP_SECONDS = 20, 60.0
 SETTLING_SECONDS = 25.0
 """Until processes that began before everything was loaded make room for those that share it."""
 FK = ("panda/fk", {"joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]]})
@@ -200,7 +201,7 @@ async def warm_up(url: str) -> None:
     """Have all processes answer once: those for what takes longer start when the service is ready for the rest."""
     until = time.perf_counter() + WARM_UP_SECONDS
     for call in (Call(*FK), Call(*TRAJECTORY)):
-        await asyncio.gather(*(let_in(url, call, until) for _ in range(POLITE)))
+        await asyncio.gather(*(let_in(url, call, until) for _ in range(FIRST)))
 
 
 async def let_in(url: str, call: Call, until: float) -> None:
@@ -218,7 +219,7 @@ def loaded(url: str, pid: int, call: Call, clients: int, seconds: float) -> tupl
     with begun_crowd(url, call, clients, seconds) as process:
         time.sleep(min(2.0, seconds / 5))
         at_first = memory(pid)
-        seen = asyncio.run(watched(url, call, 0.7 * seconds - min(2.0, seconds / 5)))
+        seen = asyncio.run(watched(url, call, clients // CROWD_A_POLITE, 0.7 * seconds - min(2.0, seconds / 5)))
         at_last = memory(pid)
         found = told_by(process, seconds)
     time.sleep(0.5)
@@ -256,10 +257,10 @@ def told_by(process: "subprocess.Popen[str]", seconds: float) -> Crowd:
     return Crowd(**json.loads(line.removeprefix("RESULT ")))
 
 
-async def watched(url: str, call: Call, seconds: float) -> Seen:
-    """What polite clients and a watcher see for some time."""
+async def watched(url: str, call: Call, count: int, seconds: float) -> Seen:
+    """What so many polite clients and a watcher see for some time."""
     seen, until = Seen(), time.perf_counter() + seconds
-    clients = (polite(url, call, seen, until) for _ in range(POLITE))
+    clients = (polite(url, call, seen, until) for _ in range(count))
     await asyncio.gather(watcher(url, seen, until), *clients)
     return seen
 

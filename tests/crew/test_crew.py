@@ -290,6 +290,24 @@ def test_a_full_queue_refuses_at_once_and_says_when() -> None:
     with_crew(test, 1, waiting=2)
 
 
+def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is() -> None:
+    async def test(crew: Crew) -> None:
+        for _ in range(5):
+            await crew.run(calls.sleep, 0.2, LONG)
+        running = [asyncio.create_task(crew.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        await at_work(crew, 1)
+        told = []
+        for _ in range(200):
+            with pytest.raises(ServiceBusy) as refused:
+                crew.check_room()
+            told.append(refused.value.retry_after)
+        assert told[0] <= 2 < told[-1] <= 10
+        assert told == sorted(told)
+        await asyncio.gather(*running)
+
+    with_crew(test, 1, waiting=2)
+
+
 def test_whether_there_is_room_is_told_beforehand() -> None:
     async def test(crew: Crew) -> None:
         crew.check_room()
