@@ -56,7 +56,7 @@ class Bounds:
     """
 
     connections: int = 2000
-    waiting: int = 160
+    waiting: int = 150
     head_seconds: float = 10.0
     body_seconds: float = 30.0
     stalled_seconds: float = 30.0

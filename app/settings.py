@@ -74,7 +74,7 @@ class Settings:
     crew_processes: int = field(default_factory=lambda: max(2, min(8, os.cpu_count() or 1)))
     crew_waiting: int = 160
     connections: int = 2000
-    requests_waiting: int = 160
+    requests_waiting: int = 150
     client_requests: int = 16
     crew_memory_bytes: int = 4 * 1024**3
     request_seconds: int = 60

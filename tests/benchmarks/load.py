@@ -30,8 +30,8 @@ from tests.test_serve import HOST, free_port
 WORKERS = 2
 CROWD_A_POLITE = 10
 """Clients of the crowd beside each polite one."""
-PATIENCE = 0.1
-"""What a polite client waits before it asks again where it is not told for how long, [s]."""
+PATIENCE = 0.005
+"""What one of them in all waits before it asks again, [s]: many of them ask no more often than a few."""
 HEALTH_PERIOD = 0.05
 CROWD_NICENESS = 5
 """The crowd stands for other machines: the service and those who watch it go first."""
@@ -260,13 +260,13 @@ def told_by(process: "subprocess.Popen[str]", seconds: float) -> Crowd:
 async def watched(url: str, call: Call, count: int, seconds: float) -> Seen:
     """What so many polite clients and a watcher see for some time."""
     seen, until = Seen(), time.perf_counter() + seconds
-    clients = (polite(url, call, seen, until) for _ in range(count))
+    clients = (polite(url, call, seen, until, PATIENCE * count) for _ in range(count))
     await asyncio.gather(watcher(url, seen, until), *clients)
     return seen
 
 
-async def polite(url: str, call: Call, seen: Seen, until: float) -> None:
-    """A client who asks ten times a second, and waits where it is told to."""
+async def polite(url: str, call: Call, seen: Seen, until: float, patience: float) -> None:
+    """A client who asks again after so long, or when it is told to."""
     async for answer in asked(url, request_of(call), until):
         if answer.status == 200:
             seen.accepted.append(answer.latency)
@@ -274,7 +274,8 @@ async def polite(url: str, call: Call, seen: Seen, until: float) -> None:
             seen.refused.append(answer.latency)
         else:
             seen.other.append(answer.status)
-        await asyncio.sleep(answer.retry_after * uniform(1.0, 1.5))  # or they would come back all at once
+        pause = answer.retry_after if answer.status == 503 else patience
+        await asyncio.sleep(pause * uniform(1.0, 1.5))  # or they would come back all at once
 
 
 async def watcher(url: str, seen: Seen, until: float) -> None:
