@@ -4,7 +4,7 @@ import gc
 import importlib
 import logging.config
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 
@@ -38,7 +38,6 @@ def warm_up() -> None:
 
 
 @kept()
-def load(modules: Iterable[str]) -> None:
-    """Import them."""
-    for module in modules:
-        importlib.import_module(module)
+def load(module: str) -> None:
+    """Import it."""
+    importlib.import_module(module)

@@ -26,7 +26,7 @@ from app.processes.copies import Copy, ended, started
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
-_END_SECONDS = 0.5
+_END_SECONDS = 2.0
 """How long is waited for the reason of a process's end."""
 _PATIENCE = 0.05
 """A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""

@@ -43,7 +43,7 @@ def serve(memory_bytes: int, connection: Connection) -> None:
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
     _limit(resource.RLIMIT_DATA, at_start + memory_bytes)
-    has_all = sys.modules.keys() >= SELDOM_NEEDED
+    has_all = sys.modules.keys() >= {*SELDOM_NEEDED}
     ends = math.inf if has_all else time.monotonic() + _EARLY_SECONDS
     while True:
         try:

@@ -19,19 +19,20 @@ import signal
 import socket
 import struct
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
 from multiprocessing.connection import Connection
 from typing import NoReturn
 
 LOADED = "app.preload"
-"""What is imported first: with a function `warm_up` that computes one of everything, and one `load` of modules."""
-SELDOM_NEEDED = frozenset({"app.plots.profiles", "sympy"})
+"""What is imported first: with a function `warm_up` that computes one of everything, and `load`, which imports."""
+SELDOM_NEEDED = ("matplotlib.figure", "app.plots.profiles", "sympy")
 """Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
 COPY, WARM_UP = b"c", b"w"
 NUMBER = struct.Struct("!i")
 
-_IDLE_SECONDS = 2.0
+_IDLE_SECONDS, _STEP_SECONDS = 2.0, 0.1
+"""After how long without a request the first of them is loaded, and each further one."""
 _PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15
 
 logger = logging.getLogger("gelenk")
@@ -56,12 +57,10 @@ class Original:
     Args:
         control: Where requests come from.
         warm_up: Loads what takes longer than the first copies can wait.
-        load: Imports modules.
+        load: Imports a module.
     """
 
-    def __init__(
-        self, control: socket.socket, warm_up: Callable[[], None], load: Callable[[Iterable[str]], None]
-    ) -> None:
+    def __init__(self, control: socket.socket, warm_up: Callable[[], None], load: Callable[[str], None]) -> None:
         self._control, self._warm_up, self._load = control, warm_up, load
         self._lifelines: dict[int, socket.socket] = {}
         self._selector = selectors.DefaultSelector()
@@ -79,14 +78,14 @@ class Original:
             (self._woken, self._reap),
         ):
             self._selector.register(source, selectors.EVENT_READ, act)
-        has_all = False
+        missing, pause = list(SELDOM_NEEDED), _IDLE_SECONDS
         while self._goes_on:
-            ready = self._selector.select(None if has_all else _IDLE_SECONDS)
+            ready = self._selector.select(pause if missing else None)
             for key, _ in ready:
                 key.data()
-            if not ready and not has_all:
-                self._try("what is seldom needed", partial(self._load, SELDOM_NEEDED))
-                has_all = True
+            if not ready and missing:
+                module, pause = missing.pop(0), _STEP_SECONDS
+                self._try(module, partial(self._load, module))
 
     def _stop(self) -> None:
         self._goes_on = False
