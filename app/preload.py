@@ -16,9 +16,11 @@ def kept() -> Iterator[None]:
     nobody writes to.
     """
     gc.disable()
-    yield
-    gc.freeze()
-    gc.enable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 with kept():

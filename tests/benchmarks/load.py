@@ -103,7 +103,7 @@ class Seen:
 
 
 def measure() -> list[Row]:
-    """All of it at full length: about eight minutes."""
+    """All of it at full length: about five minutes."""
     return measured(Scale())
 
 

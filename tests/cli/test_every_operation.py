@@ -24,23 +24,10 @@ from app.client import Client
 from app.main import create_app
 from app.settings import Settings
 from tests.cli.conftest import Shell
+from tests.client.test_operations import NAMES as METHODS
 from tests.test_serve import get
 
-NAMES = {
-    "list_robots": "robots",
-    "get_robot": "robot",
-    "get_robot_urdf": "urdf",
-    "get_robot_mesh": "mesh",
-    "get_robot_dh": "dh_table",
-    "forward_kinematics": "fk",
-    "inverse_kinematics": "ik",
-    "get_job": "job",
-    "watch_job": "watch",
-    "get_job_result": "workspace_result",
-    "count_mobility": "mobility",
-    "convert_orientation": "orientation",
-    "cubic_spline": "spline",
-}
+NAMES = {**METHODS, "watch_job": "watch", "get_job_result": "workspace_result"}
 """Methods of the client by the operation that they ask, where the two have other names."""
 ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
 FIRST = {"watch_job"}
