@@ -200,7 +200,7 @@ class Crew:
             seat.close()
             return
         if seat.is_broken:
-            self.restarts += 1
+            self.restarts += not seat.is_retired
             self._renew(seat)
             return
         while self._turns:
@@ -238,7 +238,7 @@ class _Seat:
         self._memory_bytes = memory_bytes
         self._process: Copy | None = None
         self._stream: socket.socket | None = None
-        self._is_asked = self._is_closed = False
+        self._is_asked = self._is_closed = self.is_retired = False
         self.is_broken = True
 
     @property
@@ -290,7 +290,7 @@ class _Seat:
         stream, seconds = self._stream, call[2]
         if stream is None:
             raise ServiceStopping
-        self._is_asked = self.is_broken = True
+        self._is_asked, self.is_broken, self.is_retired = True, True, False
         try:
             async with asyncio.timeout(seconds):
                 await wire.send_soon(stream, call)
@@ -302,6 +302,7 @@ class _Seat:
         finally:
             self._is_asked = False
         self.is_broken = not goes_on
+        self.is_retired = not goes_on and kind != "memory"  # it has made room by itself, which is no fault
         if kind == "result":
             return value
         raise value if kind == "error" else WorkerOutOfMemory(self._memory_bytes)

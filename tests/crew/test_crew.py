@@ -227,6 +227,7 @@ def test_a_process_that_has_grown_makes_room_for_a_fresh_one() -> None:
         first = await crew.run(calls.keep, 100, LONG)
         assert await crew.run(calls.keep, 100, LONG) == first
         assert await crew.run(calls.keep, 1, LONG) != first
+        assert crew.restarts == 0, "it was no fault"
 
     with_crew(test, 1)
 
