@@ -45,6 +45,8 @@ def project(tmp_path: Path) -> Path:
     shutil.copy("dev", project)
     (project / "app" / "__init__.py").touch()
     (project / "app" / "__pycache__").mkdir()
+    (project / "docs" / "handbook").mkdir(parents=True)
+    (project / "docs" / "index.md").touch()
     return project
 
 
@@ -66,6 +68,7 @@ def test_what_was_carried_over_is_installed(project: Path) -> None:
     assert made.returncode == 0, made.stderr
     assert {path.name for path in (carried / "wheels").iterdir()} == {WHEEL}
     assert not (carried / "app" / "__pycache__").exists()
+    assert [path.name for path in (carried / "docs").iterdir()] == ["index.md"], "the handbook is built elsewhere"
     run = dev(carried, "install")
     assert run.returncode == 0, run.stderr
     code = "import gelenk_probe; print(gelenk_probe.ANSWER)"

@@ -99,7 +99,7 @@ def built(tmp_path: Path, **pages: str) -> tuple[int, str, Path]:
     for name, page in pages.items():
         (sources / f"{name}.md").write_text(page)
     # Sphinx keeps to itself what the process has set up; so each build has one of its own.
-    code = "import sys, pathlib, handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
+    code = "import sys, pathlib, docs.handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
     run = subprocess.run([sys.executable, "-c", code, sources, output], capture_output=True, text=True, check=False)
     return run.returncode, run.stderr, output
 

@@ -9,7 +9,7 @@ import pytest
 with warnings.catch_warnings():
     # ziafont opens its fonts by a function that Python 3.11 and 3.12 call deprecated, and 3.13 no longer.
     warnings.simplefilter("ignore", DeprecationWarning)
-    from handbook.mathematics import drawn
+    from docs.handbook.mathematics import drawn
 
 
 def width(latex: str) -> float:

@@ -18,10 +18,10 @@ from app.api.problems import status_of
 from app.main import create_app
 from app.model.errors import KinematicsError, kinds
 from app.settings import Settings
-from handbook.operations import compact
-from handbook.problem_kinds import OF_HTTP, all_kinds
-from handbook.reference import GROUPS, Reference
-from handbook.settings_list import bounds, settings
+from docs.handbook.operations import compact
+from docs.handbook.problem_kinds import OF_HTTP, all_kinds
+from docs.handbook.reference import GROUPS, Reference
+from docs.handbook.settings_list import bounds, settings
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCHEMA: dict[str, Any] = create_app(Settings(data_dir=Path("unused"))).openapi()
@@ -93,7 +93,7 @@ def test_nothing_is_missing_and_nothing_stands_twice(tmp_path: Path) -> None:
     sources, output = tmp_path / "docs", tmp_path / "built"
     shutil.copytree(ROOT / "docs" / "reference", sources / "reference")
     (sources / "index.md").write_text("# Alone\n\n```{toctree}\n:glob:\n\nreference/*\n```\n")
-    code = "import sys, pathlib, handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
+    code = "import sys, pathlib, docs.handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
     command = [sys.executable, "-c", code, str(sources), str(output)]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr) == (0, "")

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from handbook.schema_words import anchor, fields, words
+from docs.handbook.schema_words import anchor, fields, words
 
 NUMBER = {"type": "number", "minimum": -1, "maximum": 1e6}
 

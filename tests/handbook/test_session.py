@@ -8,7 +8,7 @@ import pytest
 
 from app.calls.call import NPY, Call
 from app.client import Client
-from handbook.session import curl
+from docs.handbook.session import curl
 
 
 class Noting(Client):

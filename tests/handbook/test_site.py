@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from handbook.site import faults, page_names
+from docs.handbook.site import faults, page_names
 
 FIRST = '<nav><a class="reference internal" href="course/statics.html">Statics</a></nav>'
 SECOND = '<h1 id="statics">Statics</h1><a href="../index.html">back</a><a href="https://example.org">elsewhere</a>'

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from handbook.written import disagreement, in_line, written
+from docs.handbook.written import disagreement, in_line, written
 
 
 def test_numbers_have_significant_digits() -> None:

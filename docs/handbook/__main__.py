@@ -7,9 +7,9 @@ from pathlib import Path
 
 from sphinx.cmd.build import build_main
 
-from handbook import site
+from docs.handbook import site
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 OUTPUT = ROOT / "build" / "handbook"
 
 
@@ -37,7 +37,7 @@ def build(pages: Path, output: Path, only: list[str] | None = None) -> int:
         output: The folder of what is built.
         only: Sources that are read and written; all if empty.
     """
-    options = ["--fail-on-warning", "--nitpicky", "--quiet", "--conf-dir", str(ROOT / "handbook")]
+    options = ["--fail-on-warning", "--nitpicky", "--quiet", "--conf-dir", str(Path(__file__).resolve().parent)]
     # Every page anew, as its numbers come from the code and not from the page.
     if not only:
         options += ["--fresh-env", "--write-all"]

@@ -12,8 +12,8 @@ from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
-from handbook.session import Session, Unexpected, end_service, service
-from handbook.written import DIGITS, disagreement
+from docs.handbook.session import Session, Unexpected, end_service, service
+from docs.handbook.written import DIGITS, disagreement
 
 _PICTURES = "_pictures"
 _SVG, _PNG = b"<?xml", b"\x89PNG"

@@ -8,7 +8,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from app.api.problems import status_of
 from app.model.errors import KinematicsError, kinds
-from handbook.schema_words import anchor
+from docs.handbook.schema_words import anchor
 
 _WORDS: Mapping[Any, tuple[str, object]] = {
     str: ("text", "text"),

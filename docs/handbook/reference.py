@@ -8,8 +8,8 @@ from functools import cached_property
 from http import HTTPStatus
 from typing import Any
 
-from handbook.operations import Entry, described, entries
-from handbook.schema_words import anchor, component, fields, shown, words
+from docs.handbook.operations import Entry, described, entries
+from docs.handbook.schema_words import anchor, component, fields, shown, words
 
 GROUPS = ("Kinematics", "DH tables", "Robots", "Course", "Jobs", "Service")
 """In the order in which objects are looked for: the first group that uses one has it."""

@@ -17,7 +17,7 @@ from app.calls.call import JSON, Call
 from app.cli.local import InProcess
 from app.client import DEFAULT_URL, Client
 from app.model.errors import KinematicsError
-from handbook.written import DIGITS, in_line, written
+from docs.handbook.written import DIGITS, in_line, written
 
 T = TypeVar("T")
 

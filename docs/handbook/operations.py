@@ -10,7 +10,7 @@ from urllib.parse import unquote
 
 from app.calls.call import Sent
 from app.calls.operations import Operations
-from handbook.schema_words import Objects, Schema, anchor, component, field, fields, linked, words
+from docs.handbook.schema_words import Objects, Schema, anchor, component, field, fields, linked, words
 
 _LINE = 72
 """Letters of a line of an example; what is longer is written over several."""

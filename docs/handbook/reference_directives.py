@@ -14,10 +14,10 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from handbook.problem_kinds import problems
-from handbook.reference import Reference
-from handbook.session import service
-from handbook.settings_list import bounds, settings
+from docs.handbook.problem_kinds import problems
+from docs.handbook.reference import Reference
+from docs.handbook.session import service
+from docs.handbook.settings_list import bounds, settings
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from app.api.access import keyring
 from app.model import dh, tree, urdf, xml
 from app.settings import Settings
 from app.store import archive
-from handbook.schema_words import anchor
+from docs.handbook.schema_words import anchor
 
 _OF_THE_MACHINE = {
     "data_dir": "the user's data folder",

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 project = "Gelenk"
@@ -11,8 +11,14 @@ author = "the authors of Gelenk"
 html_title = "Gelenk handbook"
 language = "en"
 
-extensions = ["myst_parser", "handbook.directives", "handbook.mathematics", "handbook.reference_directives"]
+extensions = [
+    "myst_parser",
+    "docs.handbook.directives",
+    "docs.handbook.mathematics",
+    "docs.handbook.reference_directives",
+]
 source_suffix = {".md": "markdown"}
+exclude_patterns = ["handbook"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
