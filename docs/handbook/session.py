@@ -3,7 +3,7 @@
 import ast
 import json
 import shlex
-from collections.abc import Mapping
+import time
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from functools import cache
@@ -14,12 +14,15 @@ from urllib.parse import urlencode
 import numpy as np
 
 from app.calls.call import JSON, Call
+from app.calls.refusals import Refused
 from app.cli.local import InProcess
 from app.client import DEFAULT_URL, Client
-from app.model.errors import KinematicsError
 from docs.handbook.written import DIGITS, in_line, written
 
 T = TypeVar("T")
+
+_READY_SECONDS = 900.0
+"""How long kernels may take to compile, on a slow and busy machine."""
 
 
 class Unexpected(Exception):
@@ -45,8 +48,26 @@ class RecordingClient(Client):
 
 @cache
 def service() -> RecordingClient:
-    """The one service of a build, started when it is first needed."""
-    return RecordingClient()
+    """The one service of a build, started when it is first needed, and ready."""
+    client = RecordingClient()
+    wait_until_ready(client)
+    return client
+
+
+def wait_until_ready(client: Client) -> None:
+    """Begin no call while kernels are compiled: that takes longer than the time limit of some calls.
+
+    Raises:
+        Refused: It does not get ready, for the reason told.
+    """
+    deadline = time.monotonic() + _READY_SECONDS
+    while True:
+        try:
+            client.readiness()
+            return
+        except Refused as error:
+            if error.kind != "not-ready" or error.problem["failure"] is not None or time.monotonic() > deadline:
+                raise
 
 
 def end_service() -> None:
@@ -99,7 +120,7 @@ class Session:
             with redirect_stdout(printed):
                 value = self._execute(code)
         except Exception as error:
-            if not isinstance(error, KinematicsError) or kind_of(error) != refusal:
+            if not isinstance(error, Refused) or error.kind != refusal:
                 raise Unexpected(_told(error)) from error
             value, refusal = f"{type(error).__name__}: {error.detail}", None
         if refusal is not None:
@@ -139,16 +160,10 @@ class Session:
         print(*(in_line(value, self._digits) for value in values), **options)
 
 
-def kind_of(error: KinematicsError) -> str:
-    """Such as `unknown-frame`."""
-    problem: Mapping[str, Any] = getattr(error, "problem", {})
-    return str(problem.get("type", "")).removeprefix("urn:gelenk:")
-
-
 def _told(error: Exception) -> str:
     """What has gone wrong, for whoever writes the page."""
-    if isinstance(error, KinematicsError):
-        return f"the service refuses it, {kind_of(error)}: {error.detail}"
+    if isinstance(error, Refused):
+        return f"the service refuses it, {error.kind}: {error.detail}"
     return f"{type(error).__name__}: {error}"
 
 

@@ -1,14 +1,18 @@
-"""Calls of the client as commands for a shell."""
+"""Calls of the client as commands for a shell; and the first call comes when the service is ready."""
 
 from collections.abc import Callable
 from typing import Any
 
+import httpx2
 import numpy as np
 import pytest
 
 from app.calls.call import NPY, Call
+from app.calls.refusals import Refused
 from app.client import Client
-from docs.handbook.session import curl
+from docs.handbook.session import curl, wait_until_ready
+
+READY = httpx2.Response(200, json={"status": "ready"})
 
 
 class Noting(Client):
@@ -61,3 +65,24 @@ def test_a_call_is_the_same_in_a_shell(ask: Callable[[Any], object], expected: s
 def test_an_array_goes_as_a_file() -> None:
     shown = command(lambda gelenk: gelenk.fk("planar_2r", joint_positions=np.zeros((5, 2))))
     assert f"-H 'Content-Type: {NPY}' --data-binary @array.npy" in shown
+
+
+def not_ready(failure: str | None, **headers: str) -> httpx2.Response:
+    problem = {"type": "urn:gelenk:not-ready", "status": 503, "detail": "not ready", "failure": failure}
+    return httpx2.Response(503, json=problem, headers=headers)
+
+
+def test_the_first_call_waits_until_the_kernels_are_compiled() -> None:
+    answers = [
+        *(not_ready(None, **{"Retry-After": "0"}) for _ in range(9)),
+        httpx2.Response(200, json={"status": "ready"}),
+    ]
+    with Client(transport=httpx2.MockTransport(lambda _: answers.pop(0))) as client:
+        wait_until_ready(client)
+    assert answers == []
+
+
+def test_a_service_that_never_gets_ready_ends_the_build() -> None:
+    answers = [not_ready("OSError: no room"), READY]
+    with Client(transport=httpx2.MockTransport(lambda _: answers.pop(0))) as client, pytest.raises(Refused):
+        wait_until_ready(client)
