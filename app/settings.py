@@ -27,7 +27,8 @@ class Settings:
     Attributes:
         data_dir: Uploaded robots and jobs are kept below it (`GELENK_DATA_DIR`).
         catalogue_dir: The robots that come with the project (`GELENK_CATALOGUE_DIR`).
-        root_path: Path prefix under which a proxy serves the application (`GELENK_ROOT_PATH`).
+        root_path: Path prefix under which a proxy serves the application, which may keep it or take it away
+            (`GELENK_ROOT_PATH`).
         max_body_bytes: Largest request body (`GELENK_MAX_BODY_BYTES`).
         held_body_bytes: Large request bodies of each worker process that come in or wait for their answer, together;
             one of the largest has room in any case (`GELENK_HELD_BODY_BYTES`).
@@ -59,10 +60,13 @@ class Settings:
         open_access: Whether the service may listen beyond this machine without keys (`GELENK_OPEN_ACCESS`).
         log_level: The least that is logged: `debug`, `info` (each request), `warning` (refusals) or `error`
             (`GELENK_LOG_LEVEL`).
-        otlp_endpoint: Where traces are sent by OpenTelemetry's protocol; empty for nowhere (`GELENK_OTLP_ENDPOINT`).
-        trusted_hosts: Names that it answers for beside this machine's own (`GELENK_TRUSTED_HOSTS`).
-        allowed_origins: Origins whose pages may call it (`GELENK_ALLOWED_ORIGINS`).
-        trusted_proxies: Addresses whose word is taken for where a request comes from (`GELENK_TRUSTED_PROXIES`).
+        otlp_endpoint: Where traces are sent by OpenTelemetry's protocol, such as `http://127.0.0.1:4318`; empty for
+            nowhere (`GELENK_OTLP_ENDPOINT`).
+        trusted_hosts: Names that it answers for beside this machine's own, without ports: `lab.example.org`,
+            `*.example.org`, or `*` for any (`GELENK_TRUSTED_HOSTS`).
+        allowed_origins: Origins whose pages may call it, such as `https://lab.example.org` (`GELENK_ALLOWED_ORIGINS`).
+        trusted_proxies: Addresses or networks whose word is taken for where a request comes from
+            (`GELENK_TRUSTED_PROXIES`).
     """
 
     data_dir: Path = field(default_factory=lambda: user_data_path("gelenk", appauthor=False))

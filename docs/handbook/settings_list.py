@@ -7,6 +7,7 @@ from dataclasses import MISSING, fields
 
 from app.api.access import keyring
 from app.model import dh, tree, urdf, xml
+from app.schemas import ik
 from app.settings import Settings
 from app.store import archive
 from docs.handbook.schema_words import anchor
@@ -39,6 +40,9 @@ _BOUNDS = (
     ("zip, unpacked", f"{archive.MAX_UNPACKED // _MEBIBYTE} MiB"),
     ("bytes of a path in a zip", archive.MAX_PATH_BYTES),
     ("keys", keyring.MAX_KEYS),
+    ("targets of a call by a method of the course, or with `trace`", ik.MAX_STEPWISE),
+    ("the same of a job", ik.MAX_JOB_STEPWISE),
+    ("targets of a job", ik.MAX_JOB_TARGETS),
 )
 """What is at most taken, whatever is set."""
 

@@ -146,6 +146,7 @@ def test_settings_say_their_variable_and_default() -> None:
 def test_bounds_are_those_of_the_code() -> None:
     assert "| links | 512 |" in bounds()
     assert "| zip, unpacked | 256 MiB |" in bounds()
+    assert "| targets of a call by a method of the course, or with `trace` | 1,000 |" in bounds()
 
 
 def test_examples_are_short_where_they_can_be() -> None:
