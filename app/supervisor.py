@@ -19,7 +19,7 @@ from app.processes.copies import Copy
 
 LISTENERS = 8
 """Connections that are let in in one turn of an event loop, each in less than a tenth of a millisecond."""
-STILL_STARTING = "getting ready: once for a processor the kernels are compiled, which takes a minute or two"
+STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
 """How a worker ends that could not begin to serve."""
 _BEAT_SECONDS = 5.0
