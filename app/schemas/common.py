@@ -43,6 +43,8 @@ class ChainOptions(Payload):
     """The chain a call addresses."""
 
     base_frame: FrameName | None = Field(
-        None, description="Frame in which poses are expressed; the default chain's if left out."
+        default=None, description="Frame in which poses are expressed; the default chain's if left out."
     )
-    tip_frame: FrameName | None = Field(None, description="Frame whose pose is meant; the default chain's if left out.")
+    tip_frame: FrameName | None = Field(
+        default=None, description="Frame whose pose is meant; the default chain's if left out."
+    )

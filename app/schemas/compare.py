@@ -22,7 +22,7 @@ class CompareRequest(ChainOptions):
     )
     robot: RobotName
     find: list[Findable] | None = Field(
-        None,
+        default=None,
         max_length=4,
         description="What may be found so that the two agree; all else is held, `base` and `tool` as in `dh` (the "
         "identity where left out), `offsets` at 0, `signs` at 1. Left out: of `base` and `tool` what `dh` leaves out. "
@@ -30,14 +30,19 @@ class CompareRequest(ChainOptions):
         "Offsets and signs are found of tables with at most 16 rows.",
     )
     position_tolerance: float = Field(
-        POSITION_TOLERANCE, gt=0.0, le=1.0, description="Distance within which positions count as equal, [m]."
+        default=POSITION_TOLERANCE, gt=0.0, le=1.0, description="Distance within which positions count as equal, [m]."
     )
     orientation_tolerance: float = Field(
-        ORIENTATION_TOLERANCE, gt=0.0, le=1.0, description="Angle within which orientations count as equal, [rad]."
+        default=ORIENTATION_TOLERANCE,
+        gt=0.0,
+        le=1.0,
+        description="Angle within which orientations count as equal, [rad].",
     )
-    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of `base` and `tool` in the answer.")
+    pose_format: PoseFormat = Field(
+        default="quaternion_xyzw", description="Notation of `base` and `tool` in the answer."
+    )
     random_seed: int = Field(
-        0, ge=0, le=2**32 - 1, description="Chooses the configurations at which both are compared."
+        default=0, ge=0, le=2**32 - 1, description="Chooses the configurations at which both are compared."
     )
 
 

@@ -44,25 +44,27 @@ class DcMotorRequest(Payload):
     inductance: Inductance = Field(description="L of the winding, [H]; 0, or at least 1e-12.")
     torque_constant: MachineConstant = Field(description="k_t, [N m/A].")
     back_emf_constant: MachineConstant | None = Field(
-        None, description="k_e, [V s/rad]; k_t if left out, which it equals in these units."
+        default=None, description="k_e, [V s/rad]; k_t if left out, which it equals in these units."
     )
-    viscous_friction: Friction = Field(0.0, description="b, [N m s/rad].")
+    viscous_friction: Friction = Field(default=0.0, description="b, [N m s/rad].")
     inertia: Inertia = Field(description="J of the rotor and what turns with it, [kg m²].")
     voltage: Voltage = Field(description="V, constant from t = 0 on, [V]; negative turns the other way.")
     load_torque: Torque = Field(
-        0.0, description="τ_L, constant from t = 0 on, [N m]: it keeps its direction, as a hanging load's does."
+        default=0.0, description="τ_L, constant from t = 0 on, [N m]: it keeps its direction, as a hanging load's does."
     )
     times: Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)] | None = Field(
-        None, description="Times at which the response is wanted, from the step on, [s]. Without them, there is none."
+        default=None,
+        description="Times at which the response is wanted, from the step on, [s]. Without them, there is none.",
     )
     duration: Annotated[float, Field(ge=1e-12, le=1e9)] | None = Field(
-        None, description="Instead of `times`: the last of `samples` times, which are evenly spaced from 0 on, [s]."
+        default=None,
+        description="Instead of `times`: the last of `samples` times, which are evenly spaced from 0 on, [s].",
     )
     samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = Field(
-        None, description="Number of times that `duration` is sampled at; 101 if left out."
+        default=None, description="Number of times that `duration` is sampled at; 101 if left out."
     )
-    initial_current: Current = Field(0.0, description="i(0), [A]; without inductance current has no memory.")
-    initial_angular_velocity: AngularVelocity = Field(0.0, description="ω(0), [rad/s].")
+    initial_current: Current = Field(default=0.0, description="i(0), [A]; without inductance current has no memory.")
+    initial_angular_velocity: AngularVelocity = Field(default=0.0, description="ω(0), [rad/s].")
 
     def motor(self) -> Motor:
         """The core's motor."""
@@ -169,14 +171,16 @@ class GearRequest(Payload):
 
     ratio: Ratio = Field(description="N = ω_motor / ω_load, no unit; above 1 it reduces the speed.")
     efficiency: Annotated[float, Field(ge=1e-6, le=1.0)] = Field(
-        1.0, description="η, power out over power in when the motor drives, no unit."
+        default=1.0, description="η, power out over power in when the motor drives, no unit."
     )
-    motor_angular_velocity: AngularVelocity | None = Field(None, description="ω_m, [rad/s].")
-    load_angular_velocity: AngularVelocity | None = Field(None, description="ω_L, instead of ω_m, [rad/s].")
-    motor_torque: Torque | None = Field(None, description="τ_m, what the motor gives to the gear, [N m].")
-    load_torque: Torque | None = Field(None, description="τ_L, what the gear gives to the load, instead of τ_m, [N m].")
-    motor_inertia: Inertia | None = Field(None, description="J_m of the rotor, [kg m²].")
-    load_inertia: Inertia | None = Field(None, description="J_L of the load, [kg m²].")
+    motor_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_m, [rad/s].")
+    load_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_L, instead of ω_m, [rad/s].")
+    motor_torque: Torque | None = Field(default=None, description="τ_m, what the motor gives to the gear, [N m].")
+    load_torque: Torque | None = Field(
+        default=None, description="τ_L, what the gear gives to the load, instead of τ_m, [N m]."
+    )
+    motor_inertia: Inertia | None = Field(default=None, description="J_m of the rotor, [kg m²].")
+    load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
 
 
 class GearSideInfo(Answer):
@@ -230,26 +234,28 @@ class PwmRequest(Payload):
 
     supply_voltage: Annotated[float, Field(ge=1e-6, le=1e6)] = Field(description="V_s, [V].")
     frequency: Annotated[float, Field(ge=1e-6, le=1e12)] = Field(description="f of the pulses, [Hz].")
-    duty: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(None, description="D, no unit.")
+    duty: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(default=None, description="D, no unit.")
     average_voltage: Voltage | None = Field(
-        None, description="Wanted average, [V]; negative takes an H-bridge; no further from 0 than V_s."
+        default=None, description="Wanted average, [V]; negative takes an H-bridge; no further from 0 than V_s."
     )
     angular_velocity: AngularVelocity | None = Field(
-        None, description="Wanted speed of a motor, [rad/s]; it needs `resistance` and `torque_constant`."
+        default=None, description="Wanted speed of a motor, [rad/s]; it needs `resistance` and `torque_constant`."
     )
-    resistance: Resistance | None = Field(None, description="R of the winding, [Ω].")
-    inductance: Inductance | None = Field(None, description="L of the winding, [H]; 0, or at least 1e-12.")
+    resistance: Resistance | None = Field(default=None, description="R of the winding, [Ω].")
+    inductance: Inductance | None = Field(default=None, description="L of the winding, [H]; 0, or at least 1e-12.")
     back_emf: Voltage | None = Field(
-        None,
+        default=None,
         description="E of the motor through the period, [V]; 0 if left out. With a wanted speed it is k_e ω: leave it "
         "out, or give that.",
     )
-    torque_constant: MachineConstant | None = Field(None, description="k_t, for a wanted speed, [N m/A].")
+    torque_constant: MachineConstant | None = Field(default=None, description="k_t, for a wanted speed, [N m/A].")
     back_emf_constant: MachineConstant | None = Field(
-        None, description="k_e, for a wanted speed, [V s/rad]; k_t if left out."
+        default=None, description="k_e, for a wanted speed, [V s/rad]; k_t if left out."
     )
-    viscous_friction: Friction | None = Field(None, description="b, for a wanted speed, [N m s/rad]; 0 if left out.")
-    load_torque: Torque | None = Field(None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
+    viscous_friction: Friction | None = Field(
+        default=None, description="b, for a wanted speed, [N m s/rad]; 0 if left out."
+    )
+    load_torque: Torque | None = Field(default=None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
 
 
 class RippleInfo(Answer):

@@ -20,44 +20,47 @@ class EncoderRequest(Payload):
     """An encoder on the motor's shaft; what is not known of it can be asked for by `wanted_resolution`."""
 
     type: Literal["incremental", "absolute"] = Field(description="Two channels and a counter, or a code disc.")
-    gear_ratio: Ratio = Field(1.0, description="N = ω_motor / ω_load, no unit.")
+    gear_ratio: Ratio = Field(default=1.0, description="N = ω_motor / ω_load, no unit.")
     sample_period: Annotated[float, Field(ge=1e-12, le=1e6)] | None = Field(
-        None, description="T_s in which counts are taken as a speed, [s]; asks for the velocity quantum."
+        default=None, description="T_s in which counts are taken as a speed, [s]; asks for the velocity quantum."
     )
     motor_angular_velocity: Annotated[float, Field(ge=-1e9, le=1e9)] | None = Field(
-        None, description="Speed of the motor, [rad/s]; asks for the count rate."
+        default=None, description="Speed of the motor, [rad/s]; asks for the count rate."
     )
     wanted_resolution: Annotated[float, Field(ge=1e-12, le=TURN)] | None = Field(
-        None, description="Smallest angle at the load to be told apart, [rad]; asks for the encoder needed."
+        default=None, description="Smallest angle at the load to be told apart, [rad]; asks for the encoder needed."
     )
     decoding: Decoding = Field(
-        "x4", description="Counts a line of an incremental encoder; of an absolute one only with `wanted_resolution`."
+        default="x4",
+        description="Counts a line of an incremental encoder; of an absolute one only with `wanted_resolution`.",
     )
 
     pulses_per_revolution: Annotated[int, Field(ge=1, le=10_000_000)] | None = Field(
-        None, description="Lines of an incremental encoder, no unit."
+        default=None, description="Lines of an incremental encoder, no unit."
     )
     samples: Annotated[str, Field(max_length=300_000)] | None = Field(
-        None,
+        default=None,
         description='Samples of an incremental encoder\'s channels A and B, such as "00 10 11 01": A leads forward. '
         "With a third digit also of the index channel Z.",
     )
     counter_bits: Annotated[int, Field(ge=1, le=64)] | None = Field(
-        None, description="Width of the counter, no unit: asks for what it shows when it begins again at 0."
+        default=None, description="Width of the counter, no unit: asks for what it shows when it begins again at 0."
     )
 
     bits: Annotated[int, Field(ge=1, le=MAX_BITS)] | None = Field(
-        None, description="Tracks of an absolute encoder, no unit."
+        default=None, description="Tracks of an absolute encoder, no unit."
     )
-    code: Code = Field("gray", description="Code of an absolute encoder's disc, and so of `readings`.")
+    code: Code = Field(default="gray", description="Code of an absolute encoder's disc, and so of `readings`.")
     readings: Annotated[list[Reading], Field(max_length=MAX_READINGS, fail_fast=True)] | None = Field(
-        None, description='Codes as read from an absolute encoder, `bits` digits each, such as "0110".'
+        default=None, description='Codes as read from an absolute encoder, `bits` digits each, such as "0110".'
     )
     values: (
         Annotated[list[Annotated[int, Field(ge=0, lt=1 << MAX_BITS)]], Field(max_length=MAX_READINGS, fail_fast=True)]
         | None
-    ) = Field(None, description="Numbers below 2^bits, no unit, to be written in both codes.")
-    table: bool = Field(False, description="Whether all positions are wanted, of an absolute encoder of ≤ 8 bits.")
+    ) = Field(default=None, description="Numbers below 2^bits, no unit, to be written in both codes.")
+    table: bool = Field(
+        default=False, description="Whether all positions are wanted, of an absolute encoder of ≤ 8 bits."
+    )
 
 
 class ResolutionInfo(Answer):

@@ -48,22 +48,22 @@ SampleCount = Annotated[int, Field(ge=2, le=MAX_SAMPLES)]
 class MotionLimits(Payload):
     """What each joint may do at most; a number alone stands for all joints."""
 
-    joint_velocity: Bounds | None = Field(None, description="|q̇|, > 0, [rad/s or m/s].")
-    joint_acceleration: Bounds | None = Field(None, description="|q̈|, > 0, [rad/s² or m/s²].")
-    joint_jerk: Bounds | None = Field(None, description="|q⃛|, > 0, [rad/s³ or m/s³].")
+    joint_velocity: Bounds | None = Field(default=None, description="|q̇|, > 0, [rad/s or m/s].")
+    joint_acceleration: Bounds | None = Field(default=None, description="|q̈|, > 0, [rad/s² or m/s²].")
+    joint_jerk: Bounds | None = Field(default=None, description="|q⃛|, > 0, [rad/s³ or m/s³].")
 
 
 class SampledRequest(Payload):
     """Where a motion is to be sampled, and what it is compared with."""
 
     samples: SampleCount = Field(
-        101, description="Number of samples, evenly spaced from start to end, both included; no unit."
+        default=101, description="Number of samples, evenly spaced from start to end, both included; no unit."
     )
     sample_times: SampleTimes | None = Field(
-        None, description="Instead of `samples`: the times, none outside the motion, [s]."
+        default=None, description="Instead of `samples`: the times, none outside the motion, [s]."
     )
     limits: MotionLimits | None = Field(
-        None, description="Limits of each joint: peaks are told as ratios to them, and pictures show them."
+        default=None, description="Limits of each joint: peaks are told as ratios to them, and pictures show them."
     )
 
 

@@ -37,19 +37,20 @@ class ElementaryPayload(Payload):
 class MotionPayload(Payload):
     """Exactly one orientation, perhaps with a position."""
 
-    quaternion_xyzw: Vector4 | None = Field(None, description="Unit quaternion, scalar last.")
-    quaternion_wxyz: Vector4 | None = Field(None, description="Unit quaternion, scalar first.")
+    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
     rpy: Vector3 | None = Field(
-        None, description="Roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll), [rad]."
+        default=None,
+        description="Roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
     )
-    zyz: Vector3 | None = Field(None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
-    rotation_vector: Vector3 | None = Field(None, description="Axis times angle, [rad].")
-    rotation: Matrix3 | None = Field(None, description="Rotation matrix, row by row.")
-    axis_angle: AxisAnglePayload | None = Field(None, description="A rotation about any axis.")
-    elementary: ElementaryPayload | None = Field(None, description="A rotation about a coordinate axis.")
-    position: Vector3 | None = Field(None, description="Of the moved frame's origin, [m]; zero if left out.")
+    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
+    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
+    axis_angle: AxisAnglePayload | None = Field(default=None, description="A rotation about any axis.")
+    elementary: ElementaryPayload | None = Field(default=None, description="A rotation about a coordinate axis.")
+    position: Vector3 | None = Field(default=None, description="Of the moved frame's origin, [m]; zero if left out.")
     project: bool = Field(
-        False,
+        default=False,
         description="Whether to take the nearest rotation to a `rotation` that is further than 1e-6 from every one, "
         "instead of refusing it.",
     )
@@ -116,7 +117,7 @@ class FurtherPayload(MotionPayload):
     """A further motion of a composition."""
 
     about: Literal["moving", "fixed"] = Field(
-        "moving",
+        default="moving",
         description="Whose axes it is written in: those of the frame moved so far (R = R1 R2, from the right), or "
         "those that stay (R = R2 R1, from the left).",
     )

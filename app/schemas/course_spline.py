@@ -20,19 +20,21 @@ class SplineRequest(SampledRequest):
         "of one."
     )
     boundary: Boundary = Field(
-        "clamped",
+        default="clamped",
         description="`clamped`: velocities given; `natural`: no acceleration; `not_a_knot`: the jerk goes on across "
         "the second and the last but one knot; `periodic`: velocity and acceleration go on from the end to the start; "
         "`assigned`: velocities and accelerations given, by two fictitious knots.",
     )
     start_velocity: Coordinates | None = Field(
-        None, description="Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s]."
+        default=None, description="Of `clamped` or `assigned`; 0 if left out, [rad/s or m/s]."
     )
-    end_velocity: Coordinates | None = Field(None, description="The same at the end, [rad/s or m/s].")
-    start_acceleration: Coordinates | None = Field(None, description="Of `assigned`; 0 if left out, [rad/s² or m/s²].")
-    end_acceleration: Coordinates | None = Field(None, description="The same at the end, [rad/s² or m/s²].")
+    end_velocity: Coordinates | None = Field(default=None, description="The same at the end, [rad/s or m/s].")
+    start_acceleration: Coordinates | None = Field(
+        default=None, description="Of `assigned`; 0 if left out, [rad/s² or m/s²]."
+    )
+    end_acceleration: Coordinates | None = Field(default=None, description="The same at the end, [rad/s² or m/s²].")
     fictitious_times: Annotated[list[Time], Field(min_length=2, max_length=2)] | None = Field(
-        None,
+        default=None,
         description="Of `assigned`: when the fictitious knots are, one within the first and one within the last "
         "segment, [s]; in their middles if left out, at the thirds of a single segment.",
     )

@@ -33,26 +33,26 @@ class TimeLawRequest(SampledRequest):
         "`parabolic_blends`: straight segments through `waypoints` at `times`, rounded by `blend_time` or "
         "`limits.joint_acceleration`."
     )
-    start: Coordinates | None = Field(None, description="q at the start, [rad or m].")
-    target: Coordinates | None = Field(None, description="q at the end, [rad or m].")
-    start_velocity: Coordinates | None = Field(None, description="0 if left out, [rad/s or m/s].")
-    end_velocity: Coordinates | None = Field(None, description="0 if left out, [rad/s or m/s].")
+    start: Coordinates | None = Field(default=None, description="q at the start, [rad or m].")
+    target: Coordinates | None = Field(default=None, description="q at the end, [rad or m].")
+    start_velocity: Coordinates | None = Field(default=None, description="0 if left out, [rad/s or m/s].")
+    end_velocity: Coordinates | None = Field(default=None, description="0 if left out, [rad/s or m/s].")
     start_acceleration: Coordinates | None = Field(
-        None, description="Of a quintic, a septic or 4-3-4; 0 if left out, [rad/s² or m/s²]."
+        default=None, description="Of a quintic, a septic or 4-3-4; 0 if left out, [rad/s² or m/s²]."
     )
-    end_acceleration: Coordinates | None = Field(None, description="The same at the end, [rad/s² or m/s²].")
-    start_jerk: Coordinates | None = Field(None, description="Of a septic; 0 if left out, [rad/s³ or m/s³].")
-    end_jerk: Coordinates | None = Field(None, description="The same at the end, [rad/s³ or m/s³].")
+    end_acceleration: Coordinates | None = Field(default=None, description="The same at the end, [rad/s² or m/s²].")
+    start_jerk: Coordinates | None = Field(default=None, description="Of a septic; 0 if left out, [rad/s³ or m/s³].")
+    end_jerk: Coordinates | None = Field(default=None, description="The same at the end, [rad/s³ or m/s³].")
     duration: Duration | None = Field(
-        None, description="T, [s]. Of a trapezoid: longer than the shortest; the shortest if left out."
+        default=None, description="T, [s]. Of a trapezoid: longer than the shortest; the shortest if left out."
     )
-    waypoints: Waypoints | None = Field(None, description="Positions at `times`, a row a point, [rad or m].")
-    times: Times | None = Field(None, description="Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = Field(default=None, description="Positions at `times`, a row a point, [rad or m].")
+    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
     blend_time: BlendTimes | None = Field(
-        None, description="Duration of the blend at each waypoint, [s]; a number alone stands for all of them."
+        default=None, description="Duration of the blend at each waypoint, [s]; a number alone stands for all of them."
     )
     may_reverse: bool = Field(
-        False,
+        default=False,
         description="Whether a trapezoid may turn back where its end velocities carry it too far or away from the "
         "target; without it, that is refused.",
     )

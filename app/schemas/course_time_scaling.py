@@ -24,28 +24,29 @@ class TimeScalingRequest(SampledRequest):
 
     limits: MotionLimits = Field(description="At least one of them.")
     law: Literal["cubic", "quintic", "septic"] = Field(
-        "cubic", description="From rest to rest; of a motion by `displacement`."
+        default="cubic", description="From rest to rest; of a motion by `displacement`."
     )
-    displacement: Coordinates | None = Field(None, description="Δq of each joint, [rad or m].")
-    duration: Duration | None = Field(None, description="T of this motion, [s].")
-    times: Times | None = Field(None, description="Of the waypoints, increasing, [s].")
+    displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
+    duration: Duration | None = Field(default=None, description="T of this motion, [s].")
+    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
     waypoints: Waypoints | None = Field(
-        None, description="Positions, a row a time, [rad or m]. Alone, a cubic spline is laid through them."
+        default=None, description="Positions, a row a time, [rad or m]. Alone, a cubic spline is laid through them."
     )
     boundary: Boundary = Field(
-        "not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
+        default="not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
     )
     velocities: Waypoints | None = Field(
-        None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
+        default=None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
     )
     accelerations: Waypoints | None = Field(
-        None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+        default=None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
     )
     scaling: Literal["course", "unclipped"] = Field(
-        "course", description="Which k the motion in the answer is scaled by: `course` never speeds up."
+        default="course", description="Which k the motion in the answer is scaled by: `course` never speeds up."
     )
     factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
-        None, description="A k of your own for the motion in the answer, no unit: it need not respect the limits."
+        default=None,
+        description="A k of your own for the motion in the answer, no unit: it need not respect the limits.",
     )
 
 

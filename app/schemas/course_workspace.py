@@ -20,10 +20,10 @@ class PlanarWorkspaceRequest(Payload):
         description="Lengths l_1, l_2 and perhaps l_3, from the base on, [m]."
     )
     point: Annotated[list[Coordinate], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="x and y of a point, relative to the first joint, [m]."
+        default=None, description="x and y of a point, relative to the first joint, [m]."
     )
     tolerance: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
-        1e-9, description="Distance within which the point lies on a boundary, [m]."
+        default=1e-9, description="Distance within which the point lies on a boundary, [m]."
     )
 
 

@@ -24,14 +24,14 @@ class DeriveRequest(Payload):
         ),
     ] = []  # noqa: RUF012
     notation: Literal["short", "full"] = Field(
-        "short", description="`short` writes c_{12} for cos(q_1 + q_2), `full` writes cos(q_1 + q_2)."
+        default="short", description="`short` writes c_{12} for cos(q_1 + q_2), `full` writes cos(q_1 + q_2)."
     )
     symbolic: bool = Field(
-        True,
+        default=True,
         description="Whether lengths and angles of the table stay symbols; else their values stand in the formulas.",
     )
     dynamics: DynamicsPayload | None = Field(
-        None,
+        default=None,
         description="For a planar arm of up to three joints: its equations of motion by the Lagrangian too. `{}` asks "
         "for them in symbols throughout.",
         examples=[EXAMPLE_MOTION["dynamics"]],

@@ -23,14 +23,16 @@ class MimicPayload(Payload):
         description="A row with a position of its own, or a joint outside the table: that is a variable then, in its "
         "place where the first row needs it."
     )
-    multiplier: float = Field(1.0, description="Of the position of the leader, [rad or m] per [rad or m].")
-    offset: float = Field(0.0, description="Added to the multiple of the leader's position, [rad or m].")
+    multiplier: float = Field(default=1.0, description="Of the position of the leader, [rad or m] per [rad or m].")
+    offset: float = Field(default=0.0, description="Added to the multiple of the leader's position, [rad or m].")
 
 
 class DhJointRow(Payload):
     """A row of the table; the joint's position adds to `theta` (revolute) or to `d` (prismatic)."""
 
-    name: JointName | None = Field(None, description="Unique in the table; `joint_1`, `joint_2`, … if left out.")
+    name: JointName | None = Field(
+        default=None, description="Unique in the table; `joint_1`, `joint_2`, … if left out."
+    )
     type: Literal["revolute", "prismatic"] = Field(
         description="Whether the joint turns about or slides along its axis."
     )
@@ -38,12 +40,16 @@ class DhJointRow(Payload):
     alpha: float = Field(description="Twist about the common normal, [rad].")
     d: float = Field(description="Offset along the joint axis, [m].")
     theta: float = Field(description="Angle about the joint axis, [rad].")
-    lower: float | None = Field(None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out.")
-    upper: float | None = Field(None, description="Upper limit of the position, [rad or m]; π or 1 m if left out.")
-    velocity: float | None = Field(None, ge=0, description="Velocity limit, [rad/s or m/s].")
-    effort: float | None = Field(None, ge=0, description="Effort limit, [N m or N].")
+    lower: float | None = Field(
+        default=None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out."
+    )
+    upper: float | None = Field(
+        default=None, description="Upper limit of the position, [rad or m]; π or 1 m if left out."
+    )
+    velocity: float | None = Field(default=None, ge=0, description="Velocity limit, [rad/s or m/s].")
+    effort: float | None = Field(default=None, ge=0, description="Effort limit, [N m or N].")
     mimic: MimicPayload | None = Field(
-        None, description="The joint that this one follows; left out, its position is a variable of the table."
+        default=None, description="The joint that this one follows; left out, its position is a variable of the table."
     )
 
     def row(self, number: int) -> DhJoint:
@@ -61,8 +67,8 @@ class DhTablePayload(Payload):
 
     convention: Literal["standard", "modified"] = Field(description="How the four parameters of a row are composed.")
     joints: list[DhJointRow] = Field(min_length=1, max_length=MAX_JOINTS, description="The rows, base to tip.")
-    base: Pose | None = Field(None, description="T_base_0; the identity if left out.")
-    tool: Pose | None = Field(None, description="T_n_tool; the identity if left out.")
+    base: Pose | None = Field(default=None, description="T_base_0; the identity if left out.")
+    tool: Pose | None = Field(default=None, description="T_n_tool; the identity if left out.")
 
     def table(self) -> DhTable:
         """The core's table.

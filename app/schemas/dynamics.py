@@ -18,7 +18,7 @@ class DynamicsOptions(WrenchOptions):
     list_fields = frozenset({"terms"})
 
     gravity: Gravity = Field(
-        True,
+        default=True,
         description="True for 9.81 m/s² along -z of the root link, false for none, or the gravity in the axes of the "
         "root link, [m/s²].",
         examples=[[0.0, 0.0, -9.81]],
@@ -76,33 +76,36 @@ class DynamicsAnswer(Answer):
     root_frame: str = Field(description="The root link, which stands still, and in whose axes gravity is given.")
     gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
     mass_matrices: list[Matrix] | None = Field(
-        None, description="M(q): [kg m²] for two turning joints, [kg m] for one, [kg] for none."
+        default=None, description="M(q): [kg m²] for two turning joints, [kg m] for one, [kg] for none."
     )
     coriolis_matrices: list[Matrix] | None = Field(
-        None,
+        default=None,
         description="C(q, q̇), of the many with these C q̇ one with dM/dt - 2C skew, [kg m², kg m or kg] per second.",
     )
     coriolis_torques: list[list[float]] | None = Field(
-        None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."
+        default=None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."
     )
     gravity_torques: list[list[float]] | None = Field(
-        None, description="g(q), what the motors give to hold the weight, [N m or N]."
+        default=None, description="g(q), what the motors give to hold the weight, [N m or N]."
     )
-    kinetic_energies: list[float] | None = Field(None, description="½ q̇ᵀM q̇, [J].")
+    kinetic_energies: list[float] | None = Field(default=None, description="½ q̇ᵀM q̇, [J].")
     potential_energies: list[float] | None = Field(
-        None,
+        default=None,
         description="Of all that the chain's joints move, [J]: zero where its centre of mass is level with the origin "
         "of the root link.",
     )
-    wrench_torques: list[list[float]] | None = Field(None, description="Jᵀγ, where wrenches were given, [N m or N].")
+    wrench_torques: list[list[float]] | None = Field(
+        default=None, description="Jᵀγ, where wrenches were given, [N m or N]."
+    )
     torques: list[list[float]] | None = Field(
-        None, description="By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
+        default=None, description="By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
     )
     joint_accelerations: list[list[float]] | None = Field(
-        None, description="By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
+        default=None, description="By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
     )
     overloaded_joints: list[list[str]] | None = Field(
-        None, description="By inverse dynamics: joints whose torque is beyond the effort limit of the description."
+        default=None,
+        description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or stand on.")
     certificate: DynamicsCertificateInfo

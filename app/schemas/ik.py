@@ -38,7 +38,7 @@ class InverseOptions(ChainOptions):
     list_fields = frozenset({"task"})
 
     method: Method = Field(
-        "auto",
+        default="auto",
         description="`auto`: the closed form where the chain has one, else many starts of damped least squares, the "
         "first at the seed, the others random. `analytic`: the closed form, or for six turning joints without one an "
         "elimination; 422 where neither is known. The "
@@ -46,21 +46,21 @@ class InverseOptions(ChainOptions):
         "`gradient_then_newton`, `damped_least_squares`.",
     )
     solutions: Literal["one", "all"] = Field(
-        "one",
+        default="one",
         description="`all`: every distinct solution, nearest to the seed first; of a redundant arm a sample of its "
         "self-motion, no two nearer than 0.2 rad (or m) in every joint.",
     )
     position_tolerance: float = Field(
-        1e-6, ge=1e-12, le=1.0, description="How far a solution may be from the target's position, [m]."
+        default=1e-6, ge=1e-12, le=1.0, description="How far a solution may be from the target's position, [m]."
     )
     orientation_tolerance: float = Field(
-        1e-6,
+        default=1e-6,
         ge=1e-12,
         le=1.0,
         description="By what angle a solution may be turned from the target's orientation, [rad].",
     )
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about "
@@ -68,9 +68,9 @@ class InverseOptions(ChainOptions):
         "`x y z rx ry` is a position and an approach axis.",
         examples=[["x", "y", "z", "rx", "ry"]],
     )
-    respect_limits: bool = Field(True, description="Whether solutions are to be within the joint limits.")
+    respect_limits: bool = Field(default=True, description="Whether solutions are to be within the joint limits.")
     max_iterations: int | None = Field(
-        None,
+        default=None,
         ge=1,
         le=1_000_000,
         description="Budget for each target: with `auto` a start for every 20 (20000 if left out), not used with "
@@ -78,43 +78,46 @@ class InverseOptions(ChainOptions):
         "`damped_least_squares`, 5000 with the two others).",
     )
     time_limit: float = Field(
-        10.0, gt=0, le=60, description="For the whole call, [s]; what is not solved in time says so."
+        default=10.0, gt=0, le=60, description="For the whole call, [s]; what is not solved in time says so."
     )
-    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the starts.")
-    max_solutions: int = Field(100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`.")
+    random_seed: int = Field(default=0, ge=0, lt=2**53, description="Of the starts.")
+    max_solutions: int = Field(
+        default=100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`."
+    )
     windings: bool = Field(
-        False, description="With `all`: whether solutions that differ by full turns count, where limits allow them."
+        default=False,
+        description="With `all`: whether solutions that differ by full turns count, where limits allow them.",
     )
     objective: ObjectiveName | None = Field(
-        None,
+        default=None,
         description="What a redundant arm's freedom is for: to be near to `posture` (the seed if left out) or to the "
         "middle of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The "
         "nearest minimum along the self-motion from the solution that was found; without freedom it stays as it is.",
     )
     step_size: float | None = Field(
-        None, gt=0, le=1e6, description="α of the gradient; if left out it is found by a line search."
+        default=None, gt=0, le=1e6, description="α of the gradient; if left out it is found by a line search."
     )
     damping: float | None = Field(
-        None,
+        default=None,
         ge=0,
         le=1e6,
         description="λ of `damped_least_squares` in Jᵀ(JJᵀ + λI)⁻¹e; if left out it follows the error.",
     )
     switch_error: float = Field(
-        1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
+        default=1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
     )
     elbow_angle: float | None = Field(
-        None,
+        default=None,
         description="With `analytic`, of seven joints with a spherical shoulder and wrist: the angle of the elbow "
         "about the line from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out "
         "that of the seed, or another where it does not fit into the limits.",
     )
     trace: bool = Field(
-        False,
+        default=False,
         description="Whether each iteration is told; of `auto` those of the start that counts, and no closed form is "
         "used then.",
     )
-    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
 
 
 class InverseRequest(InverseOptions):
@@ -147,12 +150,12 @@ class SolutionInfo(Answer):
         "quartic."
     )
     free_joints: list[str] | None = Field(
-        None,
+        default=None,
         description="Joints that a singularity leaves free: at the seed's positions where the others can follow, else "
         "at others.",
     )
     elbow_angle: float | None = Field(
-        None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
+        default=None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
     )
 
 
@@ -198,23 +201,24 @@ class InverseResult(Answer):
     )
     solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
     reason: str | None = Field(description="Why it is not solved.")
-    nearest: NearestInfo | None = Field(None, description="Of an unsolved target.")
-    blocking_joints: list[BlockingJointInfo] | None = Field(None, description="With `outside_limits`.")
+    nearest: NearestInfo | None = Field(default=None, description="Of an unsolved target.")
+    blocking_joints: list[BlockingJointInfo] | None = Field(default=None, description="With `outside_limits`.")
     unserved_directions: list[list[float]] | None = Field(
-        None,
+        default=None,
         description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
         "follow at `nearest`.",
     )
     complete: bool | None = Field(
-        None,
+        default=None,
         description="With `all`: whether these are all solutions; false next to a singularity too, where rounding may "
         "cost one.",
     )
     stop_reason: StopReason | None = Field(
-        None, description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ)."
+        default=None,
+        description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ).",
     )
     trace: list[IterationInfo] | None = Field(
-        None,
+        default=None,
         description="Where asked for: every configuration on the way; of `auto` from the start that counts, or "
         "from the seed if none does. Joints that turn freely may leave their limits on the way; in the solution they "
         "are turned back.",

@@ -42,4 +42,4 @@ class JobInfo(Answer):
         description="How often it was begun since it got further: more than once where the service has ended "
         "meanwhile; after three times it is given up.",
     )
-    error: JobError | None = Field(None, description="Of a failed job.")
+    error: JobError | None = Field(default=None, description="Of a failed job.")

@@ -39,11 +39,13 @@ class ForwardOptions(ChainOptions):
 
     list_fields = frozenset({"frames"})
 
-    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
+    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
     frames: list[FrameName] | Literal["all"] | None = Field(
-        None, description='Further frames that the chain moves, by name, or "all" of them.'
+        default=None, description='Further frames that the chain moves, by name, or "all" of them.'
     )
-    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
 
 
 class ForwardRequest(ForwardOptions):
@@ -69,7 +71,7 @@ class ForwardAnswer(Answer):
     tip_frame: str = Field(description="Frame whose poses they are.")
     poses: list[Pose] = Field(description="T_base_tip at each configuration.")
     frames: list[dict[str, Pose]] | None = Field(
-        None, description="Where frames were asked for: T_base_frame by name, one entry a configuration."
+        default=None, description="Where frames were asked for: T_base_frame by name, one entry a configuration."
     )
     certificate: CertificateInfo
 
@@ -80,12 +82,12 @@ class JacobianOptions(ChainOptions):
     list_fields = frozenset({"derivatives"})
 
     reference: Literal["local_world_aligned", "local", "world"] = Field(
-        "local_world_aligned",
+        default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
         "axes, at the tip. `world`: the spatial twist, base axes, at the base origin.",
     )
     representation: Literal["geometric", "zyz", "rpy"] = Field(
-        "geometric",
+        default="geometric",
         description="`geometric`: angular rows give the angular velocity. `zyz`, `rpy`: they give the rates of these "
         "angles (analytic Jacobian), with reference `local_world_aligned` only.",
     )
@@ -95,9 +97,11 @@ class JacobianOptions(ChainOptions):
         max_length=2,
     )
     rank_tolerance: float = Field(
-        1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
+        default=1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
     )
-    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
 
     @model_validator(mode="after")
     def _analytic_in_base_axes(self) -> "JacobianOptions":
@@ -149,9 +153,9 @@ class JacobianAnswer(Answer):
     )
     rank_tolerance: float = Field(description="Relative to the largest singular value.")
     time_variations: list[Matrix] | None = Field(
-        None, description="dJ/dt, 6 rows, n columns: [m or rad] per [rad or m] and second."
+        default=None, description="dJ/dt, 6 rows, n columns: [m or rad] per [rad or m] and second."
     )
     hessians: list[list[Matrix]] | None = Field(
-        None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
+        default=None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
     )
     certificate: JacobianCertificateInfo

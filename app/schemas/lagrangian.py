@@ -35,15 +35,15 @@ CenterOfMass = Annotated[
 class LinkPayload(Payload):
     """The mass of a link; what is left out stays a symbol."""
 
-    mass: float | None = Field(None, ge=0, le=MAX_MASS, description="m_i, [kg].")
+    mass: float | None = Field(default=None, ge=0, le=MAX_MASS, description="m_i, [kg].")
     center_of_mass: CenterOfMass | None = Field(
-        None,
+        default=None,
         description="[x, y, z] in frame i, [m]; or one number along the link, l_ci, [m]: behind a revolute joint from "
         "its axis along x_i (along the next joint's axis where the link has no length along x and that joint slides), "
         "behind a prismatic joint from the origin of frame i along its axis.",
     )
     inertia: float | None = Field(
-        None,
+        default=None,
         ge=0,
         le=MAX_INERTIA,
         description="I_i, about the centre of mass, the axis normal to the plane, [kg m²].",
@@ -59,7 +59,7 @@ class LinkPayload(Payload):
 class GravityPayload(Payload):
     """Free fall by its size and direction."""
 
-    magnitude: float = Field(STANDARD_GRAVITY, ge=0, le=MAX_GRAVITY, description="g_0, [m/s²].")
+    magnitude: float = Field(default=STANDARD_GRAVITY, ge=0, le=MAX_GRAVITY, description="g_0, [m/s²].")
     direction: Triple = Field(description="Where things fall, in the base; of any length, no unit.")
 
     @field_validator("direction")
@@ -87,12 +87,12 @@ class DynamicsPayload(Payload):
     gravity: Annotated[
         Annotated[FreeFall, Tag("<list>")] | Annotated[GravityPayload, Tag("<object>")], Discriminator(_kind)
     ] = Field(
-        [0.0, 0.0, -STANDARD_GRAVITY],
+        default=[0.0, 0.0, -STANDARD_GRAVITY],
         description="Acceleration of free fall in the base, [m/s²], or its size and direction. Left out it points "
         "along -z of the base, so that an arm in the x-y plane of the base is horizontal.",
     )
     joint_velocities: Annotated[list[Configuration], Field(max_length=MAX_CONFIGURATIONS)] | None = Field(
-        None, description="For C in numbers: one entry a configuration of `joint_positions`, [rad/s or m/s]."
+        default=None, description="For C in numbers: one entry a configuration of `joint_positions`, [rad/s or m/s]."
     )
 
     def dynamics(self) -> Dynamics:

@@ -30,42 +30,44 @@ class ManipulabilityOptions(ChainOptions):
         examples=[["x", "y"]],
     )
     reference: Literal["local_world_aligned", "local"] = Field(
-        "local_world_aligned",
+        default="local_world_aligned",
         description="In whose axes all vectors are, those of `task` and `directions` too. `local_world_aligned`: the "
         "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
         "is about; an image has the base's only.",
     )
     characteristic_length: float | None = Field(
-        None,
+        default=None,
         ge=1e-6,
         le=1e6,
         description="Length L that makes metres of radians, [m]: with it there is also the combined ellipsoid of "
         "(v, L ω) and (F, M / L). Without it translation and rotation are never mixed.",
     )
     rank_tolerance: float = Field(
-        1e-10,
+        default=1e-10,
         gt=0,
         lt=1,
         description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest, "
         "or than the rounding of the whole Jacobian; no unit.",
     )
-    gradient: bool = Field(False, description="Whether the gradient of Yoshikawa's measure is wanted.")
+    gradient: bool = Field(default=False, description="Whether the gradient of Yoshikawa's measure is wanted.")
     polytopes: bool = Field(
-        False,
+        default=False,
         description="Whether velocities and forces within the limits of each joint are wanted too: in the "
         "`directions`, or along x, y and z where none are given.",
     )
-    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
 
 
 class RateAndEffortLimits(Payload):
     """Limits of the chain's joints in place of those of the robot's description; each number is positive."""
 
     joint_velocity: Configuration | None = Field(
-        None, description="Largest joint velocities, base to tip or by name, [rad/s or m/s]."
+        default=None, description="Largest joint velocities, base to tip or by name, [rad/s or m/s]."
     )
     joint_effort: Configuration | None = Field(
-        None, description="Largest joint torques or forces, base to tip or by name, [N m or N]."
+        default=None, description="Largest joint torques or forces, base to tip or by name, [N m or N]."
     )
 
 
@@ -74,14 +76,16 @@ class ManipulabilityRequest(ManipulabilityOptions):
 
     joint_positions: Configurations
     directions: list[Vector] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=MAX_DIRECTIONS,
         description="Vectors in the axes of `reference` along which transmission ratios are wanted; only the direction "
         "counts, their length has no unit.",
         examples=[[[1.0, 0.0, 0.0]]],
     )
-    limits: RateAndEffortLimits | None = Field(None, description="For `polytopes`: limits other than the robot's own.")
+    limits: RateAndEffortLimits | None = Field(
+        default=None, description="For `polytopes`: limits other than the robot's own."
+    )
 
 
 class SpaceInfo(Answer):
@@ -200,16 +204,16 @@ class PartInfo(Answer):
         description="Shortest over longest velocity semi-axis, 0 where one vanishes; no unit; null where all do."
     )
     gradient: list[float] | None = Field(
-        None,
+        default=None,
         description="∂w/∂q_j of `measure`, where asked for; `measure_unit` per [rad or m]; null where the measure "
         "vanishes: it has a kink there.",
     )
-    transmission: list[Transmission] | None = Field(None, description="Where `directions` were given.")
+    transmission: list[Transmission] | None = Field(default=None, description="Where `directions` were given.")
     velocity_polytope: VelocityPolytope | None = Field(
-        None, description="Where asked for and all joints have a velocity limit."
+        default=None, description="Where asked for and all joints have a velocity limit."
     )
     force_polytope: ForcePolytope | None = Field(
-        None, description="Where asked for and all joints have an effort limit."
+        default=None, description="Where asked for and all joints have an effort limit."
     )
 
 
@@ -245,10 +249,12 @@ class ManipulabilityAnswer(Answer):
     characteristic_length: float | None = Field(description="Of the combined part, [m].")
     spaces: list[SpaceInfo] = Field(description="Of each part that there is.")
     joints_without_velocity_limit: list[str] | None = Field(
-        None, description="Where polytopes were asked for: joints whose velocity has no limit, so that there is none."
+        default=None,
+        description="Where polytopes were asked for: joints whose velocity has no limit, so that there is none.",
     )
     joints_without_effort_limit: list[str] | None = Field(
-        None, description="Where polytopes were asked for: joints whose effort has no limit, so that there is none."
+        default=None,
+        description="Where polytopes were asked for: joints whose effort has no limit, so that there is none.",
     )
     results: list[ManipulabilityInfo]
     certificate: EllipsoidCertificateInfo

@@ -50,16 +50,17 @@ class Pose(Payload):
         json_schema_extra={"examples": [{"position": [0.3, 0.0, 0.6], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}]}
     )
 
-    position: Vector3 | None = Field(None, description="Origin, [m].")
-    quaternion_xyzw: Vector4 | None = Field(None, description="Unit quaternion, scalar last.")
-    quaternion_wxyz: Vector4 | None = Field(None, description="Unit quaternion, scalar first.")
+    position: Vector3 | None = Field(default=None, description="Origin, [m].")
+    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
     rpy: Vector3 | None = Field(
-        None, description="Roll, pitch, yaw about the fixed axes x, y, z (URDF): R = Rz(yaw) Ry(pitch) Rx(roll), [rad]."
+        default=None,
+        description="Roll, pitch, yaw about the fixed axes x, y, z (URDF): R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
     )
-    zyz: Vector3 | None = Field(None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
-    rotation_vector: Vector3 | None = Field(None, description="Axis times angle, [rad].")
-    rotation: Matrix3 | None = Field(None, description="Rotation matrix, row by row.")
-    matrix: Matrix4 | None = Field(None, description="Homogeneous transform, row by row; translation in [m].")
+    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
+    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
+    matrix: Matrix4 | None = Field(default=None, description="Homogeneous transform, row by row; translation in [m].")
 
     @model_validator(mode="after")
     def _one_notation(self) -> "Pose":

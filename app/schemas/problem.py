@@ -20,5 +20,7 @@ class Problem(BaseModel):
     status: int = Field(description="HTTP status.")
     detail: str = Field(description="This occurrence, in a sentence for people.")
     instance: str = Field(description="Path of the request.")
-    request_id: str | None = Field(None, description="The answer's `X-Request-Id`, by which the log is searched.")
-    errors: list[FieldError] | None = Field(None, description="Places in the payload, where there are several.")
+    request_id: str | None = Field(
+        default=None, description="The answer's `X-Request-Id`, by which the log is searched."
+    )
+    errors: list[FieldError] | None = Field(default=None, description="Places in the payload, where there are several.")

@@ -24,9 +24,9 @@ class RobotFile(Payload):
     description: Text = ""
     format: Literal["urdf", "dh"]
     model: str | PackagedFile = Field(description="The URDF or DH file, in this folder or in a package.")
-    meshes: str | None = Field(None, description="Folder of the mesh files, in this folder.")
-    urdf_folder: str = Field("", description="Where the URDF stood among the mesh files.")
-    digest: str | None = Field(None, description="SHA-256 of the model and its meshes, of an uploaded robot.")
+    meshes: str | None = Field(default=None, description="Folder of the mesh files, in this folder.")
+    urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
+    digest: str | None = Field(default=None, description="SHA-256 of the model and its meshes, of an uploaded robot.")
     default_chain: ChainEnds | None = None
     chains: dict[str, ChainEnds] = Field(default_factory=dict)
     licence: str | None = None
@@ -36,11 +36,12 @@ class RobotFile(Payload):
 class RobotReplacement(Payload):
     """A robot as URDF text or as a DH table: exactly one of the two."""
 
-    urdf: str | None = Field(None, description="The URDF as text, xacro expanded.")
-    dh: DhTablePayload | None = Field(None, description="The robot as a Denavit-Hartenberg table.")
-    description: Text = Field("", description="One sentence for people.")
+    urdf: str | None = Field(default=None, description="The URDF as text, xacro expanded.")
+    dh: DhTablePayload | None = Field(default=None, description="The robot as a Denavit-Hartenberg table.")
+    description: Text = Field(default="", description="One sentence for people.")
     default_chain: ChainEnds | None = Field(
-        None, description="Chain of calls that name none; root link → leaf with the longest movable chain if left out."
+        default=None,
+        description="Chain of calls that name none; root link → leaf with the longest movable chain if left out.",
     )
 
     @model_validator(mode="after")
@@ -59,9 +60,9 @@ class NewRobot(RobotReplacement):
 class ArchiveReplacement(Payload):
     """The text fields that come with an archive."""
 
-    description: Text = Field("", description="One sentence for people.")
-    base_frame: FrameName | None = Field(None, description="Of the default chain, together with `tip_frame`.")
-    tip_frame: FrameName | None = Field(None, description="Of the default chain, together with `base_frame`.")
+    description: Text = Field(default="", description="One sentence for people.")
+    base_frame: FrameName | None = Field(default=None, description="Of the default chain, together with `tip_frame`.")
+    tip_frame: FrameName | None = Field(default=None, description="Of the default chain, together with `base_frame`.")
 
     @model_validator(mode="after")
     def _both_ends(self) -> "ArchiveReplacement":
@@ -144,7 +145,7 @@ class RobotInfo(RobotSummary):
     root: str = Field(description="The link without a parent.")
     joints: list[JointInfo]
     joint_names: list[str] = Field(description="The default chain's joints, base to tip: the order of a configuration.")
-    dh: DhTablePayload | None = Field(None, description="The table, of a robot that was given as one.")
+    dh: DhTablePayload | None = Field(default=None, description="The table, of a robot that was given as one.")
     degrees_of_freedom: int = Field(description="Joints of the whole robot with a position of their own.")
     links: list[str] = Field(description="Their names.")
     frames: list[str] = Field(description="Their names: those that calls may name.")

@@ -26,7 +26,7 @@ class SingularityOptions(ChainOptions):
     list_fields = frozenset({"task"})
 
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. Of a planar "
@@ -34,46 +34,46 @@ class SingularityOptions(ChainOptions):
         examples=[["x", "y", "z"]],
     )
     reference: Literal["local_world_aligned", "local", "world"] = Field(
-        "local_world_aligned",
+        default="local_world_aligned",
         description="Whose directions those of `task` are. `local_world_aligned`: along and about the base's axes, at "
         "the tip (the course's). `local`: the tip's axes, which is what an `ik` task that leaves a turn about the "
         "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
         "What is lost is told in the base's axes, at the tip, with each.",
     )
     characteristic_length: float | None = Field(
-        None,
+        default=None,
         ge=1e-6,
         le=1e6,
         description="What angular rows are multiplied by so that they compare with linear ones, [m]; if left out "
         "metres and radians are mixed where both count.",
     )
     rank_tolerance: float = Field(
-        1e-10,
+        default=1e-10,
         gt=0,
         lt=1,
         description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
         "Jacobian; no unit.",
     )
     respect_limits: bool = Field(
-        False,
+        default=False,
         description="Whether a configuration beyond the joint limits is an error, and the nearest singularity is to be "
         "within them.",
     )
     nearest: bool = Field(
-        False,
+        default=False,
         description="Whether the nearest singular configuration is looked for, some 15 ms each; of at most 100 "
         "configurations of seven joints.",
     )
     search_radius: float = Field(
-        math.pi, gt=0, le=10, description="How far away the nearest singularity may be, ‖Δq‖, [rad and m]."
+        default=math.pi, gt=0, le=10, description="How far away the nearest singularity may be, ‖Δq‖, [rad and m]."
     )
     path: bool = Field(
-        False,
+        default=False,
         description="Whether the configurations are a path, led from each straight to the next in the joints, whose "
         "singular places are wanted; at most 1000 of them.",
     )
     path_threshold: float = Field(
-        0.01,
+        default=0.01,
         gt=0,
         le=1,
         description="A minimum along the path is told where the smallest singular value is at most this share of the "
@@ -171,9 +171,9 @@ class SingularityEntry(SingularityInfo):
     """The report of one configuration."""
 
     nearest: NearestSingularityInfo | None = Field(
-        None, description="Where asked for; null where none was found, for the reason in `nearest_reason`."
+        default=None, description="Where asked for; null where none was found, for the reason in `nearest_reason`."
     )
-    nearest_reason: str | None = Field(None, description="Why there is none.")
+    nearest_reason: str | None = Field(default=None, description="Why there is none.")
 
 
 class SingularPlaceInfo(Answer):
@@ -223,5 +223,5 @@ class SingularityAnswer(Answer):
         "length; whether the configuration is singular does not."
     )
     singularities: list[SingularityEntry]
-    path: SingularPathInfo | None = Field(None, description="Where asked for.")
+    path: SingularPathInfo | None = Field(default=None, description="Where asked for.")
     certificate: SingularityCertificateInfo

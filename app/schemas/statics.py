@@ -54,19 +54,21 @@ class WrenchOptions(ChainOptions):
     """Axes and point of a wrench."""
 
     reference: Literal["local_world_aligned", "local", "world"] = Field(
-        "local_world_aligned",
+        default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, "
         "at the base origin.",
     )
     expressed_in: FrameName | None = Field(
-        None,
+        default=None,
         description="Frame whose axes are taken instead of those of `reference`: any of the robot, where joints that "
         "the chain does not have stand at zero.",
     )
     point_frame: FrameName | None = Field(
-        None, description="Frame of `point`, any of the robot likewise; the tip if left out."
+        default=None, description="Frame of `point`, any of the robot likewise; the tip if left out."
     )
-    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
 
 
 class WrenchRequest(WrenchOptions):
@@ -86,7 +88,7 @@ class StaticsOptions(WrenchOptions):
     list_fields = frozenset({"task"})
 
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
@@ -94,18 +96,21 @@ class StaticsOptions(WrenchOptions):
         examples=[["x", "y"]],
     )
     gravity: Gravity = Field(
-        False,
+        default=False,
         description="Whether the motors also hold the robot's weight: true for 9.81 m/s² along -z of the root link, or "
         "the gravity in the axes of the root link, [m/s²]. Links on branches count where the chain's joints carry "
         "them; joints that the chain does not have stand at zero.",
         examples=[[0.0, 0.0, -9.81]],
     )
-    subspaces: bool = Field(False, description="Whether the four subspaces of the Jacobian are wanted.")
+    subspaces: bool = Field(default=False, description="Whether the four subspaces of the Jacobian are wanted.")
     rank_tolerance: float = Field(
-        1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest; no unit."
+        default=1e-10,
+        gt=0,
+        lt=1,
+        description="A singular value counts where it exceeds this times the largest; no unit.",
     )
     membership_tolerance: float = Field(
-        1e-9,
+        default=1e-9,
         gt=0,
         lt=1,
         description="A vector lies in a subspace where what is outside is no longer than this times it; no unit.",
@@ -160,10 +165,10 @@ class SubspacesInfo(Answer):
     )
     row_space: Matrix = Field(description="range(Jᵀ): torques that a wrench balances, [N m or N] mixed.")
     kernel: Matrix = Field(description="ker(J): joint velocities that leave the tip at rest, [rad or m] mixed.")
-    twists: list[SplitInfo] | None = Field(None, description="Of `test_twists`.")
-    wrenches: list[SplitInfo] | None = Field(None, description="Of `test_wrenches`.")
-    torques: list[SplitInfo] | None = Field(None, description="Of `test_torques`.")
-    joint_velocities: list[SplitInfo] | None = Field(None, description="Of `test_joint_velocities`.")
+    twists: list[SplitInfo] | None = Field(default=None, description="Of `test_twists`.")
+    wrenches: list[SplitInfo] | None = Field(default=None, description="Of `test_wrenches`.")
+    torques: list[SplitInfo] | None = Field(default=None, description="Of `test_torques`.")
+    joint_velocities: list[SplitInfo] | None = Field(default=None, description="Of `test_joint_velocities`.")
 
 
 class StaticsCertificateInfo(Answer):
@@ -212,12 +217,12 @@ class StaticsAnswer(Answer):
         description="τ = Jᵀγ + g(q), which the motors give, [N m], or [N] of a sliding joint; or as they were given."
     )
     gravity_torques: list[list[float]] | None = Field(
-        None, description="g(q), the part of `torques` that holds the weight, [N m or N]."
+        default=None, description="g(q), the part of `torques` that holds the weight, [N m or N]."
     )
-    balance: BalanceInfo | None = Field(None, description="Where `torques` were given.")
+    balance: BalanceInfo | None = Field(default=None, description="Where `torques` were given.")
     overloaded_joints: list[list[str]] = Field(
         description="Joints whose torque is beyond the effort limit of the description."
     )
-    subspaces: list[SubspacesInfo] | None = Field(None, description="Where they were asked for.")
+    subspaces: list[SubspacesInfo] | None = Field(default=None, description="Where they were asked for.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or stand on.")
     certificate: StaticsCertificateInfo

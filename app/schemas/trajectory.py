@@ -82,32 +82,38 @@ class TrajectoryLimits(Payload):
         description="|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of "
         "the acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump is not counted.",
     )
-    tip_velocity: _Bound | None = Field(None, description="Speed of the tip, [m/s]; none if left out.")
-    tip_acceleration: _Bound | None = Field(None, description="Of the tip, along and across, [m/s²]; none if left out.")
-    tip_angular_velocity: _Bound | None = Field(None, description="‖ω‖ of the tip, [rad/s]; none if left out.")
-    tip_angular_acceleration: _Bound | None = Field(None, description="‖ω̇‖ of the tip, [rad/s²]; none if left out.")
+    tip_velocity: _Bound | None = Field(default=None, description="Speed of the tip, [m/s]; none if left out.")
+    tip_acceleration: _Bound | None = Field(
+        default=None, description="Of the tip, along and across, [m/s²]; none if left out."
+    )
+    tip_angular_velocity: _Bound | None = Field(default=None, description="‖ω‖ of the tip, [rad/s]; none if left out.")
+    tip_angular_acceleration: _Bound | None = Field(
+        default=None, description="‖ω̇‖ of the tip, [rad/s²]; none if left out."
+    )
 
 
 class MotionOptions(Payload):
     """How fast, by which law; of a segment what is left out is the trajectory's."""
 
     limits: TrajectoryLimits | None = Field(
-        None, description="Of joints and tip; of a segment field by field, what is left out is the trajectory's."
+        default=None,
+        description="Of joints and tip; of a segment field by field, what is left out is the trajectory's.",
     )
     velocity_scale: _Scale | None = Field(
-        None, description="Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out."
+        default=None,
+        description="Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out.",
     )
     acceleration_scale: _Scale | None = Field(
-        None, description="Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
+        default=None, description="Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
     )
 
 
 class SegmentOptions(MotionOptions):
     """What every segment may say for itself."""
 
-    law: Law | None = Field(None, description="Of time; the trajectory's if left out.")
+    law: Law | None = Field(default=None, description="Of time; the trajectory's if left out.")
     duration: Duration | None = Field(
-        None, description="It is to last, [s]; a shorter one than its limits allow is refused."
+        default=None, description="It is to last, [s]; a shorter one than its limits allow is refused."
     )
 
 
@@ -127,28 +133,28 @@ class LineSegment(SegmentOptions):
     type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
     blend_radius: float | None = Field(
-        None,
+        default=None,
         ge=0,
         le=1e6,
         description="Distance from the target at which this line is left for the next one, along a parabola, without a "
         "stop, [m]. The next segment must be a line.",
     )
     blend_acceleration: _Bound | None = Field(
-        None,
+        default=None,
         description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the "
         "blend is no more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of "
         "the lines that are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer where "
         "joints ask for it.",
     )
     blend_time: Duration | None = Field(
-        None,
+        default=None,
         description="In the place of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the "
         "smallest `tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most "
         "‖v K_BC - v K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer where joints "
         "ask for it.",
     )
     orientation: OrientationLaw = Field(
-        "axis_angle",
+        default="axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
         "angles `zyz` each on its straight way, with `zyz_other` to the other triple of the same target. Of lines that "
         "are blended all turn about axes, or all by angles.",
@@ -161,7 +167,7 @@ class CircleSegment(SegmentOptions):
     type: Literal["circle"] = Field(description="Along a circle.")
     via: Pose = Field(description="Pose of `tip_frame` in `base_frame` on the way, its orientation too.")
     target: Pose = Field(description="Pose at its end.")
-    orientation: OrientationLaw = Field("axis_angle", description=_ORIENTATION_THROUGH)
+    orientation: OrientationLaw = Field(default="axis_angle", description=_ORIENTATION_THROUGH)
 
 
 class SplineSegment(SegmentOptions):
@@ -181,7 +187,7 @@ class SplineSegment(SegmentOptions):
         "the limits.",
     )
     boundary: Boundary = Field(
-        "clamped",
+        default="clamped",
         description="What happens at both ends: `clamped`, at rest; `natural`, without acceleration; `not_a_knot`; "
         "`periodic`, the end like the start; `assigned`, at rest and without acceleration.",
     )
@@ -191,7 +197,7 @@ class SplineSegment(SegmentOptions):
         "with parabolic blends that pass beside the inner ones (Craig's linear segments with parabolic blends); "
         "`notes` say how far. No spline then, and no boundary.",
     )
-    orientation: OrientationLaw = Field("axis_angle", description=f"Of poses. {_ORIENTATION_THROUGH}")
+    orientation: OrientationLaw = Field(default="axis_angle", description=f"Of poses. {_ORIENTATION_THROUGH}")
 
 
 Segment = Annotated[
@@ -220,23 +226,29 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         f"most {MAX_WAYPOINTS} waypoints in all.",
     )
     law: Law = Field(
-        "trapezoidal",
+        default="trapezoidal",
         description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
         "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
         "limits of velocity and acceleration allow at each place.",
     )
     duration: Duration | None = Field(
-        None, description="The whole is to last, [s]; a shorter one than the limits allow is refused."
+        default=None, description="The whole is to last, [s]; a shorter one than the limits allow is refused."
     )
     sample_period: float = Field(
-        0.01, ge=1e-6, le=1e6, description="From one sample to the next, [s]; the last one is exactly at the end."
+        default=0.01,
+        ge=1e-6,
+        le=1e6,
+        description="From one sample to the next, [s]; the last one is exactly at the end.",
     )
     path_tolerance: float = Field(
-        1e-4, ge=1e-7, le=1.0, description="Allowed distance of the tip from its way, also between samples, [m]."
+        default=1e-4,
+        ge=1e-7,
+        le=1.0,
+        description="Allowed distance of the tip from its way, also between samples, [m].",
     )
-    orientation_tolerance: float = Field(1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
+    orientation_tolerance: float = Field(default=1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="The directions in which the way counts, as in `ik`; all six if left out. `x y z` along the base's "
@@ -244,22 +256,22 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         examples=[["x", "y", "z", "rx", "ry"]],
     )
     near_singularity: NearSingularity = Field(
-        "stop",
+        default="stop",
         description="What happens on a way of the tip where `min_singular_value` is not kept: `stop`, the motion ends "
         "there; `damp`, it goes on with damped joints and leaves the way, by how much each segment tells; `slow_down`, "
         "it goes on exactly, as slowly as the joints' limits ask for.",
     )
     min_singular_value: float = Field(
-        0.01,
+        default=0.01,
         ge=1e-6,
         le=1e3,
         description="Smallest singular value of the Jacobian's rows that count below which a configuration is near to "
         "a singularity, [m or rad] per [rad or m]: units are mixed.",
     )
     compare_timing: bool = Field(
-        False,
+        default=False,
         description="Whether the time-optimal duration of each way is told beside that of a law scaled uniformly.",
     )
-    coefficients: bool = Field(False, description="Whether each segment's polynomials are told, in full.")
-    tip_poses: bool = Field(True, description="Whether the tip's poses at the samples are told.")
-    pose_format: PoseFormat = Field("quaternion_xyzw", description="Notation of the poses in the answer.")
+    coefficients: bool = Field(default=False, description="Whether each segment's polynomials are told, in full.")
+    tip_poses: bool = Field(default=True, description="Whether the tip's poses at the samples are told.")
+    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")

@@ -38,20 +38,20 @@ class NullSpace(Payload):
     """A motion of the joints whose part that leaves the tip at rest, (I - J#J) ξ, is added."""
 
     joint_velocities: Configurations | None = Field(
-        None,
+        default=None,
         description="ξ, with `twists`: a list of one configuration for all entries, or of one each; [rad/s or m/s].",
     )
     joint_accelerations: Configurations | None = Field(
-        None, description="ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²]."
+        default=None, description="ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²]."
     )
     objective: ObjectiveName | None = Field(
-        None,
+        default=None,
         description="With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come "
         "nearer to `posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), "
         "to keep away from limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
         "range), or to be more manipulable (the logarithm of √det JJᵀ of the directions that count).",
     )
-    gain: float = Field(1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
+    gain: float = Field(default=1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
     posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
 
     @model_validator(mode="after")
@@ -72,14 +72,14 @@ class VelocityOptions(ChainOptions):
     list_fields = frozenset({"task"})
 
     reference: Literal["local_world_aligned", "local", "world"] = Field(
-        "local_world_aligned",
+        default="local_world_aligned",
         description="Of all vectors of the tip. `local_world_aligned`: derivatives of the tip's position, and of its "
         "angular velocity, along the base's axes (the course's). `local`: the same vectors along the tip's axes. "
         "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
         "origin (the spatial twist).",
     )
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
@@ -87,7 +87,7 @@ class VelocityOptions(ChainOptions):
         examples=[["x", "y"]],
     )
     inverse: InverseName = Field(
-        "pseudo_inverse",
+        default="pseudo_inverse",
         description="`exact`: J⁻¹, of as many joints as directions. `pseudo_inverse`: the smallest joint velocities of "
         "those with the smallest residual. `damped`: λ q̇ᵀWq̇ + ‖Jq̇ - v‖² is minimal.",
     )
@@ -98,21 +98,21 @@ class VelocityOptions(ChainOptions):
         "`damping_threshold`, and of `twists` so much more that no joint exceeds its velocity limit.",
     )
     damping_threshold: float | None = Field(
-        None,
+        default=None,
         gt=0,
         le=1e3,
         description="σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, "
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
     rank_tolerance: float = Field(
-        1e-10,
+        default=1e-10,
         gt=0,
         lt=1,
         description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
         "Jacobian; no unit.",
     )
     characteristic_length: float | None = Field(
-        None,
+        default=None,
         ge=1e-6,
         le=1e6,
         description="What a radian counts as, [m]: angular rows are multiplied by it before inversion. Left out, "
@@ -120,14 +120,16 @@ class VelocityOptions(ChainOptions):
         "unit of length.",
     )
     jacobian_derivatives: bool = Field(
-        False, description="Whether J and as many of J̇, J̈, J⃛ as the given rates determine are told too."
+        default=False, description="Whether J and as many of J̇, J̈, J⃛ as the given rates determine are told too."
     )
     singularity_reports: bool = Field(
-        False,
+        default=False,
         description="Whether each entry also has the whole report of what is lost, which joints are dependent and "
         f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of the same rows.",
     )
-    respect_limits: bool = Field(False, description="Whether a configuration beyond the joint limits is an error.")
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
 
 
 class VelocityRequest(VelocityOptions):
@@ -147,15 +149,15 @@ class VelocityRequest(VelocityOptions):
         default=None, description="Fourth derivative of q, beside those before it, [rad/s⁴ or m/s⁴]."
     )
     twists: _Vectors | None = Field(
-        None, description=f"v, to be inverted: one entry a configuration, [m/s, rad/s]. {_SIX}"
+        default=None, description=f"v, to be inverted: one entry a configuration, [m/s, rad/s]. {_SIX}"
     )
     tip_accelerations: _Vectors | None = Field(
-        None,
+        default=None,
         description="Classical accelerations (p̈; ω̇), to be inverted at given `joint_velocities`: "
         f"q̈ = J#(r̈ - J̇q̇), [m/s², rad/s²]. {_SIX}",
     )
     tip_jerks: _Vectors | None = Field(
-        None,
+        default=None,
         description="Jerks, to be inverted at given `joint_velocities` and `joint_accelerations`: "
         f"J#(jerk - 2J̇q̈ - J̈q̇), [m/s³, rad/s³]. {_SIX}",
     )
@@ -165,7 +167,7 @@ class VelocityRequest(VelocityOptions):
         "weight moves less. The pseudo-inverse is W⁻¹Jᵀ(JW⁻¹Jᵀ)⁻¹.",
     )
     null_space: NullSpace | None = Field(
-        None, description="What a redundant arm's freedom is for; with `pseudo_inverse` and `damped`."
+        default=None, description="What a redundant arm's freedom is for; with `pseudo_inverse` and `damped`."
     )
 
 
@@ -205,21 +207,25 @@ class VelocityResult(Answer):
     """What is to be said about one configuration."""
 
     status: Status | None = Field(
-        None,
+        default=None,
         description="Of an inversion. `solved`: the residual vanishes. `approximate`: it does not. `singular`: `exact` "
         "was asked for and the Jacobian has no inverse, so there is no answer.",
     )
-    reason: str | None = Field(None, description="Why it is not solved.")
+    reason: str | None = Field(default=None, description="Why it is not solved.")
     residual: list[float] | None = Field(
-        None,
+        default=None,
         description="What was asked for less what the tip does, v - Jq̇, in the directions that count; [m/s, rad/s], of "
         "accelerations [m/s², rad/s²], of jerks [m/s³, rad/s³].",
     )
-    residual_linear: float | None = Field(None, description="Its length, linear part, [m/s], [m/s²] or [m/s³].")
-    residual_angular: float | None = Field(None, description="Its length, angular part, [rad/s], [rad/s²] or [rad/s³].")
-    damping: float | None = Field(None, description="λ that was used; 0 without damping; metres and radians mixed.")
+    residual_linear: float | None = Field(default=None, description="Its length, linear part, [m/s], [m/s²] or [m/s³].")
+    residual_angular: float | None = Field(
+        default=None, description="Its length, angular part, [rad/s], [rad/s²] or [rad/s³]."
+    )
+    damping: float | None = Field(
+        default=None, description="λ that was used; 0 without damping; metres and radians mixed."
+    )
     null_space_share: float | None = Field(
-        None,
+        default=None,
         description="With `null_space`: how much of that motion there was room for within the velocity limits, which "
         "the adaptive damping keeps; from 0 to 1, no unit.",
     )
@@ -227,7 +233,7 @@ class VelocityResult(Answer):
         description="Joints whose velocity, given or found, exceeds the limit of the description."
     )
     singularity: VelocitySingularity
-    singularity_report: SingularityInfo | None = Field(None, description="Where asked for.")
+    singularity_report: SingularityInfo | None = Field(default=None, description="Where asked for.")
 
 
 class MotionCertificateInfo(Answer):
@@ -260,31 +266,32 @@ class VelocityAnswer(Answer):
     reference: Literal["local_world_aligned", "local", "world"] = Field(description="As it was asked for.")
     task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
-    twists: _Rows | None = Field(None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
+    twists: _Rows | None = Field(default=None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
     accelerations: _Rows | None = Field(
-        None, description="Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²]."
+        default=None, description="Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²]."
     )
     spatial_accelerations: _Rows | None = Field(
-        None,
+        default=None,
         description="Pinocchio's: the derivative of the twist's coordinates in the tip's axes, turned to `reference`; "
         "in `local_world_aligned` (p̈ - ω × ṗ; ω̇), [m/s², rad/s²].",
     )
     jerks: _Rows | None = Field(
-        None, description="J q⃛ + 2 J̇ q̈ + J̈ q̇: third derivative of the tip's position, second of ω, [m/s³, rad/s³]."
+        default=None,
+        description="J q⃛ + 2 J̇ q̈ + J̈ q̇: third derivative of the tip's position, second of ω, [m/s³, rad/s³].",
     )
     snaps: _Rows | None = Field(
-        None,
+        default=None,
         description="J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇: fourth derivative of the tip's position, third of ω, [m/s⁴, rad/s⁴].",
     )
     joint_velocities: _Solutions | None = Field(
-        None, description="Of `twists`, [rad/s or m/s]; null where `exact` has no answer."
+        default=None, description="Of `twists`, [rad/s or m/s]; null where `exact` has no answer."
     )
     joint_accelerations: _Solutions | None = Field(
-        None, description="Of `tip_accelerations`, likewise, [rad/s² or m/s²]."
+        default=None, description="Of `tip_accelerations`, likewise, [rad/s² or m/s²]."
     )
-    joint_jerks: _Solutions | None = Field(None, description="Of `tip_jerks`, likewise, [rad/s³ or m/s³].")
+    joint_jerks: _Solutions | None = Field(default=None, description="Of `tip_jerks`, likewise, [rad/s³ or m/s³].")
     jacobian_derivatives: list[list[Matrix]] | None = Field(
-        None,
+        default=None,
         description="Where asked for: J, J̇, J̈, J⃛ of `local_world_aligned`, 6 rows and n columns each, one fewer than "
         "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
     )

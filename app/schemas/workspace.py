@@ -27,27 +27,27 @@ class WorkspaceRequest(ChainOptions):
     """A workspace by samples of the joint space."""
 
     kind: Literal["cloud", "grid", "dexterity"] = Field(
-        "cloud",
+        default="cloud",
         description="What the array of the result holds. `cloud`: each sample's position and measure. `grid`: each "
         "voxel that samples fall into, with their number and the largest measure. `dexterity`: the same, and the share "
         "of the `orientations` that inverse kinematics reaches at its centre.",
     )
-    samples: int = Field(100_000, ge=1, lt=2**53, description="How many configurations; no unit.")
+    samples: int = Field(default=100_000, ge=1, lt=2**53, description="How many configurations; no unit.")
     sequence: Literal["random", "low_discrepancy"] = Field(
-        "random",
+        default="random",
         description="`random`: uniform between the bounds, row i that of `numpy.random.default_rng(random_seed)"
         ".random((samples, n))`. `low_discrepancy`: a scrambled Halton sequence, which leaves smaller gaps.",
     )
-    random_seed: int = Field(0, ge=0, lt=2**53, description="Of the samples; no unit.")
+    random_seed: int = Field(default=0, ge=0, lt=2**53, description="Of the samples; no unit.")
     voxel_size: float | None = Field(
-        None,
+        default=None,
         gt=0,
         le=1e6,
         description="Edge of a voxel, [m]; if left out a 40th of the longest side of the workspace, with `dexterity` "
         "a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
     task: list[Direction] | None = Field(
-        None,
+        default=None,
         min_length=1,
         max_length=6,
         description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
@@ -56,7 +56,7 @@ class WorkspaceRequest(ChainOptions):
         examples=[["x", "y"]],
     )
     plane: SlicePlane | None = Field(
-        None,
+        default=None,
         description="Only positions in a slice; its voxels are squares in its plane. An arm that keeps to a plane of "
         "its own has squares in that one without being asked.",
     )
@@ -67,18 +67,18 @@ class WorkspaceRequest(ChainOptions):
         "their limits; without limits a turning joint goes once round and a sliding one 1 m to either side.",
     )
     orientations: int = Field(
-        32,
+        default=32,
         ge=1,
         le=1000,
         description="With `dexterity` only: how many orientations are asked for at each voxel; no unit.",
     )
     orientations_over: Literal["rotations", "approach_directions"] = Field(
-        "rotations",
+        default="rotations",
         description="With `dexterity` only, over what these are spread evenly: over all rotations, or over the "
         "directions of the tip's z axis, with any turn about it. Of an arm that turns about one direction only, as "
         "planar arms and SCARAs, they are turns about that one.",
     )
-    job_id: JobName | None = Field(None)
+    job_id: JobName | None = Field(default=None)
 
 
 class BoxInfo(Answer):
