@@ -13,6 +13,7 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, UnknownFrame, listed
 from app.model.robot import Robot
+from app.schemas.common import Vectors
 from app.schemas.dynamics import DynamicsRequest
 from app.schemas.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from app.store.records import LoadedRobot
@@ -117,7 +118,7 @@ def unused_frame(call: WrenchRequest) -> str | None:
     return next((field for field in fields if getattr(call, field) is not None), None)
 
 
-def wrench_rows(wrenches: Sequence[Sequence[float]], count: int, components: Sequence[str]) -> Array:
+def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Array:
     """One wrench a configuration; shape (N, m), [N] and [N m].
 
     Raises:

@@ -14,6 +14,7 @@ from app.model.errors import InvalidArray, quoted
 
 _VERSIONS = {(1, 0), (2, 0), (3, 0)}
 _LONGEST_HEADER = 10_000
+_QUOTES = "'\""
 _KEYS = {"descr", "fortran_order", "shape"}
 _ORDERS = {"True", "False"}
 
@@ -49,9 +50,8 @@ def read_npy(body: bytes) -> Array:
     header, start = _header(body)
     kind = _NUMBERS.fullmatch(header["descr"])
     if kind is None:
-        raise InvalidArray(
-            f"the array holds {quoted(header['descr'])}; allowed are integers and floats of up to 64 bits"
-        )
+        held = quoted(header["descr"].strip(_QUOTES))
+        raise InvalidArray(f"the array holds {held}; allowed are integers and floats of up to 64 bits")
     dtype = np.dtype(kind[1])
     shape = tuple(int(size) for size in _SIZE.findall(header["shape"]))
     if not shape:

@@ -37,6 +37,7 @@ from app.kinematics.subspaces import Subspaces
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
+from app.schemas.common import Vectors
 from app.schemas.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from app.store.records import LoadedRobot
 
@@ -134,7 +135,7 @@ def _task(call: StaticsRequest) -> Sequence[Direction]:
     return call.task or DIRECTIONS
 
 
-def _tests(call: StaticsRequest) -> dict[str, Sequence[Sequence[float]]]:
+def _tests(call: StaticsRequest) -> dict[str, Vectors]:
     """The vectors to be split, by the field of the answer that tells of them."""
     given = {
         "twists": call.test_twists,

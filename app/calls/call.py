@@ -75,7 +75,7 @@ class Blocking(Protocol):
 class Awaited(Protocol):
     """Sends a call; its answer is awaited."""
 
-    def send(self, call: Call[T]) -> Coroutine[Any, Any, T]:
+    def send(self, call: Call[T]) -> Coroutine[object, None, T]:
         """The answer, once awaited."""
         ...
 
@@ -92,7 +92,7 @@ class Sent(Generic[P, T]):
     @overload
     def __get__(self, client: Blocking, owner: type) -> Callable[P, T]: ...
     @overload
-    def __get__(self, client: Awaited, owner: type) -> Callable[P, Coroutine[Any, Any, T]]: ...
+    def __get__(self, client: Awaited, owner: type) -> Callable[P, Coroutine[object, None, T]]: ...
 
     def __get__(self, client: Any, owner: type) -> Any:
         """The description itself of the class; of a client the method."""

@@ -155,7 +155,7 @@ class Begins(Protocol):
 class BeginsAwaited(Protocol):
     """The jobs of a client that is awaited."""
 
-    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[Any, Any, AsyncJob[A]]:
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[object, None, AsyncJob[A]]:
         """The job of a call, once awaited."""
         ...
 
@@ -172,7 +172,7 @@ class Begun(Generic[P, A]):
     @overload
     def __get__(self, jobs: Begins, owner: type) -> Callable[P, Job[A]]: ...
     @overload
-    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[Any, Any, AsyncJob[A]]]: ...
+    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
 
     def __get__(self, jobs: Any, owner: type) -> Any:
         """The description itself of the class; of a client's jobs the method."""

@@ -8,12 +8,27 @@ import numpy as np
 
 from app.calls.call import Reply
 from app.model.arrays import Array
+from app.model.errors import InvalidArray, quoted
+
+
+def numbers(array: Array) -> Array:
+    """An array as it can be sent: whole numbers and short ones stay what they are.
+
+    Raises:
+        InvalidArray: It holds something else, or masked entries, which NumPy would send as numbers.
+    """
+    array = np.asanyarray(array)
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(array):
+        what = "masked entries" if np.ma.is_masked(array) else quoted(str(array.dtype))
+        raise InvalidArray(f"the array holds {what}; allowed are integers and floats of up to 64 bits")
+    is_plain = array.dtype.isnative and array.dtype.itemsize <= 8
+    return np.ascontiguousarray(array, dtype=array.dtype if is_plain else np.float64)
 
 
 def packed(array: Array) -> bytes:
-    """Numbers in NumPy's own format; whole ones travel as they are."""
+    """Numbers in NumPy's own format; raises as `numbers` does."""
     stream = BytesIO()
-    np.save(stream, np.ascontiguousarray(array), allow_pickle=False)
+    np.save(stream, numbers(array), allow_pickle=False)
     return stream.getvalue()
 
 

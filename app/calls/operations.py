@@ -4,7 +4,7 @@ The fields of a call are those of the request in the API's reference, by name; t
 """
 
 from collections.abc import Callable
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 from pydantic import BaseModel
@@ -13,7 +13,6 @@ from app.calls import kept
 from app.calls.call import NPY, ROBOT, Call, Sent
 from app.calls.exchange import described_by, posted, reader, segment
 from app.calls.npy import fits_query, packed, query_of
-from app.model.arrays import Array
 from app.schemas.common import Answer
 from app.schemas.compare import CompareAnswer, CompareRequest
 from app.schemas.course_components import (
@@ -46,6 +45,7 @@ from app.schemas.dynamics import DynamicsAnswer, DynamicsRequest
 from app.schemas.ik import InverseAnswer, InverseRequest
 from app.schemas.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
 from app.schemas.manipulability import ManipulabilityAnswer, ManipulabilityRequest
+from app.schemas.pose import pose_fields
 from app.schemas.robots import NewRobot, RobotReplacement
 from app.schemas.singularity import SingularityAnswer, SingularityRequest
 from app.schemas.statics import StaticsAnswer, StaticsRequest
@@ -76,17 +76,10 @@ def _operation(
         if isinstance(array, np.ndarray) and fits_query(rest):
             return Call("POST", path, reader(answer), query_of(rest), packed(array), NPY)
         if isinstance(array, np.ndarray) and batch == "targets":
-            return posted(path, {**rest, batch: _poses(array)}, answer)
+            return posted(path, {**rest, batch: pose_fields(array)}, answer)
         return posted(path, fields, answer)
 
     return Sent(described_by(describe, request, answer, ROBOT))
-
-
-def _poses(array: Array) -> list[dict[str, Any]]:
-    """Poses of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), as the API writes them."""
-    if array.ndim == 2:
-        return [{"position": row[:3], "quaternion_xyzw": row[3:]} for row in array.tolist()]
-    return [{"matrix": matrix} for matrix in array.tolist()]
 
 
 def _calculator(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:

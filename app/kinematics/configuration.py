@@ -18,7 +18,7 @@ from app.model.errors import (
     quoted,
 )
 
-Configuration: TypeAlias = Sequence[float] | Mapping[str, float]
+Configuration: TypeAlias = Sequence[float] | Mapping[str, float] | Array
 
 MAX_MAGNITUDE = 1e6
 """Largest joint position or velocity, [rad or m (/s)]: beyond it a double no longer resolves a nanoradian."""

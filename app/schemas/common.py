@@ -1,8 +1,51 @@
 """The strict base of all payloads, and what many of them share."""
 
-from typing import Annotated, ClassVar
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from app.model.arrays import Array
+
+
+def as_lists(value: Any) -> Any:
+    """Arrays, and other sequences and mappings, as lists and dicts, whatever they hold."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {name: as_lists(item) for name, item in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes | bytearray):
+        return [as_lists(item) for item in value]
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class OnTheWire:
+    """What JSON has for a field; its annotation says what Python may give for it, and the core takes.
+
+    So a checker of types lets arrays and tuples pass, and the schema of the API knows nothing of them.
+
+    Attributes:
+        kind: Of JSON.
+        of_python: What turns a value that Python gives into one.
+    """
+
+    kind: Any
+    of_python: Callable[[Any], Any] = as_lists
+
+    def __get_pydantic_core_schema__(self, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """JSON is read as before, and no slower."""
+        wire = handler.generate_schema(self.kind)
+        return core_schema.json_or_python_schema(
+            wire, core_schema.no_info_before_validator_function(self.of_python, wire)
+        )
+
+
+Vectors: TypeAlias = Sequence[Sequence[float] | Array] | Array
+"""What Python may give for rows of numbers; shape (N, m)."""
 
 
 class Payload(BaseModel):

@@ -1,5 +1,6 @@
 """Requests and answers of inverse kinematics."""
 
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -8,9 +9,10 @@ from app.kinematics.ik.descent import StopReason
 from app.kinematics.ik.null_space import ObjectiveName
 from app.kinematics.ik.result import Status
 from app.kinematics.ik.task import Direction
-from app.schemas.common import Answer, ChainOptions
+from app.model.arrays import Array
+from app.schemas.common import Answer, ChainOptions, OnTheWire
 from app.schemas.kinematics import Configuration, Configurations
-from app.schemas.pose import Pose, PoseFormat
+from app.schemas.pose import Pose, PoseFormat, pose_fields
 
 MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000
@@ -21,12 +23,9 @@ MAX_JOB_STEPWISE = 100_000
 """The same of a call that is answered by a job."""
 
 Targets = Annotated[
-    list[Pose],
-    Field(
-        max_length=MAX_TARGETS,
-        fail_fast=True,
-        description="Poses of `tip_frame` in `base_frame` that are to be reached.",
-    ),
+    Sequence[Pose] | Array,
+    OnTheWire(Annotated[list[Pose], Field(max_length=MAX_TARGETS, fail_fast=True)], pose_fields),
+    Field(description="Poses of `tip_frame` in `base_frame` that are to be reached."),
 ]
 
 Method = Literal["auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares"]

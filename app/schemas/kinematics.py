@@ -1,10 +1,13 @@
 """Requests and answers of forward kinematics and the Jacobian."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from app.schemas.common import Answer, ChainOptions, FrameName
+from app.kinematics.configuration import Configuration as GivenConfiguration
+from app.model.arrays import Array
+from app.schemas.common import Answer, ChainOptions, FrameName, OnTheWire
 from app.schemas.pose import Pose, PoseFormat
 
 
@@ -16,17 +19,19 @@ MAX_CONFIGURATIONS = 1_000_000
 
 ByOrder: TypeAlias = Annotated[list[float], Field(max_length=128, fail_fast=True)]
 ByName: TypeAlias = Annotated[dict[str, float], Field(max_length=128)]
-Configuration = Annotated[
+_Configuration = Annotated[
     Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")],
     Discriminator(_kind),
 ]
-"""One number a joint, base to tip, or a value by joint name. Tags in angle brackets never show in a pointer."""
+"""Tags in angle brackets never show in a pointer."""
+
+Configuration = Annotated[GivenConfiguration, OnTheWire(_Configuration)]
+"""One number a joint, base to tip, or a value by joint name."""
 
 Configurations = Annotated[
-    list[Configuration],
+    Sequence[GivenConfiguration] | Array,
+    OnTheWire(Annotated[list[_Configuration], Field(max_length=MAX_CONFIGURATIONS, fail_fast=True)]),
     Field(
-        max_length=MAX_CONFIGURATIONS,
-        fail_fast=True,
         description="Configurations: each one number a joint of the chain, base to tip, or an object of values by "
         "joint name; [rad] for revolute and continuous joints, [m] for prismatic ones.",
         examples=[[[0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.8]]],

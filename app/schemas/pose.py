@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from app.model.arrays import Array
@@ -23,7 +24,7 @@ from app.model.poses import (
     vectors_from_rotations,
     zyz_from_rotations,
 )
-from app.schemas.common import Payload
+from app.schemas.common import Payload, as_lists
 
 PoseFormat: TypeAlias = Literal[
     "quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation", "matrix"
@@ -77,6 +78,10 @@ class Pose(Payload):
     @model_serializer(mode="wrap")
     def _given_alone(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
         return {name: value for name, value in handler(self).items() if value is not None}
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
+        """As `transform`, so that `np.array(answer.poses)` is a batch of shape (N, 4, 4)."""
+        return self.transform().astype(dtype or np.float64)
 
     def transform(self) -> Array:
         """T_a_b; shape (4, 4).
@@ -139,9 +144,27 @@ def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
     return Poses(positions, rotations)
 
 
-def _poses_from_array(array: Array, field: str) -> Poses:
+def pose_fields(given: Any, field: str = "targets") -> Any:
+    """A batch of poses as JSON has it; arrays are of the same shapes.
+
+    Raises:
+        InvalidArray: The array has another shape.
+    """
+    if not isinstance(given, np.ndarray):
+        return as_lists(given)
+    _check_shape(given, field)
+    if given.ndim == 2:
+        return [{"position": row[:3], "quaternion_xyzw": row[3:]} for row in given.tolist()]
+    return [{"matrix": matrix} for matrix in given.tolist()]
+
+
+def _check_shape(array: Array, field: str) -> None:
     if array.shape[1:] not in {(7,), (4, 4)}:
         raise InvalidArray(f"{field} form an array of shape (N, 7) or (N, 4, 4); this one has the shape {array.shape}")
+
+
+def _poses_from_array(array: Array, field: str) -> Poses:
+    _check_shape(array, field)
     bad = ~(np.abs(array) <= MAX_MAGNITUDE)
     if bad.any():
         row = int(np.argwhere(bad)[0][0])

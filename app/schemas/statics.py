@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag
 
 from app.kinematics.ik.task import Direction
-from app.schemas.common import Answer, ChainOptions, FrameName, Payload
+from app.schemas.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from app.schemas.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
 
 MAX_TESTS = 100
@@ -28,11 +28,19 @@ Gravity = Annotated[
 """A switch for 9.81 m/s² along -z of the root, or the vector."""
 
 Wrenches = Annotated[
-    list[Annotated[list[_Component], Field(min_length=1, max_length=6)]],
-    Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+    Vectors,
+    OnTheWire(
+        Annotated[
+            list[Annotated[list[_Component], Field(min_length=1, max_length=6)]],
+            Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+        ]
+    ),
 ]
 _Vectors = Annotated[
-    list[Annotated[list[_Component], Field(max_length=128, fail_fast=True)]], Field(max_length=MAX_TESTS)
+    Vectors,
+    OnTheWire(
+        Annotated[list[Annotated[list[_Component], Field(max_length=128, fail_fast=True)]], Field(max_length=MAX_TESTS)]
+    ),
 ]
 
 

@@ -1,11 +1,14 @@
 """Requests of trajectories."""
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
+from app.kinematics.configuration import Configuration as GivenConfiguration
 from app.kinematics.ik.task import Direction
-from app.schemas.common import ChainOptions, Payload
+from app.model.arrays import Array
+from app.schemas.common import ChainOptions, OnTheWire, Payload
 from app.schemas.course_motion import Duration
 from app.schemas.kinematics import ByName, ByOrder, Configuration
 from app.schemas.pose import ORIENTATIONS, Pose, PoseFormat
@@ -37,10 +40,11 @@ def _segment_kind(value: Any) -> str:
     return f"<{value.get('type') if isinstance(value, dict) else getattr(value, 'type', None)}>"
 
 
-Target = Annotated[
+_Target = Annotated[
     Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")] | Annotated[Pose, Tag("<pose>")],
     Discriminator(_target_kind),
 ]
+Target = Annotated[GivenConfiguration | Pose, OnTheWire(_Target)]
 """A configuration, or a pose of the tip."""
 
 _ORIENTATION_THROUGH = (
@@ -174,9 +178,10 @@ class SplineSegment(SegmentOptions):
     """A cubic spline through configurations, or a smooth way of the tip through poses."""
 
     type: Literal["spline"] = Field(description="Through points, along a spline.")
-    waypoints: list[Target] = Field(
-        min_length=1,
-        max_length=MAX_WAYPOINTS,
+    waypoints: Annotated[
+        Sequence[GivenConfiguration | Pose] | Array,
+        OnTheWire(Annotated[list[_Target], Field(min_length=1, max_length=MAX_WAYPOINTS)]),
+    ] = Field(
         description="What is passed after the start, the last one the end: all of them configurations, one number a "
         "joint or by joint name, [rad or m], or all of them poses of `tip_frame` in `base_frame`.",
     )
@@ -219,9 +224,9 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     start: Configuration = Field(
         description="Configuration in which it begins, one number a joint of the chain or by joint name, [rad or m]."
     )
-    segments: list[Segment] = Field(
-        min_length=1,
-        max_length=MAX_SEGMENTS,
+    segments: Annotated[
+        Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])
+    ] = Field(
         description=f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at "
         f"most {MAX_WAYPOINTS} waypoints in all.",
     )

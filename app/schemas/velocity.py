@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from app.kinematics.ik.null_space import ObjectiveName
 from app.kinematics.ik.task import Direction
 from app.kinematics.linear_inverse import InverseName, Status
-from app.schemas.common import Answer, ChainOptions, Payload
+from app.schemas.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from app.schemas.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
 from app.schemas.singularity import SingularityInfo
 
@@ -23,8 +23,13 @@ def _kind(value: Any) -> str:
 
 _Entry = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]
 _Vectors = Annotated[
-    list[Annotated[list[_Entry], Field(min_length=1, max_length=6, fail_fast=True)]],
-    Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+    Vectors,
+    OnTheWire(
+        Annotated[
+            list[Annotated[list[_Entry], Field(min_length=1, max_length=6, fail_fast=True)]],
+            Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+        ]
+    ),
 ]
 Damping = Annotated[
     Annotated[Annotated[float, Field(ge=0, le=1e6)], Tag("<number>")] | Annotated[Literal["adaptive"], Tag("<word>")],

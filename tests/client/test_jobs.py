@@ -24,11 +24,11 @@ LONG = 2_000_000
 def test_a_job_answers_what_the_call_does_at_once(gelenk: Client) -> None:
     matrices = np.array(gelenk.arrays.fk("ur5", samples(robot("ur5").chain(None, None), 40), pose_format="matrix"))
     told: list[float] = []
-    with gelenk.jobs.ik("ur5", targets=matrices) as job:  # type: ignore[arg-type]
+    with gelenk.jobs.ik("ur5", targets=matrices) as job:
         assert_type(job, Job[InverseAnswer])
         answer = job.result(lambda info: told.append(info.progress))
         assert_type(answer, InverseAnswer)
-        at_once = gelenk.ik("ur5", targets=matrices)  # type: ignore[arg-type]
+        at_once = gelenk.ik("ur5", targets=matrices)
         assert answer == at_once
         assert np.array_equal(job.array(), [result.solutions[0].joint_positions for result in at_once.results])
         assert job.info.state == "succeeded"

@@ -83,7 +83,7 @@ def test_arrays_lists_and_models_are_one(gelenk: Client) -> None:
     by_array = gelenk.arrays.fk("panda", qs, tip_frame="panda_link8", pose_format="matrix")
     assert_type(by_array, Array)
     assert np.array_equal(by_array, np.array([pose.matrix for pose in by_list.poses]))
-    assert gelenk.fk("panda", joint_positions=qs, tip_frame="panda_link8", pose_format="matrix") == by_list  # type: ignore[arg-type]
+    assert gelenk.fk("panda", joint_positions=qs, tip_frame="panda_link8", pose_format="matrix") == by_list
     targets = [Pose(matrix=T.tolist()) for T in by_array]
     answer = gelenk.ik("panda", targets=targets, tip_frame="panda_link8")
     found = gelenk.arrays.ik("panda", by_array, tip_frame="panda_link8")

@@ -197,9 +197,9 @@ def test_an_array_goes_as_one_where_all_else_fits_into_the_query() -> None:
     with pytest.raises(Refused):
         client.statics("arm", joint_positions=qs, payload={"mass": 1.0})  # type: ignore[arg-type]
     with pytest.raises(Refused):
-        client.ik("arm", targets=np.eye(4)[None], seeds=qs.tolist())  # type: ignore[arg-type]
+        client.ik("arm", targets=np.eye(4)[None], seeds=qs.tolist())
     with pytest.raises(Refused):
-        client.jobs.ik("arm", targets=np.eye(4)[None])  # type: ignore[arg-type]
+        client.jobs.ik("arm", targets=np.eye(4)[None])
     array, listed, nested, seeded, later = asked
     assert np.array_equal(np.load(io.BytesIO(array.content)), qs)
     assert dict(array.url.params.multi_items()) == {"tip_frame": "tool", "respect_limits": "true", "frames": "b"}
