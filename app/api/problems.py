@@ -49,7 +49,9 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
 """A class not listed has its nearest ancestor's status."""
 
 _MOST_ERRORS = 20
-_MOST_NAMES = 64
+_MOST_NAMES = 512
+"""Frames of the largest robot."""
+_LONGEST_FACT = 1000
 _MOST_TEXT = 2000
 _MOST_BYTES = 6000
 _LATER = "10"
@@ -246,7 +248,7 @@ def _printable(text: str) -> str:
 def _shortened(value: Any) -> Any:
     """Facts of bounded size: lists and texts from outside are cut."""
     if isinstance(value, str):
-        return _printable(value[:256])
+        return _printable(value[:_LONGEST_FACT])
     if isinstance(value, list | tuple):
         items = [_shortened(item) for item in value[:_MOST_NAMES]]
         while len(orjson.dumps(items)) > _MOST_BYTES:

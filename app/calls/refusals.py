@@ -1,7 +1,7 @@
 """A problem on the wire, turned back into the core's own exception."""
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from functools import cache
 from typing import Any
 
@@ -25,8 +25,9 @@ class Refused(KinematicsError):
         self.problem = dict(problem)
         if type(self) is not Refused:
             facts = self.facts()
-            for name in _data(type(self)):
-                setattr(self, name, _frozen(facts.get(name)))
+            for field in fields(self):
+                absent = None if field.default is MISSING else field.default  # an older service tells less
+                setattr(self, field.name, _frozen(facts.get(field.name, absent)))
 
     @property
     def detail(self) -> str:
@@ -80,11 +81,6 @@ def refusal(problem: Mapping[str, Any]) -> Refused:
 def _classes() -> dict[str, type[Refused]]:
     """By kind: each class of the core as a refusal."""
     return {kind: type(core.__name__, (Refused, core), {}) for kind, core in kinds().items()}
-
-
-def _data(refused: type) -> list[str]:
-    """The names of the data that the core's class holds."""
-    return [field.name for field in fields(refused)]
 
 
 def _frozen(value: Any) -> Any:

@@ -184,10 +184,6 @@ class InvalidName(InvalidInput):
             "the first one a letter or digit"
         )
 
-    def facts(self) -> dict[str, object]:
-        """Nothing beyond the sentence: the name is the caller's own text."""
-        return {}
-
 
 @dataclass(eq=False)
 class InvalidField(InvalidInput):
@@ -366,10 +362,6 @@ class UnknownRobot(NotFound):
         hint = f"; did you mean {listed(self.close)}?" if self.close else ""
         return f"there is no robot named {quoted(self.robot)}{hint}"
 
-    def facts(self) -> dict[str, object]:
-        """The nearest names only: the given one is the caller's own text."""
-        return {"close": self.close}
-
 
 @dataclass(eq=False)
 class UnknownFrame(NotFound):
@@ -384,11 +376,6 @@ class UnknownFrame(NotFound):
         """The name, and the frames that exist."""
         where = "" if self.field is None else f"{quoted(self.field)}: "
         return f"{where}the robot has no frame {quoted(self.frame)}; its frames are {listed(self.known)}"
-
-    def facts(self) -> dict[str, object]:
-        """The field only where it is known."""
-        facts: dict[str, object] = {"frame": self.frame, "known": self.known}
-        return facts if self.field is None else {**facts, "field": self.field}
 
 
 @dataclass(eq=False)

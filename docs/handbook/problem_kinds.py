@@ -10,13 +10,8 @@ from app.api.problems import status_of
 from app.model.errors import KinematicsError, kinds
 from docs.handbook.schema_words import anchor
 
-_WORDS: Mapping[Any, tuple[str, object]] = {
-    str: ("text", "text"),
-    int: ("whole number", 1),
-    float: ("number", 1.0),
-    tuple[str, ...]: ("list of texts", ("text",)),
-}
-"""By the type of a fact: what it is, and one such value."""
+_WORDS: Mapping[Any, str] = {str: "text", int: "whole number", float: "number", tuple[str, ...]: "list of texts"}
+"""What a fact is, by its type."""
 
 
 @dataclass(frozen=True)
@@ -141,16 +136,14 @@ def _of_the_core() -> Iterator[Kind]:
 
 
 def _facts(error: type[KinematicsError]) -> dict[str, str]:
-    """What the problems of a class carry: an instance is asked, as some keep a field to themselves."""
+    """What the problems of a class carry."""
     hints = get_type_hints(error)
-    instance = error(*(_told(hints[entry.name])[1] for entry in fields(error)))
-    return {name: _told(hints[name])[0] for name in instance.facts()}
+    return {entry.name: _told(hints[entry.name]) for entry in fields(error)}
 
 
-def _told(hint: Any) -> tuple[str, object]:
-    """A type in words, and one such value."""
+def _told(hint: Any) -> str:
+    """A type in words."""
     if get_origin(hint) in {types.UnionType, Union}:
         (inner,) = (choice for choice in get_args(hint) if choice is not type(None))
-        words, value = _WORDS[inner]
-        return f"{words} or `null`", value
+        return f"{_WORDS[inner]} or `null`"
     return _WORDS[hint]

@@ -130,7 +130,7 @@ def test_kinds_say_which_facts_they_carry() -> None:
         "index": "whole number or `null`",
         "field": "text",
     }
-    assert facts["unknown-robot"] == {"close": "list of texts"}  # the name itself is kept out of the answer
+    assert facts["unknown-robot"] == {"robot": "text", "close": "list of texts"}
     assert facts["service-stopping"] == {}
 
 

@@ -11,20 +11,20 @@ from app.model.errors import KinematicsError, kinds, listed, quoted
 
 OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle"}
 """Fields whose text we write; all other texts come from outside."""
-EXAMPLES: dict[object, object] = {
-    str: "el\nbow",
-    int: 7,
-    int | None: 7,
-    float: 0.5,
-    float | None: 0.5,
-    str | None: "el\nbow",
-    tuple[str, ...]: ("shoulder", "el\nbow"),
-}
 
 
-def example(cls: type[KinematicsError]) -> KinematicsError:
-    """An error with something in every field."""
-    return cls(*("elbow" if field.name in OURS else EXAMPLES[field.type] for field in fields(cls)))
+def example(cls: type[KinematicsError], name: str = "el\nbow") -> KinematicsError:
+    """An error with something in every field; its names from outside are this one."""
+    values: dict[object, object] = {
+        str: name,
+        int: 7,
+        int | None: 8,
+        float: 0.5,
+        float | None: 0.25,
+        str | None: name,
+        tuple[str, ...]: ("shoulder", name),
+    }
+    return cls(*("elbow" if field.name in OURS else values[field.type] for field in fields(cls)))
 
 
 CONCRETE = [cls for _, cls in sorted(kinds().items()) if cls.detail is not KinematicsError.detail]
