@@ -14,6 +14,7 @@ language = "en"
 extensions = [
     "myst_parser",
     "docs.handbook.directives",
+    "docs.handbook.links",
     "docs.handbook.mathematics",
     "docs.handbook.reference_directives",
 ]

@@ -12,7 +12,9 @@ from docutils.parsers.rst import directives
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
-from docs.handbook.session import Session, Unexpected, end_service, service
+from app.calls.call import Call
+from docs.handbook.links import below_a_call
+from docs.handbook.session import Session, Unexpected, curl, end_service, service
 from docs.handbook.written import DIGITS, disagreement
 
 _PICTURES = "_pictures"
@@ -73,16 +75,21 @@ class Run(SphinxDirective):
         shown: list[nodes.Node] = [nodes.literal_block(code, code, language="python", classes=["call"])]
         if ran.output:
             shown.append(nodes.literal_block(ran.output, ran.output, language="text", classes=["given"]))
-        return [*shown, *_as_curl(ran.commands)]
+        return [*shown, _below(_as_curl(ran.calls), ran.calls, self.options.get("refused"))]
 
 
-def _as_curl(commands: tuple[str, ...]) -> list[nodes.Node]:
+def _as_curl(calls: tuple[Call[Any], ...]) -> list[nodes.Node]:
     """The calls for a shell, folded."""
-    if not commands:
+    if not calls:
         return []
-    text = "\n".join(commands)
+    text = "\n".join(curl(call) for call in calls)
     block = nodes.literal_block(text, text, language="sh", force=True)
     return _folded("with curl", [block], "curl")
+
+
+def _below(fold: list[nodes.Node], calls: tuple[Call[Any], ...], refusal: str | None = None) -> nodes.container:
+    """What hangs below a piece: a fold, and beside it the way to what the reference says of the calls."""
+    return nodes.container("", *fold, below_a_call(calls, refusal), classes=["below"])
 
 
 def _folded(title: str, content: list[nodes.Node], kind: str) -> list[nodes.Node]:
@@ -125,7 +132,7 @@ class Picture(SphinxDirective):
             raise self.error("a picture needs :alt:, which says what is to be seen")
         code, session = "\n".join(self.content), session_of(self.env.docname)
         try:
-            content, commands = session.recorded(code)
+            content, calls = session.recorded(code)
         except Unexpected as error:
             raise self.error(str(error)) from error
         if not isinstance(content, bytes) or not content.startswith((_SVG, _PNG)):
@@ -136,7 +143,8 @@ class Picture(SphinxDirective):
             f"{caption and f'<figcaption>{escape(caption)}</figcaption>'}</figure>"
         )
         call = nodes.literal_block(code, code, language="python")
-        return [nodes.raw("", figure, format="html"), *_folded("the call", [call, *_as_curl(commands)], "curl")]
+        fold = _folded("the call", [call, *_as_curl(calls)], "curl")
+        return [nodes.raw("", figure, format="html"), _below(fold, calls)]
 
     def _saved(self, content: bytes) -> str:
         """Where the picture is, from the page."""

@@ -83,11 +83,11 @@ class Ran:
 
     Attributes:
         output: What it printed, and its last value.
-        commands: Each of its calls as a command of curl.
+        calls: What it has asked.
     """
 
     output: str
-    commands: tuple[str, ...]
+    calls: tuple[Call[Any], ...]
 
 
 class Session:
@@ -126,7 +126,7 @@ class Session:
         if refusal is not None:
             raise Unexpected(f"it is answered where {refusal} should refuse it")
         output = printed.getvalue() + ("" if value is None else written(value, digits))
-        return Ran(output.rstrip("\n"), tuple(curl(call) for call in self._client.calls))
+        return Ran(output.rstrip("\n"), tuple(self._client.calls))
 
     def value(self, expression: str) -> Any:
         """The value of an expression.
@@ -139,11 +139,11 @@ class Session:
         except Exception as error:
             raise Unexpected(_told(error)) from error
 
-    def recorded(self, expression: str) -> tuple[Any, tuple[str, ...]]:
-        """The value of an expression, and its calls as commands of curl; raises as `value` does."""
+    def recorded(self, expression: str) -> tuple[Any, tuple[Call[Any], ...]]:
+        """The value of an expression, and what it has asked; raises as `value` does."""
         self._client.calls.clear()
         value = self.value(expression)
-        return value, tuple(curl(call) for call in self._client.calls)
+        return value, tuple(self._client.calls)
 
     def _execute(self, code: str) -> Any:
         statements = ast.parse(code).body

@@ -27,6 +27,34 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 SCHEMA: dict[str, Any] = create_app(Settings(data_dir=Path("unused"))).openapi()
 OPERATIONS = [content for operations in SCHEMA["paths"].values() for content in operations.values()]
 
+INDEX = """# Alone
+
+`GELENK_DATA_DIR`, `Pose`, `/readyz`, `nothing`, `GELENK_DATA_DIR`
+
+```{run}
+:refused: unknown-frame
+gelenk.fk("planar_2r", joint_positions=[[0.3, 0.8]], tip_frame="elbow")
+```
+
+```{run}
+len(gelenk.fk("planar_2r", joint_positions=[[0.3, 0.8]]).poses)
+```
+
+```{toctree}
+:glob:
+
+reference/*
+```
+"""
+LINKED = (
+    "setting-data-dir",
+    "object-pose",
+    "operation-readiness",
+    "operation-forward-kinematics",
+    "problem-unknown-frame",
+)
+"""Places that this page leads to, each of them once, though it names or calls two of them twice."""
+
 
 def dashed(name: str) -> str:
     return (
@@ -92,7 +120,7 @@ def _named(tree: ast.FunctionDef | ast.AsyncFunctionDef) -> Iterator[tuple[HTTPS
 def test_nothing_is_missing_and_nothing_stands_twice(tmp_path: Path) -> None:
     sources, output = tmp_path / "docs", tmp_path / "built"
     shutil.copytree(ROOT / "docs" / "reference", sources / "reference")
-    (sources / "index.md").write_text("# Alone\n\n```{toctree}\n:glob:\n\nreference/*\n```\n")
+    (sources / "index.md").write_text(INDEX)
     code = "import sys, pathlib, docs.handbook.__main__ as h; sys.exit(h.build(*map(pathlib.Path, sys.argv[1:])))"
     command = [sys.executable, "-c", code, str(sources), str(output)]
     run = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -101,6 +129,11 @@ def test_nothing_is_missing_and_nothing_stands_twice(tmp_path: Path) -> None:
         name for page in output.glob("reference/*.html") for name in re.findall(r'\bid="([^"]+)"', page.read_text())
     )
     assert [place for place in sorted(set(places())) if found[place] != 1] == []
+    index = (output / "index.html").read_text()
+    for place in LINKED:
+        assert (
+            len(re.findall(rf'<a class="reference internal" href="reference/\w+\.html#{place}"[^>]*><code', index)) == 1
+        )
 
 
 def test_every_field_says_what_it_is() -> None:
