@@ -17,7 +17,8 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
 from app.schemas.compare import EXAMPLE_COMPARISON, CompareAnswer, CompareRequest
-from app.schemas.pose import PoseFormat, pose_list
+from app.schemas.pose import PoseFormat
+from app.schemas.pose_arrays import pose_list
 from app.store.library import Library
 
 

@@ -9,7 +9,8 @@ from app.api.course import course_route
 from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.composition import composed
-from app.course.orientation import DEGENERATE, NEARLY_DEGENERATE, AxisAngle, Notations, Validation, notations
+from app.course.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
+from app.course.rotations import DEGENERATE, Validation
 from app.model.arrays import Array
 from app.model.poses import ROTATION_TOLERANCE
 from app.schemas.course_orientation import EXAMPLE_ZYZ, OrientationAnswer, OrientationRequest

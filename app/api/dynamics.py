@@ -21,7 +21,7 @@ from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.bodies import Load
 from app.kinematics.configuration import check_limits, configurations
 from app.kinematics.dynamics import Dynamics, dynamics
-from app.kinematics.ik.task import DIRECTIONS
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.lagrangian import State
 from app.kinematics.mechanism import mechanism
 from app.kinematics.statics import certify_statics, overloaded_joints, statics

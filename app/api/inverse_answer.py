@@ -12,7 +12,8 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
 from app.schemas.ik import InverseRequest
-from app.schemas.pose import PoseFormat, pose_list
+from app.schemas.pose import PoseFormat
+from app.schemas.pose_arrays import pose_list
 
 _ROWS_NAMED = 200
 """Unsolved rows that a header names: proxies allow headers of a few kilobytes."""

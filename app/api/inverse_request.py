@@ -8,13 +8,14 @@ from app.kinematics.ik.descent import Rule
 from app.kinematics.ik.null_space import Objective
 from app.kinematics.ik.search import mid_range
 from app.kinematics.ik.solve import Options
-from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Direction, Task
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
 from app.model.poses import Poses
 from app.schemas.ik import InverseRequest
-from app.schemas.pose import poses_from
+from app.schemas.pose_arrays import poses_from
 from app.store.records import LoadedRobot
 
 

@@ -20,7 +20,7 @@ from app.schemas.kinematics import (
     JacobianOptions,
     JacobianRequest,
 )
-from app.schemas.pose import pose_array, pose_list
+from app.schemas.pose_arrays import pose_array, pose_list
 from app.store.records import LoadedRobot
 
 _QUICK_POSES = 100

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from app.api.routes import Computation, Operation, Outcome, PictureFormat
-from app.kinematics.configuration import Configuration, check_limits, configurations, one_configuration
+from app.kinematics.configuration import check_limits, configurations, one_configuration
 from app.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
 from app.kinematics.manipulability import (
     Ellipsoids,
@@ -15,7 +15,7 @@ from app.kinematics.manipulability import (
     manipulability,
     transmission_ratios,
 )
-from app.model.arrays import Array
+from app.model.arrays import Array, Configuration
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
 from app.schemas.manipulability import (

@@ -10,7 +10,8 @@ from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
 from app.kinematics.certify_singularity import certify_reports
 from app.kinematics.configuration import check_limits, configurations
-from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.jacobian import singular_values
 from app.kinematics.kernels import chain_jacobians
 from app.kinematics.singularity import SingularityReport, singularity_report

@@ -21,7 +21,7 @@ from app.api.loads import (
 )
 from app.api.routes import Computation, Operation, Outcome
 from app.kinematics.configuration import check_limits, configurations
-from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.kinematics.mechanism import mechanism
 from app.kinematics.statics import (
     Balance,

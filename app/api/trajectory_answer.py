@@ -13,7 +13,8 @@ from app.api.trajectory_limits import Bounds
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
-from app.schemas.pose import PoseFormat, pose_list
+from app.schemas.pose import PoseFormat
+from app.schemas.pose_arrays import pose_list
 from app.trajectory.audit import DERIVATIVES, Audit, Margin, Peak
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.problem import MotionLimits, SegmentReport, Trajectory

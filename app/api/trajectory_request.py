@@ -6,13 +6,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.api.trajectory_limits import Bounds, Layer, OwnVelocities, bounds_of, own_velocities
-from app.kinematics.configuration import Configuration, check_limits, configurations, one_configuration
-from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Task
-from app.model.arrays import Array
+from app.kinematics.configuration import check_limits, configurations, one_configuration
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.words import DIRECTIONS
+from app.model.arrays import Array, Configuration
 from app.model.chain import Chain
 from app.model.errors import InvalidField, InvalidPose, OutsideLimits
 from app.model.robot import Robot
-from app.schemas.pose import Pose, poses_from
+from app.schemas.pose import Pose
+from app.schemas.pose_arrays import poses_from
 from app.schemas.trajectory import (
     MAX_WAYPOINTS,
     CircleSegment,

@@ -7,7 +7,8 @@ import numpy as np
 
 from app.kinematics.configuration import configurations, one_configuration
 from app.kinematics.ik.null_space import Objective
-from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.inverse_velocity import descent
 from app.kinematics.linear_inverse import Rule
 from app.kinematics.task_space import TaskSpace

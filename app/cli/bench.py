@@ -6,7 +6,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
 
 from app.cli.outputs import Rows
@@ -76,6 +75,8 @@ def _called(method: Callable[..., Any], name: str, ends: dict[str, Any], rows: "
 
 def _configurations(client: "Client", name: str, ends: dict[str, Any], count: int) -> "Array":
     """Random ones of a chain, shape (count, n), within its limits, the same each time."""
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
     names = client.fk(name, joint_positions=[], **ends).joint_names
     limits = {joint.name: joint.limits for joint in client.robot(name).joints}
     lower = [-_WIDEST if (low := limits[joint].lower) is None else low for joint in names]

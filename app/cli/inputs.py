@@ -13,8 +13,6 @@ from io import BytesIO, StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from app.cli.xacro import expanded
 from app.model.errors import InvalidArray, InvalidDhTable, InvalidField
 
@@ -184,6 +182,8 @@ def _content(file: str) -> bytes:
 
 
 def _rows(content: bytes, file: str) -> "Array":
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
     if content.startswith(b"\x93NUMPY"):
         array = np.load(BytesIO(content), allow_pickle=False)
         return np.atleast_2d(np.asarray(array, dtype=float))
@@ -212,6 +212,8 @@ def _numbers(text: str, where: str) -> list[float]:
 
 
 def _same_length(rows: list[list[float]], what: str) -> "Array":
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
     if not rows or len({len(row) for row in rows}) > 1:
         counts = sorted({len(row) for row in rows})
         raise InvalidArray(f"{what}: all rows must have as many numbers; these have {counts or 'none'}")

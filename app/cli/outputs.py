@@ -10,7 +10,6 @@ from io import BytesIO, StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
 from rich.console import Console
 from rich.table import Table
 
@@ -95,6 +94,8 @@ class Output:
 
     def save(self, array: "Array") -> None:
         """An array as npy."""
+        import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
         stream = BytesIO()
         np.save(stream, array, allow_pickle=False)
         self.put(stream.getvalue())
@@ -161,6 +162,8 @@ def _csv(rows: Rows) -> bytes:
 
 
 def _numbers(rows: Rows) -> "Array":
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
     numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
     if len(numbers) < len(rows.columns):
         words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)

@@ -11,6 +11,7 @@ Mobility of linkages:
 
 Orientations and frames:
 
+- `rotations`: about an axis or a coordinate; how far a matrix is from one.
 - `orientation`: an orientation in every notation, both branches, and what degenerates.
 - `composition`: frames composed about moving or fixed axes, inverted, and applied to points.
 

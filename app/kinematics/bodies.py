@@ -19,8 +19,9 @@ from app.kinematics.kernels import chain_hessians, chain_jacobians
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain, FlatChain, build_chain
 from app.model.description import MOVABLE, Description, Inertial, Joint, Link
+from app.model.notations import placement, rotations_from_vectors
 from app.model.origins import origin_of
-from app.model.poses import placement, rotations_from_vectors, transform
+from app.model.poses import transform
 
 _SKEW = -np.cross(np.eye(3)[:, None], np.eye(3)[None]).reshape(3, 9)
 """[r]× row by row as a linear function of r."""

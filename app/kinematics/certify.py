@@ -15,7 +15,8 @@ from app.model.chain import Chain
 from app.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from app.model.dh import DhTable
 from app.model.errors import CertificationFailed
-from app.model.poses import Poses, pose_errors
+from app.model.notations import pose_errors
+from app.model.poses import Poses
 from app.model.robot import Robot
 
 View: TypeAlias = Literal["local_world_aligned", "local", "world", "zyz", "rpy"]

@@ -32,18 +32,13 @@ from app.kinematics.comparison.screws import (
     jacobians,
     parameters_of,
 )
+from app.kinematics.comparison.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain, joints_on_the_way
 from app.model.description import Mimic
 from app.model.dh import DhTable
 from app.model.errors import InvalidField, listed, quoted
 from app.model.robot import Robot
-
-POSITION_TOLERANCE = 1e-5
-"""Distance within which positions count as equal, [m]: descriptions round angles to five digits."""
-ORIENTATION_TOLERANCE = 1e-4
-"""Angle within which orientations count as equal, [rad]."""
-SAMPLES = 200
 
 MAX_ROWS_WITH_SENSES = 16
 """Longest table of which offsets and signs are found: of a longer one that would take many seconds."""

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TypeAlias
 
 import numpy as np
 
-from app.model.arrays import Array, Indices, compiled
+from app.model.arrays import Array, Configuration, Indices
 from app.model.chain import Chain
+from app.model.compilation import compiled
 from app.model.errors import (
     InvalidArray,
     InvalidField,
@@ -17,8 +17,6 @@ from app.model.errors import (
     WrongJointCount,
     quoted,
 )
-
-Configuration: TypeAlias = Sequence[float] | Mapping[str, float] | Array
 
 MAX_MAGNITUDE = 1e6
 """Largest joint position or velocity, [rad or m (/s)]: beyond it a double no longer resolves a nanoradian."""

@@ -17,7 +17,8 @@ from app.kinematics.kernels import chain_poses
 from app.kinematics.tip_motion import Motion
 from app.model.arrays import Array
 from app.model.chain import Chain, rotation_to_axis
-from app.model.poses import Poses, rotations_from_quaternions_xyzw, rotations_from_vectors
+from app.model.notations import rotations_from_quaternions_xyzw, rotations_from_vectors
+from app.model.poses import Poses
 from app.model.robot import Robot
 
 Over: TypeAlias = Literal["rotations", "approach_directions"]

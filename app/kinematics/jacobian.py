@@ -14,7 +14,8 @@ from app.kinematics.kernels import chain_hessians, chain_jacobians
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.errors import RepresentationSingularity
-from app.model.poses import Poses, rpy_from_rotations, zyz_from_rotations
+from app.model.notations import rpy_from_rotations, zyz_from_rotations
+from app.model.poses import Poses
 from app.model.robot import Robot
 
 Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]

@@ -10,8 +10,9 @@ from typing import TypeAlias
 import numpy as np
 
 from app.kinematics.lanes import LANES, Lanes, floor_lanes, lanes, load, rint_lanes, sqrt_lanes, store, where
-from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
+from app.model.arrays import Array, Indices
 from app.model.chain import FlatChain
+from app.model.compilation import compiled, inlined, unmanaged
 
 Frame: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
 """Poses in registers: rotation row by row, then position."""

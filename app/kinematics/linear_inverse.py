@@ -10,15 +10,12 @@ what is near to a singularity. Only where J x = b has one solution is that choic
 """
 
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
 
 import numpy as np
 
 from app.kinematics.jacobian import ranks
+from app.kinematics.words import InverseName, InverseStatus
 from app.model.arrays import Array, Flags, Indices
-
-InverseName: TypeAlias = Literal["exact", "pseudo_inverse", "damped"]
-Status: TypeAlias = Literal["solved", "approximate", "singular"]
 
 SOLVED = 1e-9
 """Largest entry of a residual that counts as none, relative to the largest of 1 and of the entries of b."""
@@ -131,7 +128,7 @@ class Inversion:
 
     xs: Array
     residuals: Array
-    statuses: tuple[Status, ...]
+    statuses: tuple[InverseStatus, ...]
     dampings: Array
     shares: Array
     decomposition: Decomposition
@@ -247,7 +244,7 @@ def _judged(Js: Array, bs: Array, rule: Rule, inversion: Inversion) -> Inversion
     residuals = bs - np.einsum("bki,bi->bk", Js, xs)
     largest = np.maximum(1.0, np.abs(bs).max(axis=1, initial=0.0))
     solved: Flags = np.abs(residuals).max(axis=1, initial=0.0) <= SOLVED * largest
-    statuses: tuple[Status, ...] = tuple(
+    statuses: tuple[InverseStatus, ...] = tuple(
         "singular" if none else "solved" if good else "approximate" for none, good in zip(void, solved, strict=True)
     )
     return replace(inversion, xs=xs, residuals=residuals, statuses=statuses)

@@ -18,7 +18,7 @@ from typing import Literal, TypeAlias, cast
 import numpy as np
 
 from app.kinematics.certify import JacobianCertificate, certify_jacobians
-from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_hessians, chain_jacobians
 from app.kinematics.subspaces import rounding

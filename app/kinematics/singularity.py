@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.kinematics.singularity_kinds import Kind, singularity_kinds
+from app.kinematics.singularity_kinds import singularity_kinds
 from app.kinematics.subspaces import Subspaces, subspaces
 from app.kinematics.task_space import FULL_SPACE, STRUCTURAL_TOLERANCE, TaskSpace, aligned_basis, structure
+from app.kinematics.words import SingularityKind
 from app.model.arrays import Array
 from app.model.chain import Chain
 
@@ -51,7 +52,7 @@ class SingularityReport:
     wrenches: Array
     internal_motions: Array
     joints: tuple[int, ...]
-    kinds: tuple[Kind, ...]
+    kinds: tuple[SingularityKind, ...]
     exit: Array | None
     exit_rate: float
 

@@ -9,18 +9,18 @@ configurations; other arms have no such names, or some of their singularities ha
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
-from app.kinematics.ik.task import Direction, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import Direction
 from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_jacobians
 from app.kinematics.task_space import TaskSpace, random_configurations, structure
+from app.kinematics.words import SingularityKind
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain
-
-Kind: TypeAlias = Literal["wrist", "elbow", "shoulder"]
 
 _LINEAR: tuple[Direction, ...] = ("x", "y", "z")
 _TRIALS = 4
@@ -65,11 +65,11 @@ class Lines:
         return point, float(np.linalg.norm(squares @ point - feet, axis=1).max())
 
 
-Factors: TypeAlias = Callable[[Lines], dict[Kind | None, float]]
+Factors: TypeAlias = Callable[[Lines], dict[SingularityKind | None, float]]
 """The factors of a determinant by the name of what vanishes with them, each of the size of one; None has no name."""
 
 
-def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float) -> tuple[Kind, ...]:
+def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float) -> tuple[SingularityKind, ...]:
     """The names of what makes a configuration singular; none where the geometry of the arm does not tell.
 
     Args:
@@ -152,12 +152,12 @@ def _has_three_parallel(trials: list[Lines]) -> bool:
     return True
 
 
-def _planar(_: Lines) -> dict[Kind | None, float]:
+def _planar(_: Lines) -> dict[SingularityKind | None, float]:
     """Of a planar arm all singularities are the elbow's: links in line."""
     return {"elbow": 0.0}
 
 
-def _parallel(lines: Lines) -> dict[Kind | None, float]:
+def _parallel(lines: Lines) -> dict[SingularityKind | None, float]:
     """Three parallel axes: those in one plane; the last axis parallel to them; the wrist over the first axis."""
     z, extent = lines.axes[1], _extent(lines)
     centre = lines.meeting_point(4, 6)[0]
@@ -175,8 +175,8 @@ def _positioning(trials: list[Lines], placed: int, *, with_wrist: bool) -> Facto
     if arm is None and not with_wrist:
         return None
 
-    def factors(lines: Lines) -> dict[Kind | None, float]:
-        found: dict[Kind | None, float] = {}
+    def factors(lines: Lines) -> dict[SingularityKind | None, float]:
+        found: dict[SingularityKind | None, float] = {}
         centre = np.zeros(3)
         if with_wrist:
             centre = lines.meeting_point(placed, placed + 3)[0]
@@ -191,7 +191,9 @@ def _positioning(trials: list[Lines], placed: int, *, with_wrist: bool) -> Facto
     return factors
 
 
-def _arm_factors(trials: list[Lines], placed: int) -> Callable[[Lines, Array, float], dict[Kind | None, float]] | None:
+def _arm_factors(
+    trials: list[Lines], placed: int
+) -> Callable[[Lines, Array, float], dict[SingularityKind | None, float]] | None:
     """The factors of the joints that move the centre of the wrist."""
     if placed == 3:
         z = [lines.axes[1] for lines in trials]
@@ -207,19 +209,19 @@ def _arm_factors(trials: list[Lines], placed: int) -> Callable[[Lines, Array, fl
     return None
 
 
-def _upright(lines: Lines, centre: Array, extent: float) -> dict[Kind | None, float]:
+def _upright(lines: Lines, centre: Array, extent: float) -> dict[SingularityKind | None, float]:
     """The second and the third joint move the wrist in a plane, out of which only the first one leads."""
     first, second, third = lines.velocities(centre)[:3] / extent
     in_plane = float(np.linalg.norm(np.cross(second, third)))
     return {"elbow" if lines.turning[2] else None: in_plane, "shoulder": abs(float(first @ lines.axes[1]))}
 
 
-def _spherical(lines: Lines, centre: Array, extent: float) -> dict[Kind | None, float]:
+def _spherical(lines: Lines, centre: Array, extent: float) -> dict[SingularityKind | None, float]:
     """Three joints turn about the shoulder, so that only the fourth one moves the wrist nearer to it."""
     shoulder = lines.meeting_point(0, 3)[0]
     velocities = lines.velocities(centre)[:4] / extent
     elbow = abs(float(velocities[3] @ (centre - shoulder))) / extent
-    found: dict[Kind | None, float] = {"elbow": elbow}
+    found: dict[SingularityKind | None, float] = {"elbow": elbow}
     if elbow > _VANISHED:
         # Without the wrist's own motion to and fro what is left are two directions.
         found["shoulder"] = float(np.linalg.svd(velocities, compute_uv=False)[2])

@@ -10,7 +10,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Task
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.jacobian import Reference
 from app.kinematics.kernels import chain_hessians, chain_jacobians
 from app.kinematics.subspaces import rounding, subspaces

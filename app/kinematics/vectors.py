@@ -3,7 +3,8 @@
 import math
 from typing import TypeAlias
 
-from app.model.arrays import Array, inlined
+from app.model.arrays import Array
+from app.model.compilation import inlined
 
 Vector: TypeAlias = tuple[float, float, float]
 

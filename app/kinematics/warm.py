@@ -12,14 +12,14 @@ from app.kinematics.jacobian import jacobians
 from app.kinematics.kernels import chain_measures
 from app.model.convert import describe_dh
 from app.model.dh import DhJoint, DhTable
-from app.model.poses import (
-    Poses,
+from app.model.notations import (
     quaternions_xyzw_from_rotations,
     rotations_from_quaternions_xyzw,
     rotations_from_vectors,
     rotations_from_zyz,
     vectors_from_rotations,
 )
+from app.model.poses import Poses
 from app.model.robot import Robot
 
 

@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.kinematics.kernels import chain_measures
 from app.kinematics.sampling import Sampling, Sequence, joint_ranges
 from app.kinematics.tip_motion import Motion, plane_axes, turned

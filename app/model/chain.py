@@ -15,7 +15,8 @@ import numpy as np
 from app.model.arrays import Array, Indices
 from app.model.description import MOVABLE, Description, Drive, Joint, Triple
 from app.model.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
-from app.model.poses import inverse, placement, transform
+from app.model.notations import placement
+from app.model.poses import inverse, transform
 
 
 class FlatChain(NamedTuple):

@@ -29,6 +29,8 @@ MAX_LENGTH = 1e6
 """Largest length in a table, [m]: beyond it a double no longer resolves a nanometre."""
 MAX_ANGLE = 1e6
 """Largest angle in a table, [rad]: beyond it a double no longer resolves a nanoradian."""
+MAX_SNAP_TOLERANCE = 0.1
+"""How far a number of a table may be moved at most to one that a person would write, [m or rad]."""
 MAX_MULTIPLIER = 1e6
 """Largest multiplier of a row that follows another joint, as in a URDF."""
 

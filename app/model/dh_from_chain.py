@@ -33,7 +33,7 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.chain import Chain, joints_on_the_way
 from app.model.description import Description, Joint, Limits, Mimic
-from app.model.dh import MAX_JOINTS, MAX_LENGTH, Convention, DhJoint, DhTable, JointType
+from app.model.dh import MAX_JOINTS, MAX_LENGTH, MAX_SNAP_TOLERANCE, Convention, DhJoint, DhTable, JointType
 from app.model.errors import InvalidDhTable, InvalidField, listed, quoted
 from app.model.poses import inverse, transform
 
@@ -41,7 +41,6 @@ ROUNDING = 4e-15
 """Angles [rad], and lengths in sizes of the robot, that are taken as zero: what a few products leave."""
 PARALLEL = 2e-11
 """Tilt [rad] below which axes are parallel after all where their common normal is too far away: π to eleven digits."""
-MAX_SNAP_TOLERANCE = 0.1
 
 _DIGITS = 12
 """Decimals of a snapped length."""

@@ -4,7 +4,7 @@ import numpy as np
 
 from app.model.arrays import Array
 from app.model.description import Origin
-from app.model.poses import rpy_from_rotations
+from app.model.notations import rpy_from_rotations
 
 
 def origin_of(T: Array) -> Origin:

@@ -1,7 +1,7 @@
 """What travels over the wire: units in every description, finite numbers only, unknown fields refused.
 
 - `common`: the strict base of all payloads, names, chains.
-- `pose`: poses in every notation.
+- `pose`: poses in every notation; `pose_arrays`: the same as arrays.
 - `dh`: Denavit-Hartenberg tables.
 - `compare`: requests and answers of comparisons of such tables with chains.
 - `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.

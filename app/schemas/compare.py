@@ -4,8 +4,7 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from app.kinematics.compare import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES
-from app.kinematics.comparison.mistakes import Mistake
+from app.kinematics.comparison.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Mistake
 from app.schemas.common import Answer, ChainOptions, RobotName
 from app.schemas.dh import DhTablePayload
 from app.schemas.pose import Pose, PoseFormat

@@ -6,8 +6,8 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.course.mechanism import GivenPair, Node
 from app.course.mobility import NodeCount
-from app.course.orientation import unit_axis
 from app.course.pairs import KINDS, LETTERS, Geometry
+from app.course.rotations import unit_axis
 from app.model.errors import InvalidField, listed, quoted
 from app.schemas.common import Payload, RobotName
 from app.schemas.pose import MAX_MAGNITUDE, Vector3

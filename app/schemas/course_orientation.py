@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from app.course.composition import Motion
-from app.course.orientation import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
+from app.course.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
 from app.model.arrays import Array
 from app.model.errors import InvalidPose
 from app.model.poses import ROTATION_TOLERANCE, transform

@@ -7,8 +7,7 @@ from pydantic import Field
 
 from app.model.arrays import Array
 from app.model.description import Mimic
-from app.model.dh import MAX_JOINTS, DhJoint, DhTable
-from app.model.dh_from_chain import MAX_SNAP_TOLERANCE
+from app.model.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
 from app.model.errors import InvalidPose
 from app.schemas.common import Answer, ChainOptions, Payload, RobotName
 from app.schemas.pose import Pose

@@ -5,10 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.kinematics.ik.descent import StopReason
-from app.kinematics.ik.null_space import ObjectiveName
-from app.kinematics.ik.result import Status
-from app.kinematics.ik.task import Direction
+from app.kinematics.ik.words import Direction, ObjectiveName, Status, StopReason
 from app.model.arrays import Array
 from app.schemas.common import Answer, ChainOptions, OnTheWire
 from app.schemas.kinematics import Configuration, Configurations

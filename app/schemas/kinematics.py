@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from app.kinematics.configuration import Configuration as GivenConfiguration
 from app.model.arrays import Array
+from app.model.arrays import Configuration as GivenConfiguration
 from app.schemas.common import Answer, ChainOptions, FrameName, OnTheWire
 from app.schemas.pose import Pose, PoseFormat
 

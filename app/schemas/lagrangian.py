@@ -5,8 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag, field_validator
 
-from app.kinematics.derive.lagrangian.bodies import STANDARD_GRAVITY, Body, Gravity
-from app.kinematics.derive.lagrangian.solution import Dynamics
+from app.kinematics.derive.lagrangian.bodies import STANDARD_GRAVITY, Body, Dynamics, Gravity
 from app.model.dh import MAX_JOINTS, MAX_LENGTH
 from app.schemas.common import Answer, Payload
 from app.schemas.formulas import FormulaInfo, Grid, MatrixInfo

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.schemas.common import Answer, ChainOptions, Payload
 from app.schemas.kinematics import Configuration, Configurations, JacobianCertificateInfo
 

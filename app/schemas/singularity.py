@@ -5,8 +5,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from app.kinematics.ik.task import Direction
-from app.kinematics.singularity_kinds import Kind
+from app.kinematics.ik.words import Direction
+from app.kinematics.words import SingularityKind
 from app.schemas.common import Answer, ChainOptions
 from app.schemas.kinematics import Configurations, JacobianCertificateInfo
 
@@ -142,7 +142,7 @@ class SingularityInfo(Answer):
         description="Joints that take part in the internal motions that exist only here: their columns of the Jacobian "
         "are dependent. Empty where the configuration is regular."
     )
-    kinds: list[Kind] = Field(
+    kinds: list[SingularityKind] = Field(
         description="What the singularity is called, where the geometry of the arm tells: `wrist`, two axes of the "
         "wrist on one line (or the last axis parallel to three that are so); `elbow`, the arm stretched or folded; "
         "`shoulder`, the wrist where the first joint cannot move it out of the plane of the arm, above all over the "
@@ -163,7 +163,9 @@ class NearestSingularityInfo(Answer):
     joints: list[str] = Field(description="The joints that move.")
     within_limits: bool = Field(description="Whether it is within the joint limits.")
     smallest_singular_value: float = Field(description="What is left of it there, rounding; as the others.")
-    kinds: list[Kind] = Field(description="What the singularity is called, where the geometry of the arm tells.")
+    kinds: list[SingularityKind] = Field(
+        description="What the singularity is called, where the geometry of the arm tells."
+    )
     dependent_joints: list[str] = Field(description="Joints whose columns of the Jacobian are dependent there.")
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from app.kinematics.ik.task import Direction
+from app.kinematics.ik.words import Direction
 from app.schemas.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from app.schemas.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
 

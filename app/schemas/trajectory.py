@@ -5,15 +5,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from app.kinematics.configuration import Configuration as GivenConfiguration
-from app.kinematics.ik.task import Direction
+from app.kinematics.ik.words import Direction
 from app.model.arrays import Array
+from app.model.arrays import Configuration as GivenConfiguration
 from app.schemas.common import ChainOptions, OnTheWire, Payload
 from app.schemas.course_motion import Duration
 from app.schemas.kinematics import ByName, ByOrder, Configuration
 from app.schemas.pose import ORIENTATIONS, Pose, PoseFormat
-from app.trajectory.problem import Law, NearSingularity, OrientationLaw
 from app.trajectory.splines import Boundary
+from app.trajectory.words import Law, NearSingularity, OrientationLaw
 
 MAX_SEGMENTS = 100
 MAX_WAYPOINTS = 1000

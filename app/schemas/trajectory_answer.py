@@ -7,8 +7,7 @@ from pydantic import Field
 from app.schemas.common import Answer
 from app.schemas.kinematics import CertificateInfo
 from app.schemas.pose import Pose
-from app.trajectory.audit import Check
-from app.trajectory.problem import Law, SegmentType, StopReason
+from app.trajectory.words import Check, Law, SegmentType, StopReason
 
 LimitSource = Literal["request", "robot", "assumed"]
 

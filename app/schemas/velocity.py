@@ -4,9 +4,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from app.kinematics.ik.null_space import ObjectiveName
-from app.kinematics.ik.task import Direction
-from app.kinematics.linear_inverse import InverseName, Status
+from app.kinematics.ik.words import Direction, ObjectiveName
+from app.kinematics.words import InverseName, InverseStatus
 from app.schemas.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from app.schemas.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
 from app.schemas.singularity import SingularityInfo
@@ -211,7 +210,7 @@ class VelocitySingularity(Answer):
 class VelocityResult(Answer):
     """What is to be said about one configuration."""
 
-    status: Status | None = Field(
+    status: InverseStatus | None = Field(
         default=None,
         description="Of an inversion. `solved`: the residual vanishes. `approximate`: it does not. `singular`: `exact` "
         "was asked for and the Jacobian has no inverse, so there is no answer.",

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.kinematics.ik.task import Direction
+from app.kinematics.ik.words import Direction
 from app.schemas.common import Answer, ChainOptions, Payload
 from app.schemas.jobs import JobName
 from app.schemas.pose import Vector3

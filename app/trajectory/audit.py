@@ -8,7 +8,7 @@ through Pinocchio. It passes or says why not.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Literal
 
 import numpy as np
 
@@ -21,8 +21,7 @@ from app.trajectory.audit_demands import Demands
 from app.trajectory.audit_pieces import Extremes, Pieces, extremes, largest_jumps, pieces_of
 from app.trajectory.audit_tip import poses_at, smallest_singular_value, tip_peaks
 from app.trajectory.polynomial import PiecewisePolynomial
-
-Check: TypeAlias = Literal["velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary"]
+from app.trajectory.words import Check
 
 DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")

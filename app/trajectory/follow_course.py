@@ -13,7 +13,8 @@ import numpy as np
 from app.kinematics.ik.task import Task
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.poses import Poses, rotations_from_vectors
+from app.model.notations import rotations_from_vectors
+from app.model.poses import Poses
 from app.trajectory.follow_rows import Rows, row_derivatives, task_rows
 from app.trajectory.paths import Path, PathSamples
 

@@ -12,7 +12,7 @@ import numpy as np
 from app.kinematics.ik.closed_form import closed_form
 from app.kinematics.ik.result import InverseKinematics
 from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import DIRECTIONS
+from app.kinematics.ik.words import DIRECTIONS
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, quoted
@@ -20,7 +20,7 @@ from app.model.robot import Robot
 from app.trajectory.follow_course import Course
 from app.trajectory.follow_rows import task_rows
 from app.trajectory.follow_trace import Trace, traced
-from app.trajectory.problem import StopReason
+from app.trajectory.words import StopReason
 
 _BEYOND = np.array([1e-4, 1e-3, 1e-2])
 """How far beyond, in fractions of the path or of 1 m or rad, other solutions are looked for."""

@@ -18,9 +18,10 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Law, MotionLimits
+from app.trajectory.problem import MotionLimits
 from app.trajectory.time_scaling import QUANTITIES, Limits, uniform_scaling
 from app.trajectory.trapezoid import Task, fastest, point_to_point
+from app.trajectory.words import Law
 
 SMALLEST, LARGEST = 1e-9, 1e9
 """What a limit can be; positions and durations are at most as large."""

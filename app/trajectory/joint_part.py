@@ -6,9 +6,9 @@ from typing import cast
 import numpy as np
 
 from app.kinematics.ik.closed_form import closed_form
-from app.kinematics.ik.result import Status
 from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import Status
 from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -24,8 +24,9 @@ from app.trajectory.joint_splines import Promise, compared_spline, longest_prefi
 from app.trajectory.joint_waypoints import WITHIN, check_within
 from app.trajectory.parts import Halt, Part, standing
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Problem, Segment, SegmentReport, StopReason, TimingComparison
+from app.trajectory.problem import Problem, Segment, SegmentReport, TimingComparison
 from app.trajectory.via_blends import via_blends
+from app.trajectory.words import StopReason
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",

@@ -17,7 +17,7 @@ from typing import Literal, Protocol, TypeAlias
 import numpy as np
 
 from app.model.arrays import Array
-from app.model.poses import rotations_from_vectors, vectors_from_rotations
+from app.model.notations import rotations_from_vectors, vectors_from_rotations
 
 Turning: TypeAlias = Literal["none", "regular", "half_turn"]
 

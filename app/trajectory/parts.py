@@ -9,7 +9,8 @@ from app.model.arrays import Array
 from app.model.poses import Poses
 from app.trajectory.audit_demands import Demands
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import SegmentReport, StopReason, TimingComparison
+from app.trajectory.problem import SegmentReport, TimingComparison
+from app.trajectory.words import StopReason
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ segments but where lines are blended.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Literal, TypeAlias
 
 from app.kinematics.ik.task import FULL_POSE, Task
 from app.model.arrays import Array
@@ -16,12 +15,7 @@ from app.trajectory.audit import Audit
 from app.trajectory.audit_demands import TipLimits
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.splines import Boundary
-
-Law: TypeAlias = Literal["cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal"]
-SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]
-OrientationLaw: TypeAlias = Literal["axis_angle", "zyz", "zyz_other"]
-NearSingularity: TypeAlias = Literal["stop", "damp", "slow_down"]
-StopReason: TypeAlias = Literal["out_of_reach", "joint_limit", "singularity", "branch_change"]
+from app.trajectory.words import Law, NearSingularity, OrientationLaw, SegmentType, StopReason
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from typing import cast
 import numpy as np
 
 from app.model.arrays import Array
-from app.model.poses import rotations_from_vectors, vectors_from_rotations
+from app.model.notations import rotations_from_vectors, vectors_from_rotations
 from app.trajectory.orientation_paths import travelled
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.so3 import angular_motion, quadratic_part, rate_matrices

@@ -20,12 +20,13 @@ from app.model.errors import InvalidField
 from app.trajectory.composition import in_time
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial, joined
-from app.trajectory.problem import Law, MotionLimits
+from app.trajectory.problem import MotionLimits
 from app.trajectory.time_optimal import time_optimal
 from app.trajectory.tip_rows import tip_rows
 from app.trajectory.way_geometry import Corner, Geometry, TipMotion, geometry_of
 from app.trajectory.way_laws import POLYNOMIALS, polynomial, s_curve, trapezoid
 from app.trajectory.way_peaks import peaks_of
+from app.trajectory.words import Law
 
 _SMOOTH: Final = frozenset({"quintic", "septic", "jerk_limited"})
 _ROUNDING = 1e-9

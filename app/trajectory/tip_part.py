@@ -22,7 +22,6 @@ from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.problem import (
     BlendReport,
     Following,
-    Law,
     MotionLimits,
     Problem,
     Segment,
@@ -33,6 +32,7 @@ from app.trajectory.spline_paths import PolynomialPath
 from app.trajectory.timing import Timed, compared, timed
 from app.trajectory.way_geometry import tip_through
 from app.trajectory.ways import Way, way_of
+from app.trajectory.words import Law
 
 _DONE = 1e-9
 """Share of a segment that may be missing from one that counts as done."""

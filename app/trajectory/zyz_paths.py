@@ -16,7 +16,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from app.model.arrays import Array, Flags
-from app.model.poses import rotations_from_zyz, zyz_from_rotations
+from app.model.notations import rotations_from_zyz, zyz_from_rotations
 from app.trajectory.orientation_paths import travelled
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.splines import cubic_spline

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 
 WITHOUT_PINOCCHIO = [
     *(f"app.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
-    *(f"app.model.{name}" for name in ("appearance", "dh_from_chain", "origins")),
+    *(f"app.model.{name}" for name in ("notations", "appearance", "dh_from_chain", "origins")),
     *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "bodies", "configuration", "subspaces")),
     *(f"app.kinematics.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
     *(f"app.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
@@ -61,6 +61,12 @@ def test_the_core_knows_neither_http_nor_settings() -> None:
     modules = loaded(*CORE)
     assert "pinocchio" in modules
     assert not modules & set(OF_THE_SERVER)
+
+
+def test_a_client_carries_numbers_and_computes_none() -> None:
+    """What computes takes seconds to load, for which nobody at a shell wants to wait."""
+    computing = {"pinocchio", "numba", "scipy", "sympy", "matplotlib", "app.kinematics.kernels", "app.model.notations"}
+    assert not loaded("app.cli.main", "app.client") & computing
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "tests" / "oracles").glob("*.py")), ids=lambda path: path.stem)

@@ -13,8 +13,9 @@ import pinocchio as pin
 from app.model.arrays import Array
 from app.model.chain import Chain, rotation_to_axis
 from app.model.description import Description, Joint, Link
+from app.model.notations import placement
 from app.model.origins import origin_of
-from app.model.poses import inverse, placement, transform
+from app.model.poses import inverse, transform
 from tests.robots import robot
 
 BASE, TIP = "base", "tip"

@@ -20,7 +20,8 @@ from app.kinematics.ik.search import MAX_ITERATIONS, make_goal, search, target_r
 from app.kinematics.ik.task import FULL_POSE
 from app.model.arrays import Array
 from app.model.description import Limits
-from app.model.poses import Poses, placement, quaternions_xyzw_from_rotations
+from app.model.notations import placement, quaternions_xyzw_from_rotations
+from app.model.poses import Poses
 from app.model.urdf import write_urdf
 from tests.benchmarks.arms import BASE, TIP, Arm, alone
 

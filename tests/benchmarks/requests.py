@@ -16,7 +16,7 @@ import numpy as np
 
 from app.kinematics.kernels import chain_poses
 from app.model.poses import Poses
-from app.schemas.pose import pose_list
+from app.schemas.pose_arrays import pose_list
 from app.settings import Settings
 from app.store.library import Library
 from tests.benchmarks.server import running

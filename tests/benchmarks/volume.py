@@ -13,7 +13,7 @@ import numpy as np
 from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array
 from app.model.poses import Poses
-from app.schemas.pose import pose_array
+from app.schemas.pose_arrays import pose_array
 from app.settings import Settings
 from app.store.library import Library
 from tests.benchmarks.server import Running, running

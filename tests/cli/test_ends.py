@@ -206,7 +206,7 @@ def test_names_of_robots_are_completed(url: str) -> None:
 
 
 def test_help_and_completion_need_not_wait_for_what_computes() -> None:
-    heavy = "{'pinocchio', 'numba', 'fastapi', 'pydantic', 'matplotlib', 'app.client'} & set(sys.modules)"
+    heavy = "{'pinocchio', 'numba', 'numpy', 'fastapi', 'pydantic', 'matplotlib', 'app.client'} & set(sys.modules)"
     script = f"import sys, app.cli.main; print({heavy})"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
     assert run.stdout == "set()\n"

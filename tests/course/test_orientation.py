@@ -8,16 +8,8 @@ from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
 from app.course.composition import About, Motion, composed
-from app.course.orientation import (
-    DEGENERATE,
-    AxisName,
-    Notations,
-    about_axis,
-    elementary,
-    notations,
-    validated,
-    wrapped,
-)
+from app.course.orientation import Notations, notations, wrapped
+from app.course.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
 from app.model.arrays import Array
 from app.model.errors import CertificationFailed
 from app.model.poses import transform

@@ -5,13 +5,8 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from app.kinematics.configuration import (
-    MAX_MAGNITUDE,
-    Configuration,
-    check_limits,
-    checked_rows,
-    configurations,
-)
+from app.kinematics.configuration import MAX_MAGNITUDE, check_limits, checked_rows, configurations
+from app.model.arrays import Configuration
 from app.model.errors import InvalidArray, InvalidField, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
 from tests.robots import robot, samples
 

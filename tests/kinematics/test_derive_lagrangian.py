@@ -19,9 +19,9 @@ from app.kinematics.derive import worked
 from app.kinematics.derive.algebra import Polynomial, derivative
 from app.kinematics.derive.lagrangian import equations, symbolic
 from app.kinematics.derive.lagrangian import solution as solution_module
-from app.kinematics.derive.lagrangian.bodies import Body, Gravity
+from app.kinematics.derive.lagrangian.bodies import Body, Dynamics, Gravity
 from app.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
-from app.kinematics.derive.lagrangian.solution import Dynamics, MotionSolution
+from app.kinematics.derive.lagrangian.solution import MotionSolution
 from app.kinematics.derive.lagrangian.texts import MotionQuestion, MotionTexts
 from app.kinematics.derive.typeset import MatrixText, Style
 from app.kinematics.derive.worked import WorkedSolution, worked_solution

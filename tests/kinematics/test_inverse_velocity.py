@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.kinematics.ik.null_space import Objective, ObjectiveName
-from app.kinematics.ik.task import Direction, Task
+from app.kinematics.ik.null_space import Objective
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import Direction, ObjectiveName
 from app.kinematics.inverse_velocity import (
     InverseMotion,
     descent,

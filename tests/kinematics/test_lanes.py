@@ -26,7 +26,8 @@ from app.kinematics.lanes import (
     where,
 )
 from app.kinematics.warm import warm_up
-from app.model.arrays import _OPTIONS, Array, inlined, unmanaged
+from app.model.arrays import Array
+from app.model.compilation import _OPTIONS, inlined, unmanaged
 
 EXPRESSIONS: dict[str, tuple[Any, Any]] = {
     "sum": (lambda a, b: a + b, lambda a, b: a + b),

@@ -11,7 +11,8 @@ import pytest
 
 from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array
-from app.model.poses import Poses, pose_errors
+from app.model.notations import pose_errors
+from app.model.poses import Poses
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.dh_columns import Table, shift, turn
 from tests.robots import robot, samples

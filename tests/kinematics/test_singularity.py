@@ -10,7 +10,8 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 from app.kinematics.certify_singularity import certify_reports
-from app.kinematics.ik.task import Direction, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import Direction
 from app.kinematics.jacobian import Reference, jacobians
 from app.kinematics.kernels import chain_jacobians
 from app.kinematics.singularity import SingularityReport, singularity_report

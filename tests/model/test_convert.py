@@ -18,8 +18,8 @@ from app.model.convert import converted, describe_dh
 from app.model.description import Mimic
 from app.model.dh import Convention, DhJoint, DhTable
 from app.model.errors import CertificationFailed
+from app.model.notations import placement
 from app.model.origins import origin_of
-from app.model.poses import placement
 from app.model.robot import Robot
 from app.model.urdf import write_urdf
 from tests.oracles import catalogue, dh_columns

@@ -15,7 +15,7 @@ from app.model.description import Description
 from app.model.dh import Convention, DhTable
 from app.model.dh_from_chain import PARALLEL, dh_from_chain
 from app.model.errors import InvalidField
-from app.model.poses import pose_errors
+from app.model.notations import pose_errors
 from app.model.robot import Robot
 from app.model.urdf import read_urdf
 from tests.oracles import catalogue, dh_columns

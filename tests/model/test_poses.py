@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.model import poses
+from app.model import notations
 from app.model.arrays import Array
 from app.model.errors import InvalidPose
-from app.model.poses import Poses, inverse, nearest_rotation, placement, pose_errors, transform, unit_quaternion
+from app.model.notations import placement, pose_errors
+from app.model.poses import Poses, inverse, nearest_rotation, transform, unit_quaternion
 
 NEAR = [sign * size for size in (1e-15, 1e-13, 1e-12, 1e-9, 1e-7, 1e-6, 1e-3) for sign in (1, -1)] + [0.0]
 """Distances from an angle at which something degenerates."""
@@ -28,26 +29,26 @@ class Notation(NamedTuple):
 
 NOTATIONS = {
     "rpy": Notation(
-        poses.rotations_from_rpy,
-        poses.rpy_from_rotations,
+        notations.rotations_from_rpy,
+        notations.rpy_from_rotations,
         lambda values: Rotation.from_euler("xyz", values),
         lambda rotations: rotations.as_euler("xyz"),
     ),
     "zyz": Notation(
-        poses.rotations_from_zyz,
-        poses.zyz_from_rotations,
+        notations.rotations_from_zyz,
+        notations.zyz_from_rotations,
         lambda values: Rotation.from_euler("ZYZ", values),
         lambda rotations: rotations.as_euler("ZYZ"),
     ),
     "quaternion": Notation(
-        poses.rotations_from_quaternions_xyzw,
-        poses.quaternions_xyzw_from_rotations,
+        notations.rotations_from_quaternions_xyzw,
+        notations.quaternions_xyzw_from_rotations,
         Rotation.from_quat,
         lambda rotations: rotations.as_quat(canonical=True),
     ),
     "vector": Notation(
-        poses.rotations_from_vectors,
-        poses.vectors_from_rotations,
+        notations.rotations_from_vectors,
+        notations.vectors_from_rotations,
         Rotation.from_rotvec,
         lambda rotations: rotations.as_rotvec(),
     ),
@@ -106,27 +107,27 @@ def test_values_are_scipys(notation: Notation) -> None:
 @pytest.mark.parametrize("angle", [1e-300, 1e-30, 1e-13, 1e-8, 1e-4])
 def test_small_rotation_vectors_keep_their_digits(angle: float) -> None:
     vectors = angle * directions()
-    again = poses.vectors_from_rotations(poses.rotations_from_vectors(vectors))
+    again = notations.vectors_from_rotations(notations.rotations_from_vectors(vectors))
     assert np.abs(again - vectors).max() < 1e-15 * angle + 1e-300
 
 
 @pytest.mark.parametrize("Rs", HARD.values(), ids=HARD)
 def test_values_lie_on_their_branch(Rs: Array) -> None:
-    assert np.all(np.abs(poses.rpy_from_rotations(Rs)[:, 1]) <= pi / 2 + 1e-14)
-    assert np.all(poses.zyz_from_rotations(Rs)[:, 1] >= 0)
-    assert np.all(poses.quaternions_xyzw_from_rotations(Rs)[:, 3] >= 0)
-    assert np.all(np.linalg.norm(poses.vectors_from_rotations(Rs), axis=1) <= pi + 1e-14)
+    assert np.all(np.abs(notations.rpy_from_rotations(Rs)[:, 1]) <= pi / 2 + 1e-14)
+    assert np.all(notations.zyz_from_rotations(Rs)[:, 1] >= 0)
+    assert np.all(notations.quaternions_xyzw_from_rotations(Rs)[:, 3] >= 0)
+    assert np.all(np.linalg.norm(notations.vectors_from_rotations(Rs), axis=1) <= pi + 1e-14)
 
 
 # The reference numbers of the course
 
 
 def zyz(*angles: float) -> Array:
-    return np.asarray(poses.rotations_from_zyz(np.array([angles]))[0])
+    return np.asarray(notations.rotations_from_zyz(np.array([angles]))[0])
 
 
 def rpy(*angles: float) -> Array:
-    return np.asarray(poses.rotations_from_rpy(np.array([angles]))[0])
+    return np.asarray(notations.rotations_from_rpy(np.array([angles]))[0])
 
 
 def test_inverse_of_a_transform() -> None:
@@ -148,28 +149,28 @@ def test_zyz() -> None:
         [-0.292214644285, -0.574131544348, 0.764842187284],
     ]
     assert np.abs(R - rows).max() < 1e-12
-    assert poses.zyz_from_rotations(R[None])[0] == pytest.approx([0.3, 0.7, -1.1], abs=1e-15)
+    assert notations.zyz_from_rotations(R[None])[0] == pytest.approx([0.3, 0.7, -1.1], abs=1e-15)
     assert np.abs(zyz(-2.841592653590, -0.7, 2.041592653590) - R).max() < 1e-12
 
 
 @pytest.mark.parametrize(("theta", "first"), [(0.0, 0.9), (pi, -0.1)])
 def test_zyz_where_only_a_sum_or_difference_is_determined(theta: float, first: float) -> None:
-    assert poses.zyz_from_rotations(zyz(0.4, theta, 0.5)[None])[0] == pytest.approx([first, theta, 0.0], abs=1e-15)
+    assert notations.zyz_from_rotations(zyz(0.4, theta, 0.5)[None])[0] == pytest.approx([first, theta, 0.0], abs=1e-15)
 
 
 def test_rpy() -> None:
     R = rpy(-0.2, 0.5, 0.9)
-    assert poses.rpy_from_rotations(R[None])[0] == pytest.approx([-0.2, 0.5, 0.9], abs=1e-15)
+    assert notations.rpy_from_rotations(R[None])[0] == pytest.approx([-0.2, 0.5, 0.9], abs=1e-15)
     assert np.abs(rpy(2.941592653590, 2.641592653590, -2.241592653590) - R).max() < 1e-12
 
 
 def test_rpy_where_only_a_difference_is_determined() -> None:
-    assert poses.rpy_from_rotations(rpy(0.2, pi / 2, 0.9)[None])[0] == pytest.approx([-0.7, pi / 2, 0.0], abs=1e-15)
+    assert notations.rpy_from_rotations(rpy(0.2, pi / 2, 0.9)[None])[0] == pytest.approx([-0.7, pi / 2, 0.0], abs=1e-15)
 
 
 def test_rotation_vector() -> None:
     axis = np.array([1.0, 2.0, 2.0]) / 3
-    R, half_turn = poses.rotations_from_vectors(np.array([1.2 * axis, pi * axis]))
+    R, half_turn = notations.rotations_from_vectors(np.array([1.2 * axis, pi * axis]))
     assert R[0] == pytest.approx([0.433206892868, -0.479661113862, 0.763057667428], abs=1e-12)
     assert np.abs(9 * half_turn - [[-7, 4, 4], [4, -1, 8], [4, 8, -1]]).max() < 1e-14
 

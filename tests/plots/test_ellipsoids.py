@@ -14,7 +14,7 @@ from matplotlib.image import imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Polygon
 
-from app.kinematics.ik.task import DIRECTIONS, Direction
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.kinematics.limited_motion import JointBounds, limited_motion
 from app.kinematics.manipulability import manipulability
 from app.model.arrays import Array

@@ -4,7 +4,8 @@ import json
 from typing import Any
 
 from app.model.poses import Poses
-from app.schemas.pose import Pose, poses_from
+from app.schemas.pose import Pose
+from app.schemas.pose_arrays import poses_from
 from tests.studio.browser import Studio
 from tests.test_serve import get
 

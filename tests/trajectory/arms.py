@@ -8,8 +8,9 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Law, MotionLimits, Segment
+from app.trajectory.problem import MotionLimits, Segment
 from app.trajectory.splines import Boundary
+from app.trajectory.words import Law
 from tests.robots import robot
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")

@@ -10,7 +10,8 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.task import FULL_POSE, Direction, Task
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.words import Direction
 from app.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
 from app.model.arrays import Array
 from app.model.chain import Chain

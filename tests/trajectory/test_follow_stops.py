@@ -17,7 +17,8 @@ from app.trajectory.follow import JointWay, follow
 from app.trajectory.follow_course import Course
 from app.trajectory.follow_trace import Trace, traced
 from app.trajectory.paths import Path, line
-from app.trajectory.problem import Following, NearSingularity
+from app.trajectory.problem import Following
+from app.trajectory.words import NearSingularity
 from tests.robots import of_table, robot, rows
 from tests.trajectory.test_follow import XY, KnownWay, deviations, moved, pinocchio_poses, pose, starts
 

@@ -8,8 +8,9 @@ import pytest
 from app.trajectory.joint_excess import first_limit_excess
 from app.trajectory.joint_splines import longest_prefix, promised, spline_motion
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Law, Segment
+from app.trajectory.problem import Segment
 from app.trajectory.splines import Boundary
+from app.trajectory.words import Law
 from tests.trajectory.arms import (
     BOUNDARIES,
     LAWS,

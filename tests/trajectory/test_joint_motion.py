@@ -9,7 +9,8 @@ import pytest
 from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.trajectory.joint_motion import compared_point_to_point, point_to_point_motion
-from app.trajectory.problem import Law, MotionLimits
+from app.trajectory.problem import MotionLimits
+from app.trajectory.words import Law
 from tests.trajectory.arms import ARMS, LAWS, arm, end_state, excess, jump, limits
 
 WITH_JERK: frozenset[Law] = frozenset({"quintic", "septic", "jerk_limited"})

@@ -12,8 +12,9 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.trajectory.joint_splines import compared_spline, promised, spline_motion, spline_way
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Law, Segment
+from app.trajectory.problem import Segment
 from app.trajectory.splines import Boundary
+from app.trajectory.words import Law
 from tests.trajectory.arms import (
     ARMS,
     BOUNDARIES,

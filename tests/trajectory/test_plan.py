@@ -16,7 +16,8 @@ from app.trajectory.audit import audit
 from app.trajectory.audit_demands import Demands, Stretch, TipLimits
 from app.trajectory.plan import plan
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Following, Law, MotionLimits, OrientationLaw, Problem, Segment, Trajectory
+from app.trajectory.problem import Following, MotionLimits, Problem, Segment, Trajectory
+from app.trajectory.words import Law, OrientationLaw
 from tests.robots import robot
 
 PANDA = robot("panda")

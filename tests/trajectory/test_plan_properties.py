@@ -16,7 +16,8 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.robot import Robot
 from app.trajectory.plan import plan
-from app.trajectory.problem import Law, MotionLimits, Problem, Segment, Trajectory
+from app.trajectory.problem import MotionLimits, Problem, Segment, Trajectory
+from app.trajectory.words import Law
 from tests.robots import robot
 
 ARMS = ("panda", "ur5", "puma560", "xarm7", "stanford", "kinova")

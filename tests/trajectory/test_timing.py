@@ -17,9 +17,10 @@ from app.trajectory.extremes import peaks
 from app.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
 from app.trajectory.paths import circle, line
 from app.trajectory.polynomial import PiecewisePolynomial, joined
-from app.trajectory.problem import Law, MotionLimits
+from app.trajectory.problem import MotionLimits
 from app.trajectory.spline_paths import blended_lines
 from app.trajectory.timing import Timed, compared, timed
+from app.trajectory.words import Law
 from tests.trajectory.timed_ways import LAWS, SMOOTH, at_breaks, gantry, joint_ratios, limits, planar_line, straight
 
 # The lecture's numbers

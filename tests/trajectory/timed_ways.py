@@ -9,8 +9,9 @@ from app.model.arrays import Array
 from app.trajectory.audit_demands import TipLimits
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Law, MotionLimits
+from app.trajectory.problem import MotionLimits
 from app.trajectory.timing import Timed
+from app.trajectory.words import Law
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")
 SMOOTH = ("quintic", "septic", "jerk_limited")

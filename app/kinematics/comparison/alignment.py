@@ -14,7 +14,7 @@ import numpy as np
 
 from app.kinematics.comparison.screws import Screws
 from app.model.arrays import Array
-from app.model.poses import rotations_from_vectors
+from app.model.notations import rotations_from_vectors
 
 _PARALLEL = 1e-3
 """Angle below which two axes give no direction to turn by, [rad]; least squares does the rest."""

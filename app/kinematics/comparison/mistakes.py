@@ -7,7 +7,7 @@ shifted zero, a base or tool that is not as given. What makes the table describe
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,23 +15,10 @@ from app.kinematics.comparison.alignment import Freedom
 from app.kinematics.comparison.numbers import Difference, WrongNumber, wrapped, wrong_numbers
 from app.kinematics.comparison.placement import Placement, Subject, placed
 from app.kinematics.comparison.screws import PARAMETERS
+from app.kinematics.comparison.words import Mistake
 from app.model.arrays import Array
 from app.model.dh import Convention, DhTable
 from app.model.errors import quoted
-
-Mistake: TypeAlias = Literal[
-    "sign",
-    "degrees",
-    "millimetres",
-    "convention",
-    "columns",
-    "rows",
-    "joint_sense",
-    "number",
-    "joint_zero",
-    "base",
-    "tool",
-]
 
 _LOOKS = 24
 _ROWS_WITH_TRIALS = 16

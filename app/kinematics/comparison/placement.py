@@ -21,7 +21,8 @@ from app.kinematics.comparison.screws import (
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.dh import MAX_LENGTH, DhTable
-from app.model.poses import Poses, inverse, nearest_rotation, pose_errors, transform
+from app.model.notations import pose_errors
+from app.model.poses import Poses, inverse, nearest_rotation, transform
 from app.model.robot import Robot
 
 _INDEPENDENT = 1e-6

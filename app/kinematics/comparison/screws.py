@@ -16,7 +16,7 @@ import numpy as np
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import FlatChain
 from app.model.dh import Convention, DhTable
-from app.model.poses import rotations_from_vectors, vectors_from_rotations
+from app.model.notations import rotations_from_vectors, vectors_from_rotations
 
 PARAMETERS = ("a", "alpha", "d", "theta")
 BASE_DIRECTIONS = 6

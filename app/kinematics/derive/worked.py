@@ -15,15 +15,10 @@ from typing import Protocol, TypeVar
 import numpy as np
 
 from app.kinematics.certify import Certificate, JacobianCertificate, certify_jacobians, certify_poses
-from app.kinematics.configuration import Configuration, configurations
+from app.kinematics.configuration import configurations
 from app.kinematics.derive.check import Checks, FormulaCertificate, checked_formulas, checked_singularities
-from app.kinematics.derive.lagrangian.solution import (
-    Dynamics,
-    MotionSolution,
-    checked_dynamics,
-    motion_question,
-    motion_solution,
-)
+from app.kinematics.derive.lagrangian.bodies import Dynamics
+from app.kinematics.derive.lagrangian.solution import MotionSolution, checked_dynamics, motion_question, motion_solution
 from app.kinematics.derive.lagrangian.symbolic import motion
 from app.kinematics.derive.lagrangian.texts import MotionTexts, NoMotion
 from app.kinematics.derive.numeric import NumericSolution, numeric_solution
@@ -33,7 +28,7 @@ from app.kinematics.derive.table import Numbers4, RowNumbers, TableNumbers
 from app.kinematics.derive.texts import Formulas, Question, Singularities
 from app.kinematics.derive.transforms import MAX_ENTRY_TERMS
 from app.kinematics.derive.typeset import Style
-from app.model.arrays import Array
+from app.model.arrays import Array, Configuration
 from app.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
 from app.model.dh import DhJoint, DhTable
 from app.model.errors import InvalidDhTable

@@ -12,14 +12,15 @@ from app.kinematics.ik.branches import SPACING, all_branches, thin_out, wound
 from app.kinematics.ik.closed_form import ClosedForm
 from app.kinematics.ik.compositions import MOST
 from app.kinematics.ik.judge import judged
-from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches, Status
+from app.kinematics.ik.result import Failure, InverseKinematics, SolutionBranches
 from app.kinematics.ik.search import free_variables, is_over, pieces, processors, shared, target_rows
-from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.ik.valleys import distinct, refined, with_partners
 from app.kinematics.ik.verdict import Question
+from app.kinematics.ik.words import DIRECTIONS, Status
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array, Flags, Indices
-from app.model.poses import Poses, rotations_from_vectors
+from app.model.notations import rotations_from_vectors
+from app.model.poses import Poses
 
 _Number = TypeVar("_Number", np.float64, np.int64)
 

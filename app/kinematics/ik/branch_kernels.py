@@ -24,8 +24,9 @@ from app.kinematics.ik.iteration import (
     workspace,
 )
 from app.kinematics.lanes import LANES, bits, lanes, load, max_lanes, min_lanes, store, where
-from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
+from app.model.arrays import Array, Indices
 from app.model.chain import FlatChain
+from app.model.compilation import compiled, inlined, unmanaged
 
 _TURN = 2.0 * np.pi
 _ROUNDS = 40

@@ -11,8 +11,9 @@ from app.kinematics.ik.null_space import Objective, settle
 from app.kinematics.ik.search import ITERATIONS_PER_START, free_variables, limits_of, make_goal
 from app.kinematics.ik.task import Task
 from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array, Flags, Indices, compiled
+from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
+from app.model.compilation import compiled
 from app.model.poses import Poses
 
 STARTS = 2048

@@ -31,7 +31,8 @@ from app.kinematics.ik.subproblems import (
     value,
 )
 from app.kinematics.vectors import Vector, cross, dot, minus, plus, row, scaled, turned
-from app.model.arrays import Array, Indices, inlined, unmanaged
+from app.model.arrays import Array, Indices
+from app.model.compilation import inlined, unmanaged
 
 DECOUPLED, PARALLEL, ELBOW, GENERAL = 0, 1, 2, 3
 """Classes of arms."""

@@ -12,14 +12,12 @@ from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import is_over, search_bounds
 from app.kinematics.ik.steps import damped_step, error_damping, gradient_step, newton_step
 from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import StopReason
 from app.model.arrays import Array, Flags
 from app.model.chain import Chain
 from app.model.poses import Poses
 
 StepMethod: TypeAlias = Literal["newton", "gradient", "gradient_then_newton", "damped_least_squares"]
-StopReason: TypeAlias = Literal[
-    "converged", "stagnated", "near_singular", "at_limits", "diverged", "time_limit", "iterations"
-]
 
 DEFAULT_ITERATIONS: dict[StepMethod, int] = {
     "newton": 100,

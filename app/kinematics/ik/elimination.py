@@ -16,7 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.kinematics.vectors import Vector, cross, dot, minus, plus, row, turned
-from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
+from app.model.arrays import Array, Indices
+from app.model.compilation import compiled, inlined, unmanaged
 
 EQUATIONS, PRODUCTS, ORDER = 14, 27, 12
 """Equations; products of (1, cos q_3, sin q_3) with powers 0 to 2 of two tangents; size of the determinant."""

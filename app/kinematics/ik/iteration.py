@@ -22,8 +22,9 @@ from app.kinematics.lanes import (
     store,
     where,
 )
-from app.model.arrays import Array, Indices, compiled, inlined
+from app.model.arrays import Array, Indices
 from app.model.chain import FlatChain
+from app.model.compilation import compiled, inlined
 
 Error: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
 """Errors in registers, linear before angular."""

@@ -6,7 +6,8 @@ from app.kinematics.certify import pinocchio_poses
 from app.kinematics.ik.search import limits_of
 from app.kinematics.ik.verdict import Question
 from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array, Flags, compiled
+from app.model.arrays import Array, Flags
+from app.model.compilation import compiled
 from app.model.poses import Poses
 
 _WITHIN = 1e-9

@@ -28,8 +28,9 @@ from app.kinematics.ik.iteration import (
     workspace,
 )
 from app.kinematics.lanes import LANES, Lanes, bits, lanes, load, max_lanes, min_lanes, sqrt_lanes, store, where
-from app.model.arrays import Array, Indices, compiled, inlined, unmanaged
+from app.model.arrays import Array, Indices
 from app.model.chain import FlatChain
+from app.model.compilation import compiled, inlined, unmanaged
 
 _STAGNATION = 6
 """Iterations without halving the squared error after which a start is given up."""

@@ -3,11 +3,13 @@
 import numpy as np
 
 from app.kinematics.ik.iteration import AXIS, FULL
-from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.kernels import chain_jacobians
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.poses import Poses, vectors_from_rotations
+from app.model.notations import vectors_from_rotations
+from app.model.poses import Poses
 
 
 def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bool = False) -> tuple[Array, Array]:

@@ -1,19 +1,17 @@
 """What to do with the freedom that a task leaves: move along the self-motion towards something better."""
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import numpy as np
 
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import is_over, limits_of, mid_range
-from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS, ObjectiveName
 from app.kinematics.kernels import chain_hessians
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
-
-ObjectiveName: TypeAlias = Literal["posture", "mid_range", "limits", "manipulability"]
 
 _ROUNDS = 80
 _LONGEST_STEP = 0.2

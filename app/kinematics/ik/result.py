@@ -1,13 +1,11 @@
 """What inverse kinematics answers with."""
 
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
 
 from app.kinematics.ik.closed_form import ClosedForm
-from app.kinematics.ik.descent import Iterate, StopReason
+from app.kinematics.ik.descent import Iterate
+from app.kinematics.ik.words import Status, StopReason
 from app.model.arrays import Array, Indices
-
-Status: TypeAlias = Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"]
 
 
 @dataclass(frozen=True, slots=True)

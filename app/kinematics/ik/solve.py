@@ -13,7 +13,7 @@ from app.kinematics.ik.closed_form import ClosedForm, closed_form, elimination, 
 from app.kinematics.ik.descent import Descent, Rule, StepMethod, descend
 from app.kinematics.ik.judge import judged
 from app.kinematics.ik.null_space import Objective, settle
-from app.kinematics.ik.result import Failure, InverseKinematics, Path, Status
+from app.kinematics.ik.result import Failure, InverseKinematics, Path
 from app.kinematics.ik.retrace import retrace
 from app.kinematics.ik.search import (
     ITERATIONS_PER_START,
@@ -36,6 +36,7 @@ from app.kinematics.ik.verdict import (
     solved_without_limits,
     verdict_on_path,
 )
+from app.kinematics.ik.words import Status
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
 from app.model.errors import InvalidField

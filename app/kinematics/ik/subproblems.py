@@ -12,7 +12,8 @@ from typing import TypeAlias
 import numpy as np
 
 from app.kinematics.vectors import Vector, cross, dot
-from app.model.arrays import Array, inlined, unmanaged
+from app.model.arrays import Array
+from app.model.compilation import inlined, unmanaged
 
 Coefficients: TypeAlias = tuple[float, float, float]
 """A function of a joint: its share of 1, cos q and sin q where the joint turns, of 1, q and q² where it slides."""

@@ -3,16 +3,15 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
 from app.kinematics.ik.iteration import AXIS, FULL, SOME
-from app.model.arrays import Array, compiled
-from app.model.poses import Poses, vectors_from_rotations
-
-Direction: TypeAlias = Literal["x", "y", "z", "rx", "ry", "rz"]
-DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
+from app.kinematics.ik.words import DIRECTIONS, Direction
+from app.model.arrays import Array
+from app.model.compilation import compiled
+from app.model.notations import vectors_from_rotations
+from app.model.poses import Poses
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ import numpy as np
 from app.kinematics.ik.branches import thin_out, wound_near
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.search import free_variables, limits_of
-from app.kinematics.ik.task import DIRECTIONS
 from app.kinematics.ik.verdict import Question
+from app.kinematics.ik.words import DIRECTIONS
 from app.kinematics.kernels import chain_hessians, chain_jacobians
 from app.model.arrays import Array, Indices
 

@@ -10,9 +10,10 @@ from app.kinematics.ik.branches import wound_near
 from app.kinematics.ik.descent import Descent, blocked
 from app.kinematics.ik.linearise import linearise
 from app.kinematics.ik.reach import Reach, reach_of
-from app.kinematics.ik.result import BlockingJoint, Failure, Status
+from app.kinematics.ik.result import BlockingJoint, Failure
 from app.kinematics.ik.search import ITERATIONS_PER_START, limits_of, make_goal, search_bounds, target_rows
-from app.kinematics.ik.task import DIRECTIONS, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS, Status
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
 from app.model.errors import quoted

@@ -11,7 +11,8 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from app.kinematics.ik.result import InverseKinematics
-from app.kinematics.ik.task import Direction, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import Direction
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
 from app.model.poses import Poses

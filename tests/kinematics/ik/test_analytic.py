@@ -7,7 +7,8 @@ import pytest
 
 from app.kinematics.ik.closed_form import closed_form
 from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import DIRECTIONS, FULL_POSE, Task
+from app.kinematics.ik.task import FULL_POSE, Task
+from app.kinematics.ik.words import DIRECTIONS
 from app.model.poses import Poses
 from tests.kinematics.ik.arms import PLANAR, catalogue_arm, draw, poses, table_arm
 

@@ -7,7 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.task import DIRECTIONS, Direction, Task
+from app.kinematics.ik.task import Task
+from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from app.kinematics.derive.table import LENGTH_TOLERANCE, RowNumbers
+from app.model.arrays import Configuration
 
 Line: TypeAlias = Literal["x", "next axis", "own axis"]
 Point: TypeAlias = tuple[float, float, float]
@@ -71,3 +72,18 @@ def center_in_frame(rows: Sequence[RowNumbers], i: int, standard: bool, center: 
         return 0.0, 0.0, center
     alpha = rows[i + 1].alpha
     return 0.0, -center * math.sin(alpha), center * math.cos(alpha)
+
+
+@dataclass(frozen=True, slots=True)
+class Dynamics:
+    """What is known of the masses.
+
+    Attributes:
+        bodies: One a row; empty where nothing is known.
+        gravity: In the base.
+        velocities: One a configuration, in order or by name, [rad/s or m/s]; None where none are given.
+    """
+
+    bodies: tuple[Body, ...]
+    gravity: Gravity
+    velocities: Sequence[Configuration] | None = None

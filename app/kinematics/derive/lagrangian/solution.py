@@ -1,14 +1,13 @@
 """The equations of motion of a table: formulas, numbers at given configurations, each compared with Pinocchio."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.kinematics.configuration import Configuration, configurations
+from app.kinematics.configuration import configurations
 from app.kinematics.derive.check import Checks
-from app.kinematics.derive.lagrangian.bodies import Body, Gravity
+from app.kinematics.derive.lagrangian.bodies import Body, Dynamics, Gravity
 from app.kinematics.derive.lagrangian.check import MotionCertificate, certify_formulas, certify_numbers
 from app.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
 from app.kinematics.derive.lagrangian.steps import motion_steps
@@ -23,21 +22,6 @@ from app.model.errors import CertificationFailed, InvalidField
 
 LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
 """What these fields of a request are called in errors."""
-
-
-@dataclass(frozen=True, slots=True)
-class Dynamics:
-    """What is known of the masses.
-
-    Attributes:
-        bodies: One a row; empty where nothing is known.
-        gravity: In the base.
-        velocities: One a configuration, in order or by name, [rad/s or m/s]; None where none are given.
-    """
-
-    bodies: tuple[Body, ...]
-    gravity: Gravity
-    velocities: Sequence[Configuration] | None = None
 
 
 @dataclass(frozen=True, slots=True)

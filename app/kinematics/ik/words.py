@@ -1,0 +1,11 @@
+"""The words in which inverse kinematics is asked and answers, without what computes it."""
+
+from typing import Literal, TypeAlias, get_args
+
+Status: TypeAlias = Literal["solved", "unreachable", "outside_limits", "singular", "not_converged"]
+StopReason: TypeAlias = Literal[
+    "converged", "stagnated", "near_singular", "at_limits", "diverged", "time_limit", "iterations"
+]
+Direction: TypeAlias = Literal["x", "y", "z", "rx", "ry", "rz"]
+DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
+ObjectiveName: TypeAlias = Literal["posture", "mid_range", "limits", "manipulability"]

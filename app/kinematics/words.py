@@ -1,0 +1,7 @@
+"""The words in which answers about motions of the tip are told, without what computes them."""
+
+from typing import Literal, TypeAlias
+
+InverseName: TypeAlias = Literal["exact", "pseudo_inverse", "damped"]
+InverseStatus: TypeAlias = Literal["solved", "approximate", "singular"]
+SingularityKind: TypeAlias = Literal["wrist", "elbow", "shoulder"]

@@ -1,0 +1,10 @@
+"""The words in which a motion is asked for and told about, without what plans it."""
+
+from typing import Literal, TypeAlias
+
+Check: TypeAlias = Literal["velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary"]
+Law: TypeAlias = Literal["cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal"]
+SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]
+OrientationLaw: TypeAlias = Literal["axis_angle", "zyz", "zyz_other"]
+NearSingularity: TypeAlias = Literal["stop", "damp", "slow_down"]
+StopReason: TypeAlias = Literal["out_of_reach", "joint_limit", "singularity", "branch_change"]
