@@ -26,11 +26,17 @@ def kept() -> Iterator[None]:
 with kept():
     from app.kinematics import warm
     from app.logs import configuration
+    from app.model.compilation import is_stored
     from app.settings import Settings
 
     logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
     logging.captureWarnings(True)
     importlib.import_module("app.main")
+
+
+def is_compiled() -> bool:
+    """Whether `warm_up` will find the kernels compiled."""
+    return is_stored()
 
 
 @kept()

@@ -10,6 +10,7 @@ from app.kinematics.ik.search import mid_range, start_of
 from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.jacobian import jacobians
 from app.kinematics.kernels import chain_measures
+from app.model.compilation import note_stored
 from app.model.convert import describe_dh
 from app.model.dh import DhJoint, DhTable
 from app.model.notations import (
@@ -42,6 +43,7 @@ def warm_up() -> None:
     rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
     rotations_from_vectors(vectors_from_rotations(Rs))
     rotations_from_zyz(np.zeros((1, 3)))
+    note_stored()
 
 
 def _closed_forms() -> None:

@@ -1,11 +1,13 @@
 """The decorators for compiled functions, and where these are stored. Numba takes a third of a second to load."""
 
+import contextlib
 import hashlib
 import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
+import llvmlite.binding
 import numba
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -34,13 +36,33 @@ def _kernel_digest() -> str:
     return digest.hexdigest()[:16]
 
 
+def _processor_digest() -> str:
+    """What tells one kind of processor from another: what is compiled for one need not run on the other."""
+    features = sorted(llvmlite.binding.get_host_cpu_features().items())
+    words = (llvmlite.binding.get_host_cpu_name(), features, _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES)
+    return hashlib.sha256(repr(words).encode()).hexdigest()[:8]
+
+
 # Numba renews what it has stored of a function when the function's own file changes, but not when one does from which
 # it took another function: so each state of the sources has a store of its own.
 _SETTINGS: Any = numba.config
 _STORE = Path(_SETTINGS.CACHE_DIR or Path(__file__).parents[1] / "__pycache__" / "kernels")
-_SETTINGS.CACHE_DIR = str(_STORE / _kernel_digest())
+_STORE /= f"{_kernel_digest()}-{_processor_digest()}"
+_SETTINGS.CACHE_DIR = str(_STORE)
+_ALL_STORED = _STORE / "all"
 _OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
 _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
+
+
+def is_stored() -> bool:
+    """Whether all kernels have been compiled for this kind of processor before, and only need to be read."""
+    return _ALL_STORED.exists()
+
+
+def note_stored() -> None:
+    """Say that all of them have been; where nothing can be written none is stored either."""
+    with contextlib.suppress(OSError):
+        _ALL_STORED.touch()
 
 
 def compiled(function: _Function) -> _Function:

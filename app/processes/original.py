@@ -25,7 +25,11 @@ from multiprocessing.connection import Connection
 from typing import NoReturn
 
 LOADED = "app.preload"
-"""What is imported first: with a function `warm_up` that computes one of everything, and `load`, which imports."""
+"""What is imported first.
+
+Its function `warm_up` computes one of everything, `is_compiled` tells whether that takes a moment or a minute, and
+`load` imports.
+"""
 SELDOM_NEEDED = ("matplotlib.figure", "app.plots.profiles", "sympy")
 """Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
 COPY, WARM_UP = b"c", b"w"
@@ -48,7 +52,7 @@ def main(control: int) -> None:
         signal.signal(stop, signal.SIG_IGN)
     _name("original")
     loaded = importlib.import_module(LOADED)
-    Original(socket.socket(fileno=control), loaded.warm_up, loaded.load).run()
+    Original(socket.socket(fileno=control), loaded.is_compiled, loaded.warm_up, loaded.load).run()
 
 
 class Original:
@@ -56,13 +60,21 @@ class Original:
 
     Args:
         control: Where requests come from.
+        is_compiled: Whether `warm_up` need not compile.
         warm_up: Loads what takes longer than the first copies can wait.
         load: Imports a module.
     """
 
-    def __init__(self, control: socket.socket, warm_up: Callable[[], None], load: Callable[[str], None]) -> None:
-        self._control, self._warm_up, self._load = control, warm_up, load
+    def __init__(
+        self,
+        control: socket.socket,
+        is_compiled: Callable[[], bool],
+        warm_up: Callable[[], None],
+        load: Callable[[str], None],
+    ) -> None:
+        self._control, self._is_compiled, self._warm_up, self._load = control, is_compiled, warm_up, load
         self._lifelines: dict[int, socket.socket] = {}
+        self._compiler = 0
         self._selector = selectors.DefaultSelector()
         self._wakes, self._woken = socket.socketpair()
         self._goes_on = True
@@ -100,8 +112,37 @@ class Original:
 
     def _get_warm(self, asker: socket.socket) -> None:
         """Load what takes long; the end of its socket tells whoever asked that this is over."""
+        if self._is_compiled() or not self._compiles_elsewhere(asker):
+            self._try("the kernels", self._warm_up)
+            asker.close()
+
+    def _compiles_elsewhere(self, asker: socket.socket) -> bool:
+        """Let a process of its own compile: the gigabyte that this takes is gone with it, here and in all copies.
+
+        Who asks for a copy has to wait until it has ended, and this one has loaded what it has left.
+        """
+        parent = os.getpid()
+        try:
+            self._compiler = os.fork()
+        except OSError as error:
+            logger.error("the kernels are compiled where they stay, which takes memory: %s", error.strerror)
+            return False
+        if self._compiler == 0:
+            _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == parent:  # else it has ended before that could be said
+                _name("compiler")
+                self._try("the kernels", self._warm_up)
+            os._exit(0)
+        self._asker = asker
+        self._selector.unregister(self._control)
+        return True
+
+    def _take_over(self) -> None:
+        """Load what was compiled, and take requests again."""
+        self._compiler = 0
         self._try("the kernels", self._warm_up)
-        asker.close()
+        self._asker.close()
+        self._selector.register(self._control, selectors.EVENT_READ, self._take)
 
     def _try(self, what: str, load: Callable[[], None]) -> None:
         try:
@@ -171,10 +212,12 @@ class Original:
     def _reap(self) -> None:
         """Tell of the copies that have ended."""
         self._woken.recv(4096)
-        while self._lifelines:
+        while self._lifelines or self._compiler:
             pid, status = os.waitpid(-1, os.WNOHANG)
             if not pid:
                 return
+            if pid == self._compiler:
+                self._take_over()
             lifeline = self._lifelines.pop(pid, None)
             if lifeline is None:
                 continue
