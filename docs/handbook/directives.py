@@ -9,10 +9,12 @@ from typing import Any, ClassVar
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from matplotlib.figure import Figure
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 from app.calls.call import Call
+from docs.handbook.figures import svg
 from docs.handbook.links import below_a_call
 from docs.handbook.session import Session, Unexpected, curl, end_service, service
 from docs.handbook.written import DIGITS, disagreement
@@ -116,7 +118,7 @@ class Formula(SphinxDirective):
 
 
 class Picture(SphinxDirective):
-    """A picture that a call gives: the last expression of the content, as bytes of SVG or PNG.
+    """A picture: the last value of the content, a figure of matplotlib, or what a call gives as SVG or PNG.
 
     Options:
         alt: What is to be seen, for whoever cannot see it; must be there.
@@ -135,15 +137,18 @@ class Picture(SphinxDirective):
             content, calls = session.recorded(code)
         except Unexpected as error:
             raise self.error(str(error)) from error
+        title = "the call"
+        if isinstance(content, Figure):
+            content, title = svg(content), "how it is drawn"
         if not isinstance(content, bytes) or not content.startswith((_SVG, _PNG)):
-            raise self.error("it gives no picture: SVG or PNG, as bytes")
+            raise self.error("it gives no picture: a figure, or SVG or PNG as bytes")
         caption = self.options.get("caption", "")
         figure = (
             f'<figure class="picture"><img src="{self._saved(content)}" alt="{escape(self.options["alt"])}">'
             f"{caption and f'<figcaption>{escape(caption)}</figcaption>'}</figure>"
         )
         call = nodes.literal_block(code, code, language="python")
-        fold = _folded("the call", [call, *_as_curl(calls)], "curl")
+        fold = _folded(title, [call, *_as_curl(calls)], "curl")
         return [nodes.raw("", figure, format="html"), _below(fold, calls)]
 
     def _saved(self, content: bytes) -> str:

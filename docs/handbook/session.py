@@ -11,6 +11,7 @@ from io import StringIO
 from typing import Any, TypeVar
 from urllib.parse import urlencode
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from app.calls.call import JSON, Call
@@ -20,6 +21,9 @@ from app.client import DEFAULT_URL, Client
 from docs.handbook.written import DIGITS, in_line, written
 
 T = TypeVar("T")
+
+_SHOWN_BYTES = 2000
+"""Of a request in a command; a larger one would be in a file."""
 
 _READY_SECONDS = 900.0
 """How long kernels may take to compile, on a slow and busy machine."""
@@ -99,7 +103,7 @@ class Session:
 
     def __init__(self, client: RecordingClient) -> None:
         self._client = client
-        self._names: dict[str, Any] = {"gelenk": client, "np": np, "pi": np.pi, "print": self._print}
+        self._names: dict[str, Any] = {"gelenk": client, "np": np, "pi": np.pi, "plt": plt, "print": self._print}
         self._digits = DIGITS
 
     def run(self, code: str, digits: int = DIGITS, refusal: str | None = None) -> Ran:
@@ -139,10 +143,13 @@ class Session:
         except Exception as error:
             raise Unexpected(_told(error)) from error
 
-    def recorded(self, expression: str) -> tuple[Any, tuple[Call[Any], ...]]:
-        """The value of an expression, and what it has asked; raises as `value` does."""
+    def recorded(self, code: str) -> tuple[Any, tuple[Call[Any], ...]]:
+        """The last value of a piece, and what it has asked; raises as `value` does."""
         self._client.calls.clear()
-        value = self.value(expression)
+        try:
+            value = self._execute(code)
+        except Exception as error:
+            raise Unexpected(_told(error)) from error
         return value, tuple(self._client.calls)
 
     def _execute(self, code: str) -> Any:
@@ -180,6 +187,11 @@ def curl(call: Call[Any]) -> str:
     words += [word for name, text in call.form.items() for word in ("-F", f"{name}={text}")]
     words += [word for name in call.files for word in ("-F", f"{name}=@FILE")]
     if call.body:
-        content = ["-d", call.body.decode()] if call.media_type == JSON else ["--data-binary", "@array.npy"]
-        words += ["-H", f"Content-Type: {call.media_type}", *content]
+        words += ["-H", f"Content-Type: {call.media_type}", *_content(call)]
     return shlex.join(words)
+
+
+def _content(call: Call[Any]) -> list[str]:
+    if call.media_type != JSON:
+        return ["--data-binary", "@array.npy"]
+    return ["-d", call.body.decode() if len(call.body) <= _SHOWN_BYTES else "@request.json"]

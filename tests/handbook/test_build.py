@@ -31,6 +31,13 @@ $$\\tau = J^{\\top}\\gamma$$
 gelenk.picture("v1/robots/planar_2r/manipulability", "svg", {"joint_positions": [[0.3, 0.8]]})
 ```
 
+```{picture}
+:alt: A curve.
+figure, axes = plt.subplots()
+axes.plot(answer.poses[0].position)
+figure
+```
+
 ```{run}
 :refused: unknown-robot
 gelenk.robot("nobody")
@@ -116,8 +123,9 @@ def test_a_page_has_what_its_calls_give(tmp_path: Path) -> None:
     assert "2.55 m" in words
     assert "curl -s http://127.0.0.1:8000/v1/robots/planar_2r/fk -H 'Content-Type: application/json'" in words
     assert 'alt="An arm &amp; its ellipses."' in text
-    (picture,) = re.findall(r'src="(_pictures/[^"]+)"', text)
-    assert (output / picture).read_bytes().startswith(b"<?xml")
+    pictures = re.findall(r'src="(_pictures/[^"]+)"', text)
+    assert len(pictures) == 2
+    assert all((output / picture).read_bytes().startswith(b"<?xml") for picture in pictures)
     glyphs = re.findall(r'<symbol id="([^"]+)"', text)
     assert len(glyphs) == len(set(glyphs)) > 5
 

@@ -67,9 +67,3 @@ def test_the_page_on_writing_tells_of_every_directive() -> None:
     assert len(names) == len(set(names)) >= 11
     told = (ROOT / "docs" / "writing.md").read_text()
     assert [name for name in names if f"{{{name}}}" not in told] == []
-
-
-def test_every_notebook_is_named_in_a_chapter() -> None:
-    chapters = "".join(page.read_text() for page in (ROOT / "docs" / "course").glob("*.md"))
-    notebooks = sorted(path.name for path in (ROOT / "docs" / "notebooks").glob("*.ipynb"))
-    assert [name for name in notebooks if f"(../notebooks/{name})" not in chapters] == []

@@ -86,3 +86,8 @@ def test_a_service_that_never_gets_ready_ends_the_build() -> None:
     answers = [not_ready("OSError: no room"), READY]
     with Client(transport=httpx2.MockTransport(lambda _: answers.pop(0))) as client, pytest.raises(Refused):
         wait_until_ready(client)
+
+
+def test_what_nobody_would_read_goes_as_a_file() -> None:
+    shown = command(lambda gelenk: gelenk.fk("planar_2r", joint_positions=[[0.25, 0.75]] * 500))
+    assert shown.endswith("-H 'Content-Type: application/json' -d @request.json")

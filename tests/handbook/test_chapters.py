@@ -1,0 +1,38 @@
+"""Each chapter of the course has what a lecture needs."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+CHAPTERS = sorted(set((DOCS / "course").glob("*.md")) - {DOCS / "course" / "corrections.md"})
+CORRECTIONS = (DOCS / "course" / "corrections.md").read_text(encoding="utf-8")
+
+
+def test_there_are_the_lectures() -> None:
+    assert len(CHAPTERS) == 11
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_a_chapter_has_idea_formula_call_picture_and_exercises(chapter: Path) -> None:
+    text = chapter.read_text(encoding="utf-8")
+    assert re.search(r"^# .+\n\n## The idea\n", text)
+    assert text.count("$$") >= 2
+    assert text.count("```{run}") >= 2
+    assert "```{picture}" in text
+    exercises = text.partition("\n## Exercises\n")[2].split("::::{exercise}")[1:]
+    assert len(exercises) >= 3
+    assert all(exercise.count(":::{answer}") == 1 and "\n:is: " in exercise for exercise in exercises)
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_where_the_notes_err_is_in_the_list_too(chapter: Path) -> None:
+    if "Where the notes err" in chapter.read_text(encoding="utf-8"):
+        assert f"({chapter.name}" in CORRECTIONS
+
+
+def test_every_notebook_is_named_in_a_chapter() -> None:
+    text = "".join(chapter.read_text(encoding="utf-8") for chapter in CHAPTERS)
+    notebooks = sorted(path.name for path in (DOCS / "notebooks").glob("*.ipynb"))
+    assert [name for name in notebooks if f"(../notebooks/{name})" not in text] == []
