@@ -20,8 +20,14 @@ _EM = 14.5
 _GLYPH = re.compile(r'<symbol id="([^"]+)".*?</symbol>', re.DOTALL)
 _ROOT = re.compile(r'<svg [^>]*width="([-.\d]+)" height="([-.\d]+)" viewBox="([^"]*)">')
 
-_SIGN = re.compile(r"([=(\[,<>]|\\(?:in|le|ge|approx|to)\b)\s*-")
-"""A minus that is no difference; it stands next to its number, which ziamath must be told."""
+_SIGN = re.compile(r"([=(\[,<>]|\\(?:in|le|ge|approx|to)\b)\s*([-+])")
+"""A sign that is no difference and no sum; it stands next to its number, which ziamath must be told."""
+
+_FUNCTION = re.compile(
+    r"(?P<before>(?<=[A-Za-z0-9)}])\s*)?(?P<name>\\(?:sin|cos|tan|det|ker)\b(?:\^\w|\^\{\w+\})?)\s*"
+    r"(?P<bare>(?=[A-Za-z]|\\(?!left|bigl|[^a-z])))?"
+)
+"""A function stands apart from a factor before it, and from an argument without parentheses."""
 
 _MATRIX = re.compile(r"\\begin\{([bp]matrix)\}.*?\\end\{\1\}", re.DOTALL)
 _COLUMN = re.compile(r"&\s*(-?)")
@@ -51,9 +57,8 @@ def drawn(latex: str, is_display: bool, known: set[str]) -> str:
         ValueError: The formula cannot be read.
     """
     try:
-        formula = Latex(
-            _MATRIX.sub(_spaced, _SIGN.sub(r"\1{-}", latex)), size=_SIZE, color="currentColor", inline=not is_display
-        )
+        spaced = _MATRIX.sub(_spaced, _FUNCTION.sub(_apart, _SIGN.sub(r"\1{\2}", latex)))
+        formula = Latex(spaced, size=_SIZE, color="currentColor", inline=not is_display)
         svg, below = formula.svg(), formula.getyofst()
     except Exception as error:
         raise ValueError(f"{latex!r} cannot be set: {error}") from error
@@ -62,6 +67,11 @@ def drawn(latex: str, is_display: bool, known: set[str]) -> str:
     style = f"width:{float(width) / _EM:.3f}em;height:{float(height) / _EM:.3f}em;{shift}"
     head = f'<svg role="img" aria-label="{escape(latex)}" viewBox="{box}" style="{style}">'
     return _GLYPH.sub(lambda glyph: _once(glyph, known), _ROOT.sub(lambda _: head, svg, count=1))
+
+
+def _apart(function: re.Match[str]) -> str:
+    before, after = (r"\," if function[side] is not None else "" for side in ("before", "bare"))
+    return f"{before}{function['name']}{after} "
 
 
 def _spaced(matrix: re.Match[str]) -> str:

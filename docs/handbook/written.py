@@ -114,7 +114,7 @@ def _is_matrix(value: list[Any]) -> bool:
 def _matrix(value: list[list[Any]], digits: int) -> Iterator[str]:
     largest = max(abs(number) for row in value for number in row)
     places = _places(largest, digits) if any(isinstance(number, float) for row in value for number in row) else 0
-    cells = [["0" if _is_rounding(number, largest) else f"{number:.{places}f}" for number in row] for row in value]
+    cells = [["0" if _is_rounding(number, largest) else f"{number:z.{places}f}" for number in row] for row in value]
     widths = [max(len(cell) for cell in column) for column in zip(*cells, strict=True)]
     for row in cells:
         yield f"[{'  '.join(cell.rjust(width) for cell, width in zip(row, widths, strict=True))}]"

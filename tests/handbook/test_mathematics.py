@@ -41,6 +41,11 @@ def test_a_sign_stands_next_to_its_number() -> None:
     assert width(r"\begin{bmatrix} 1 & -1 \end{bmatrix}") < width(r"\begin{bmatrix} 1 & 1 - 1 \end{bmatrix}")
 
 
+def test_a_function_stands_apart() -> None:
+    assert width(r"\det R") > width(r"\mathrm{det}R") + 0.1
+    assert width(r"a\sin q") > width(r"a\sin(q)") - width("()") + 0.1
+
+
 def test_what_cannot_be_read_is_refused() -> None:
     with pytest.raises(ValueError, match="cannot be set"):
         drawn(r"\begin{pmatrix} 1", True, set())

@@ -16,6 +16,7 @@ def test_columns_of_a_matrix_stand_in_line() -> None:
     assert written(np.array([[-0.91936, -0.62384], [1.27285, 1e-18]]), 3) == "[-0.92  -0.62]\n[ 1.27      0]"
     assert written([[1, 20], [300, 4]]) == "[  1  20]\n[300   4]"
     assert written(np.zeros((2, 2))) == "[0  0]\n[0  0]"
+    assert written(np.array([[3.0, -1e-7]]).repeat(2, 0), 3) == "[3.00  0.00]\n[3.00  0.00]"
 
 
 def test_an_object_is_written_by_its_fields() -> None:
