@@ -135,7 +135,8 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
-    openapi.describe(app, has_keys=bool(settings.api_keys))
+    queries = [operation.computation.options for operation in operations]
+    openapi.describe(app, bool(settings.api_keys), [query for query in queries if query is not None])
     app.door = _door(app, settings, metrics)
     return app
 

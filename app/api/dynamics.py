@@ -79,7 +79,7 @@ def dynamics_operation(max_answer_numbers: int) -> Operation:
             lesson=MECHANISM,
         ),
         answer=DynamicsAnswer,
-        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_body="`joint_positions` as an array of shape (N, n).",
         npy_answer="The torques or accelerations that were asked for as one array of shape (N, n), else the first of "
         "`terms`: a matrix (N, n, n), torques (N, n), or both energies (N, 2).",
         example={

@@ -76,8 +76,7 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
             long=inverse_work(),
         ),
         answer=InverseAnswer,
-        npy_body="`targets` as an array of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), matrices; "
-        "the other fields go in the query string.",
+        npy_body="`targets` as an array of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), matrices.",
         npy_answer="One configuration a target as an array of shape (N, n): the solution, or what comes nearest; the "
         "header `Gelenk-Unsolved` counts the targets without a solution and `Gelenk-Unsolved-Rows` names the first "
         "two hundred of them.",

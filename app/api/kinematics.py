@@ -27,7 +27,7 @@ _QUICK_POSES = 100
 _QUICK_JACOBIANS = 10
 """Configurations that take the event loop less than about a millisecond; more go to a thread."""
 
-_NPY_BODY = "`joint_positions` as an array of shape (N, n); the other fields go in the query string."
+_NPY_BODY = "`joint_positions` as an array of shape (N, n)."
 _PANDA_READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 
 

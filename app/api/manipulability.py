@@ -106,7 +106,7 @@ def manipulability_operation(max_answer_numbers: int) -> Operation:
             "the scales stand beside it.",
         ),
         answer=ManipulabilityAnswer,
-        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_body="`joint_positions` as an array of shape (N, n).",
         npy_answer="Semi-axes of the velocity ellipsoids as one array of shape (N, k): those of the translation, "
         "largest first, then those of the rotation, then those of the combined part; as many of each as the chain has "
         "at almost every configuration.",

@@ -1,12 +1,13 @@
 """What the schema says beside what FastAPI reads from the signatures: problems, npy bodies, examples."""
 
+from collections.abc import Sequence
 from copy import deepcopy
 from http import HTTPStatus
 from typing import Annotated, Any
 
 from fastapi import FastAPI, Header, Path
 from fastapi.openapi.utils import get_openapi
-from pydantic import TypeAdapter
+from pydantic import BaseModel, TypeAdapter
 
 from app.api.access.scopes import SCHEME, security_of
 from app.api.payloads import CSV, NPY, PNG, SVG
@@ -51,7 +52,8 @@ _NAMED: dict[str, tuple[dict[str, Any], str]] = {
 }
 """Schemas that stand in many places, and what is said of each where it has its name."""
 
-_PROBLEM = {"$ref": "#/components/schemas/Problem"}
+_COMPONENT = "#/components/schemas/{model}"
+_PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}
 
 
 def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
@@ -72,6 +74,25 @@ def npy_content(description: str) -> dict[str, Any]:
     return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
 
 
+def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
+    """An array, as a further media type of a request, and what the query may have beside it.
+
+    The fields of the query are no parameters of the operation, as OpenAPI has none that go with one media type alone:
+    they would be offered beside a JSON body too, where each is refused because it is a field of the body. What is made
+    of the schema shows what that would mean: openapi-python-client makes every parameter an argument of the one
+    function for both bodies, next to a body with the same fields, and openapi-typescript likewise. So they are a schema
+    by name, of which both make a type, and to which `x-query` leads.
+
+    Args:
+        description: What the array holds.
+        options: The fields of the query.
+    """
+    names = ", ".join(f"`{name}`" for name in options.model_fields)
+    told = f"{description} The query has what `{options.__name__}` has, a list by repeating its name: {names}."
+    (content,) = npy_content(told).values()
+    return {NPY: {**content, "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
+
+
 def csv_content(description: str | None) -> dict[str, Any]:
     """A table, as a further media type of an answer; none where there is no description of what it holds."""
     return {} if description is None else {CSV: {"schema": {"type": "string", "description": description}}}
@@ -88,17 +109,21 @@ def without_null(schema: dict[str, Any]) -> None:
     """Take null out of what a parameter or a field of a form may be: neither has a way to write it."""
     choices = schema.get("anyOf", [])
     given = [choice for choice in choices if choice != {"type": "null"}]
-    if len(given) == 1 < len(choices):
+    if len(given) < len(choices):
         del schema["anyOf"]
-        schema |= given[0]
+        inner = given[0] if len(given) == 1 else {"anyOf": given}
+        schema |= {**inner, **schema}  # what is said of the field itself counts
+        if schema.get("default", 0) is None:
+            del schema["default"]
 
 
-def describe(app: FastAPI, has_keys: bool) -> None:
+def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = ()) -> None:
     """Make the application write its schema once, with problems in the place of FastAPI's own validation error.
 
     Args:
         app: The application.
         has_keys: Whether its operations need keys.
+        queries: What stands in a query beside an array.
     """
 
     def openapi() -> dict[str, Any]:
@@ -115,9 +140,10 @@ def describe(app: FastAPI, has_keys: bool) -> None:
             components = schema.setdefault("components", {}).setdefault("schemas", {})
             for name in ("HTTPValidationError", "ValidationError"):
                 components.pop(name, None)
-            problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+            problem = Problem.model_json_schema(ref_template=_COMPONENT)
             components.update(problem.pop("$defs"))
             components["Problem"] = problem
+            components.update({query.__name__: _query_schema(query) for query in queries})
             _name_what_is_shared(schema)
             schema["components"]["securitySchemes"] = {"key": SCHEME}
             for path, operations in schema["paths"].items():
@@ -130,6 +156,13 @@ def describe(app: FastAPI, has_keys: bool) -> None:
         return app.openapi_schema
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _query_schema(query: type[BaseModel]) -> dict[str, Any]:
+    schema = query.model_json_schema(ref_template=_COMPONENT)
+    for field in schema["properties"].values():
+        without_null(field)
+    return schema
 
 
 def _name_what_is_shared(schema: dict[str, Any]) -> None:

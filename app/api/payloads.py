@@ -279,7 +279,8 @@ def read_query(model: type[_Model], query: QueryParams) -> _Model:
         raise TooLarge("parameters in the query", len(items), MAX_PARAMETERS)
     values: dict[str, Any] = {}
     for key, value in items:
-        if key in model.list_fields and value != "all":
+        is_repeated = key in model.vector_fields and len(query.getlist(key)) > 1
+        if is_repeated or (key in model.list_fields and value != "all"):
             values.setdefault(key, []).append(value)
         elif key in values:
             raise InvalidPayload(True, [{"pointer": f"#/{quoted(key)[1:-1]}", "detail": "it is given twice"}], 1)

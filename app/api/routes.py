@@ -34,6 +34,7 @@ from app.api.openapi import (
     RobotPath,
     csv_content,
     json_example,
+    npy_body,
     npy_content,
     picture_content,
     problem_responses,
@@ -333,7 +334,9 @@ class Operation:
         if long is not None:
             described.__annotations__["prefer"] = PreferHeader
         shapes = npy_content(self.npy_answer) | csv_content(self.computation.table)
-        body = json_example(self.example) | ({} if self.npy_body is None else npy_content(self.npy_body))
+        options, body = self.computation.options, json_example(self.example)
+        if self.npy_body is not None and options is not None:
+            body |= npy_body(self.npy_body, options)
         return DocumentedRoute(
             f"/v1/robots/{{robot}}/{self.name}",
             described,

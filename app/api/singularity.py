@@ -89,7 +89,7 @@ def singularity_operation(max_answer_numbers: int) -> Operation:
             is_heavy=lambda call: call.nearest or call.path or len(call.joint_positions) > _QUICK_REPORTS,
         ),
         answer=SingularityAnswer,
-        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_body="`joint_positions` as an array of shape (N, n).",
         npy_answer="Singular values as one array, largest first, of shape (N, k), k the lesser of n and the number of "
         "directions that count.",
         example={"joint_positions": [[0.0, 0.0, 0.0, -1.571, 0.0, 1.571, 0.785]], "nearest": True},

@@ -88,7 +88,7 @@ def statics_operation(max_answer_numbers: int) -> Operation:
             lesson=MECHANISM,
         ),
         answer=StaticsAnswer,
-        npy_body="`joint_positions` as an array of shape (N, n); the other fields go in the query string.",
+        npy_body="`joint_positions` as an array of shape (N, n).",
         npy_answer="Torques as one array of shape (N, n), or, where torques were given, wrenches of shape (N, m).",
         example={
             "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],

@@ -98,7 +98,7 @@ def velocity_operation(max_answer_numbers: int) -> Operation:
         ),
         answer=VelocityAnswer,
         npy_body="Forward: an array of shape (N, k, n) with 2 ≤ k ≤ 5, of each configuration the joint positions, "
-        "velocities, accelerations, jerks and snaps, as far as k goes; the other fields go in the query string.",
+        "velocities, accelerations, jerks and snaps, as far as k goes.",
         npy_answer="Forward: twists as an array of shape (N, 6), or with higher derivatives (N, k, 6). Inverse: the "
         "joint velocities (accelerations, jerks) as an array of shape (N, n), rows without an answer zero; the header "
         "`Gelenk-Unsolved` counts those and `Gelenk-Unsolved-Rows` names the first two hundred of them.",

@@ -55,6 +55,8 @@ class Payload(BaseModel):
 
     list_fields: ClassVar[frozenset[str]] = frozenset()
     """Fields that a query string gives by repeating their name."""
+    vector_fields: ClassVar[frozenset[str]] = frozenset()
+    """Fields that it gives so, or once where they are one word."""
 
 
 class Answer(BaseModel):

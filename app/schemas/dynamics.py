@@ -16,6 +16,7 @@ class DynamicsOptions(WrenchOptions):
     """How dynamics are wanted."""
 
     list_fields = frozenset({"terms"})
+    vector_fields = frozenset({"gravity"})
 
     gravity: Gravity = Field(
         default=True,

@@ -94,6 +94,7 @@ class StaticsOptions(WrenchOptions):
     """How statics are wanted."""
 
     list_fields = frozenset({"task"})
+    vector_fields = frozenset({"gravity"})
 
     task: list[Direction] | None = Field(
         default=None,

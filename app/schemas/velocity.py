@@ -17,7 +17,8 @@ MAX_REPORTS = 1000
 
 
 def _kind(value: Any) -> str:
-    return "<word>" if isinstance(value, str) else "<number>"
+    """A query has words alone, some of them numbers."""
+    return "<word>" if isinstance(value, str) and not value.strip("-+").startswith(tuple("0123456789.")) else "<number>"
 
 
 _Entry = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]

@@ -4,12 +4,14 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
 from app.main import create_app
 from app.schemas.kinematics import MAX_CONFIGURATIONS
 from app.settings import Settings
+from tests.corpus import npy
 
 Operation = tuple[str, str, dict[str, Any]]
 _ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
@@ -64,6 +66,69 @@ def test_every_example_runs_as_it_stands(client: TestClient) -> None:
         answer = client.request(method, path, params=query, json=body.get("example"))
         assert answer.status_code < 300, f"{method} {path}: {answer.text}"
         assert str(answer.status_code) in operation["responses"]
+
+
+def query_examples(field: dict[str, Any]) -> list[Any]:
+    """Values of a field of a query, one of each kind that its schema allows."""
+    kinds = [*field.get("anyOf", []), *field.get("oneOf", [])] or [field]
+    simple = {"boolean": True, "number": 0.5, "integer": 1, "string": "panda_link8"}
+    found: list[Any] = []
+    for kind in kinds:
+        words = kind.get("enum", [kind["const"]] if "const" in kind else [])
+        if kind.get("type") == "array":
+            (inner,) = query_examples(kind["items"])
+            found.append([inner] * kind.get("minItems", 1))
+        else:
+            found.append(words[0] if words else simple[kind["type"]])
+    return found
+
+
+def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client: TestClient) -> None:
+    """And beside JSON none is offered, and none taken."""
+    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    ready = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
+    pose = [0.4, 0.1, 0.5, 1.0, 0.0, 0.0, 0.0]
+    arrays = {"inverse_kinematics": [pose], "velocity": [[ready, [0.1] * 7]]}
+    asked = 0
+    for path, _, operation in OPERATIONS:
+        content = operation.get("requestBody", {}).get("content", {})
+        if "application/x-npy" not in content:
+            continue
+        array = np.array(arrays.get(operation["operationId"], [ready]))
+        address = path.format(robot="panda")
+        assert [one["name"] for one in operation["parameters"] if one["in"] == "query"] == []
+        query = schemas[content["application/x-npy"]["x-query"]["$ref"].rpartition("/")[2]]
+        for name, field in query["properties"].items():
+            assert f"`{name}`" in content["application/x-npy"]["schema"]["description"]
+            for value in query_examples(field):
+                answer = client.post(
+                    address,
+                    params={name: str(value).lower() if isinstance(value, bool) else value},
+                    content=npy.saved(array),
+                    headers={"content-type": "application/x-npy"},
+                )
+                # What goes together with what is another question.
+                assert answer.json().get("type") not in {"urn:gelenk:invalid-payload", "urn:gelenk:internal-error"}, (
+                    name
+                )
+                asked += 1
+            as_json = content["application/json"]["example"]
+            assert client.post(address, params={name: "true"}, json=as_json).status_code == 422
+    assert asked > 80
+
+
+def test_gravity_is_a_vector_in_a_query_too(client: TestClient) -> None:
+    q, vector = [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]], [0.0, 3.0, -9.0]
+    call = {"joint_positions": q, "gravity": vector, "terms": ["gravity_torques"]}
+    by_json = client.post("/v1/robots/panda/dynamics", json=call).json()["gravity_torques"]
+    by_npy = client.post(
+        "/v1/robots/panda/dynamics",
+        params={"gravity": vector, "terms": ["gravity_torques"]},
+        content=npy.saved(np.array(q)),
+        headers={"content-type": "application/x-npy"},
+    )
+    assert by_npy.json()["gravity_torques"] == by_json
+    assert np.any(np.abs(by_json) > 1.0)
 
 
 def holds_numbers(schema: dict[str, Any]) -> bool:
