@@ -4,6 +4,7 @@
 - `robots`, `arms`, `motions`, `jobs`, `tables`, `bench`, `ask`: what they do.
 - `inputs`: robots, tables and configurations from arguments, files and standard input; `xacro`: expanded here.
 - `completion`: what a shell completes.
+- `batches`: a large batch in several calls.
 - `outputs`: answers as tables, JSON, CSV and npy.
 - `local`: the application without a network.
 """

@@ -1,13 +1,13 @@
 """Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
 from collections.abc import Sequence
-from http import HTTPStatus
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.calls.refusals import Refused
+from app.cli.batches import in_calls
 from app.cli.inputs import fields_of, rows_of
 from app.cli.outputs import Rows, picture_kind
 from app.cli.session import (
@@ -16,14 +16,12 @@ from app.cli.session import (
     FromOption,
     LaterOption,
     RobotArgument,
-    Session,
     TipOption,
     session,
 )
 from app.model.errors import InvalidField
 
 if TYPE_CHECKING:
-    from app.client import Client
     from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
     from app.schemas.pose import Pose
 
@@ -40,8 +38,8 @@ _POSE_COLUMNS = {
     "rotation_vector": ("rx", "ry", "rz"),
 }
 _DEFAULT_POSE = "quaternion_xyzw"
-_MOST_AT_ONCE = 10_000
-"""Targets that are waited for without a word; more are a job, with a bar on the screen."""
+_TARGETS_FIRST = 50
+"""Targets of the first call: one that cannot be reached takes a thousand times as long as one that can."""
 UNREACHED = 1
 """Exit code."""
 
@@ -62,8 +60,8 @@ def fk(
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
     body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
     body |= {"pose_format": pose_format, **fields_of(fields)}
-    with shared.robot(robot) as (client, name):
-        answer = client.fk(name, **body)
+    with shared.robot(robot) as (client, name), shared.bar("fk") as progress:
+        answer = in_calls(partial(client.fk, name), body, "joint_positions", progress)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
     shared.write(answer, Rows((*_AXES, *_POSE_COLUMNS[pose_format]), rows, (note,)))
@@ -95,8 +93,8 @@ def jacobian(
     shared, qs = session(context), rows_of(at or [], file, "joint_positions")
     body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
     body |= {"reference": reference, "representation": representation, **fields_of(fields)}
-    with shared.robot(robot) as (client, name):
-        answer = client.jacobian(name, **body)
+    with shared.robot(robot) as (client, name), shared.bar("jacobian") as progress:
+        answer = in_calls(partial(client.jacobian, name), body, "joint_positions", progress)
     parts = [*(f"v_{axis}" for axis in _AXES), *(f"w_{axis}" for axis in _AXES)]
     rows = [
         (index, part, *row)
@@ -144,24 +142,11 @@ def ik(
         if later:
             shared.tell_job(client.jobs.ik(name, **body).info)
             return
-        answer = _reached(shared, client, name, body)
+        with shared.bar("ik") as progress:
+            answer = in_calls(partial(client.ik, name), body, "targets", progress, first=_TARGETS_FIRST)
     shared.write(answer, _solutions(answer))
     if any(not result.solutions for result in answer.results):
         raise typer.Exit(UNREACHED)
-
-
-def _reached(shared: Session, client: "Client", name: str, body: dict[str, Any]) -> "InverseAnswer":
-    """The answer; many targets are a job, with a bar on the screen, unless the key is not good for jobs."""
-    if len(body["targets"]) > _MOST_AT_ONCE:
-        try:
-            job = client.jobs.ik(name, **body)
-        except Refused as refused:
-            if refused.status != HTTPStatus.FORBIDDEN:
-                raise
-        else:
-            with job:
-                return shared.result_of(job)
-    return client.ik(name, **body)
 
 
 def target_of(row: Sequence[float], position_suffices: bool) -> dict[str, Any]:
@@ -216,7 +201,8 @@ def manipulability(
     kind = None if plot is None else picture_kind(plot)
     body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
-        answer = client.manipulability(name, **body)
+        with shared.bar("manipulability") as progress:
+            answer = in_calls(partial(client.manipulability, name), body, "joint_positions", progress)
         if plot is not None and kind is not None:
             plot.write_bytes(client.picture(f"v1/robots/{name}/manipulability", kind, body))
     rows = []

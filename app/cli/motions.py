@@ -40,9 +40,10 @@ def trajectory(
         if later:
             shared.tell_job(client.jobs.trajectory(name, **fields).info)
             return
-        answer = client.trajectory(name, **fields)
-        if plot is not None and kind is not None:
-            plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
+        with shared.bar("trajectory", is_measured=False):
+            answer = client.trajectory(name, **fields)
+            if plot is not None and kind is not None:
+                plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
     names = answer.joint_names
     columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
     table = zip(

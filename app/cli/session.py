@@ -1,5 +1,7 @@
 """What a command is given beside its own arguments: the service that it asks, and where its answer goes."""
 
+import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
     from app.schemas.jobs import JobInfo
 
 A = TypeVar("A")
+
+_LONG_SECONDS = 0.5
+"""Work that is over sooner needs no bar."""
 
 RobotArgument = Annotated[
     str,
@@ -96,15 +101,28 @@ class Session:
         self.output.write(answer.model_dump(mode="json", exclude_unset=True), rows)
 
     @contextmanager
-    def bar(self, what: str) -> Iterator[Callable[[float], None]]:
-        """How far long work is, 0 to 1, on the screen; not where standard error is no terminal."""
-        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"))
-        console = Console(stderr=True)
-        with Progress(
-            *columns, TimeElapsedColumn(), console=console, transient=True, disable=not console.is_terminal
-        ) as shown:
-            bar = shown.add_task(what, total=1.0)
+    def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
+        """How far work is, 0 to 1, on the screen once it is long; not where standard error is no terminal.
+
+        Args:
+            what: The work.
+            is_measured: Whether it tells how far it is; else the bar tells only that it goes on.
+        """
+        if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
+            yield lambda _: None
+            return
+        share = (TextColumn("{task.percentage:>3.0f} %"),) if is_measured else ()
+        columns = (TextColumn("{task.description}"), BarColumn(), *share, TimeElapsedColumn())
+        shown = Progress(*columns, console=Console(stderr=True), transient=True)
+        bar = shown.add_task(what, total=1.0 if is_measured else None)
+        begin = threading.Timer(_LONG_SECONDS, shown.start)
+        begin.start()
+        try:
             yield lambda progress: shown.update(bar, completed=progress)
+        finally:
+            begin.cancel()
+            begin.join()
+            shown.stop()
 
     def result_of(self, job: "Job[A]") -> A:
         """What comes out of a job, its progress on the screen."""

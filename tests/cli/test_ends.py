@@ -78,27 +78,14 @@ def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.Mo
     assert len(ended) == 1
 
 
-def test_a_bar_is_shown_on_a_terminal_alone(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    arguments = ["--format", "csv", "workspace", "planar_2r", "--samples", "2000"]
-    monkeypatch.delenv("FORCE_COLOR", raising=False)
-    out, err = shell(*arguments)
-    assert err == ""
-    monkeypatch.setenv("FORCE_COLOR", "1")
-    shown, bar = shell(*arguments)
-    assert "workspace" in bar
-    assert shown == out
-
-
-def test_many_targets_are_a_job(shell: Shell, url: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the answer that the call has at once; nothing is left behind."""
+def test_a_job_is_begun_for_later(shell: Shell, url: str, tmp_path: Path) -> None:
+    """With the answer that the command waits for otherwise; nothing is left behind."""
     angles = np.random.default_rng(1).uniform(0.2, 1.2, (60, 2))
     np.save(tmp_path / "q.npy", angles)
     poses = tmp_path / "poses.npy"
     shell("--output", poses, "fk", "planar_2r", "--from", tmp_path / "q.npy")
     asked = ["--server", url, "ik", "planar_2r", "--from", poses, "--task", "x,y"]
     at_once = shell.json(*asked)
-    monkeypatch.setattr("app.cli.arms._MOST_AT_ONCE", 50)
-    assert shell.json(*asked) == at_once
     begun = shell.json(*asked, "--job")
     assert begun["kind"] == "ik"
     assert shell.json("--server", url, "jobs", "watch", begun["id"])["state"] == "succeeded"
@@ -109,28 +96,6 @@ def test_many_targets_are_a_job(shell: Shell, url: str, tmp_path: Path, monkeypa
     assert np.array_equal(np.load(tmp_path / "found.npy"), expected)
     assert shell.json("--server", url, "jobs", "cancel", begun["id"])["state"] == "succeeded"
     shell("--server", url, "jobs", "show", begun["id"], code=2)
-
-
-def test_a_key_that_is_not_good_for_jobs_suffices(
-    shell: Shell, own: InProcess, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    problem = {"type": "urn:gelenk:forbidden", "status": 403, "detail": "the key lacks the scope `write`"}
-    refused: list[str] = []
-
-    def answer(request: httpx2.Request) -> httpx2.Response:
-        if "prefer" in request.headers:
-            refused.append(request.url.path)
-            return httpx2.Response(403, json=problem)
-        return own.handle_request(request)
-
-    reader = Client("http://127.0.0.1", transport=httpx2.MockTransport(answer))
-    np.save(tmp_path / "poses.npy", [[0.8 + 0.01 * i, 0.9, 0.0, 0.0, 0.0, 0.0] for i in range(20)])
-    asked = ["ik", "planar_2r", "--from", tmp_path / "poses.npy", "--task", "x,y"]
-    expected = shell.json(*asked)
-    monkeypatch.setattr("app.client.Client", lambda *_, **__: reader)
-    monkeypatch.setattr("app.cli.arms._MOST_AT_ONCE", 10)
-    assert shell.json("--server", "http://gelenk.invalid", *asked) == expected
-    assert refused == ["/v1/robots/planar_2r/ik"]
 
 
 def test_a_job_that_nobody_would_do_is_not_begun(shell: Shell) -> None:
