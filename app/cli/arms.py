@@ -1,6 +1,5 @@
 """Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -8,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.cli.batches import in_calls
-from app.cli.inputs import fields_of, rows_of
+from app.cli.inputs import fields_of
 from app.cli.outputs import Rows, picture_kind
+from app.cli.rows import AXES, ORIENTATIONS, numbers_of, rows_of
 from app.cli.session import (
     BaseOption,
     FieldsOption,
@@ -22,6 +22,8 @@ from app.cli.session import (
 from app.model.errors import InvalidField
 
 if TYPE_CHECKING:
+    from app.cli.rows import Rows as Given
+    from app.client import Client
     from app.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
     from app.schemas.pose import Pose
 
@@ -29,14 +31,6 @@ QOption = Annotated[
     list[str] | None,
     typer.Option("-q", "--at", help="A configuration: a number a joint, [rad] or [m], between commas or blanks."),
 ]
-_AXES = ("x", "y", "z")
-_POSE_COLUMNS = {
-    "quaternion_xyzw": ("qx", "qy", "qz", "qw"),
-    "quaternion_wxyz": ("qw", "qx", "qy", "qz"),
-    "rpy": ("roll", "pitch", "yaw"),
-    "zyz": ("phi", "theta", "psi"),
-    "rotation_vector": ("rx", "ry", "rz"),
-}
 _DEFAULT_POSE = "quaternion_xyzw"
 _TARGETS_FIRST = 50
 """Targets of the first call: one that cannot be reached takes a thousand times as long as one that can."""
@@ -51,20 +45,31 @@ def fk(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    pose_format: Annotated[str, typer.Option("--pose", help=f"Notation: {', '.join(_POSE_COLUMNS)}.")] = _DEFAULT_POSE,
+    pose_format: Annotated[str, typer.Option("--pose", help=f"Notation: {', '.join(ORIENTATIONS)}.")] = _DEFAULT_POSE,
     fields: FieldsOption = None,
 ) -> None:
     """Forward kinematics: the pose of the tip at each configuration."""
-    if pose_format not in _POSE_COLUMNS:
-        raise InvalidField("pose", f"must be one of {', '.join(_POSE_COLUMNS)}")
-    shared, qs = session(context), rows_of(at or [], file, "joint_positions")
-    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
+    if pose_format not in ORIENTATIONS:
+        raise InvalidField("pose", f"must be one of {', '.join(ORIENTATIONS)}")
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
     body |= {"pose_format": pose_format, **fields_of(fields)}
     with shared.robot(robot) as (client, name), shared.bar("fk") as progress:
+        body = _with_configurations(client, name, given, body)
         answer = in_calls(partial(client.fk, name), body, "joint_positions", progress)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
-    shared.write(answer, Rows((*_AXES, *_POSE_COLUMNS[pose_format]), rows, (note,)))
+    shared.write(answer, Rows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
+
+
+def _with_configurations(client: "Client", name: str, given: "Given", body: dict[str, Any]) -> dict[str, Any]:
+    """The fields of a request with the configurations that were given, unless the fields have others."""
+
+    def joint_names() -> list[str]:
+        ends = {end: body[end] for end in ("base_frame", "tip_frame")}
+        return client.fk(name, joint_positions=[], **ends).joint_names
+
+    return {"joint_positions": given.configurations(joint_names), **body}
 
 
 def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
@@ -90,12 +95,13 @@ def jacobian(
     fields: FieldsOption = None,
 ) -> None:
     """The Jacobian at each configuration: rows linear, then angular."""
-    shared, qs = session(context), rows_of(at or [], file, "joint_positions")
-    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip}
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
     body |= {"reference": reference, "representation": representation, **fields_of(fields)}
     with shared.robot(robot) as (client, name), shared.bar("jacobian") as progress:
+        body = _with_configurations(client, name, given, body)
         answer = in_calls(partial(client.jacobian, name), body, "joint_positions", progress)
-    parts = [*(f"v_{axis}" for axis in _AXES), *(f"w_{axis}" for axis in _AXES)]
+    parts = [*(f"v_{axis}" for axis in AXES), *(f"w_{axis}" for axis in AXES)]
     rows = [
         (index, part, *row)
         for index, matrix in enumerate(answer.jacobians)
@@ -105,7 +111,8 @@ def jacobian(
         f"{index}: rank {rank}, condition number {'none' if condition is None else f'{condition:.6g}'}"
         for index, (rank, condition) in enumerate(zip(answer.ranks, answer.condition_numbers, strict=True))
     ]
-    shared.write(answer, Rows(("configuration", "row", *answer.joint_names), rows, notes[:20]))
+    columns = ("configuration", "row", *answer.joint_names)
+    shared.write(answer, Rows(columns, rows, notes[:20], array=answer.jacobians))
 
 
 def ik(
@@ -127,16 +134,16 @@ def ik(
     later: LaterOption = False,
 ) -> None:
     """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
-    shared, numbers = session(context), rows_of(target or [], file, "targets")
+    shared, given = session(context), rows_of(target or [], file, "targets")
     if later:
         shared.check_server()
-    body: dict[str, Any] = {"targets": [target_of(row, task is not None) for row in numbers.tolist()]}
+    body: dict[str, Any] = {"targets": given.targets(position_suffices=task is not None)}
     body |= {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
     body["solutions"] = "all" if every else "one"
     if task is not None:
         body["task"] = task.replace(",", " ").split()
     if seed is not None:
-        body["seeds"] = rows_of([seed], None, "seeds").tolist()
+        body["seeds"] = [numbers_of(seed, "seeds")]
     body |= fields_of(fields)
     with shared.robot(robot) as (client, name):
         if later:
@@ -147,29 +154,6 @@ def ik(
     shared.write(answer, _solutions(answer))
     if any(not result.solutions for result in answer.results):
         raise typer.Exit(UNREACHED)
-
-
-def target_of(row: Sequence[float], position_suffices: bool) -> dict[str, Any]:
-    """The pose that a row of numbers means.
-
-    Raises:
-        InvalidField: It has too few of them, or too many.
-    """
-    position = [float(value) for value in row[:3]]
-    match len(row):
-        case 3 if position_suffices:
-            return {"position": position, "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}
-        case 6:
-            return {"position": position, "rpy": list(row[3:])}
-        case 7:
-            return {"position": position, "quaternion_xyzw": list(row[3:])}
-        case 16:
-            return {"matrix": [list(row[4 * i : 4 * i + 4]) for i in range(4)]}
-    raise InvalidField(
-        "targets",
-        f"a target has {len(row)} numbers; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z w), 16 (a "
-        "matrix by rows), and with --task 3",
-    )
 
 
 def _solutions(answer: "InverseAnswer") -> Rows:
@@ -183,7 +167,10 @@ def _solutions(answer: "InverseAnswer") -> Rows:
             (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
         ]
     reasons = [f"{index}: {result.reason}" for index, result in enumerate(answer.results) if result.reason]
-    return Rows(columns, rows, reasons[:20])
+    # As the API's npy: of each target a solution, or what comes nearest.
+    first = [result.solutions[0] if result.solutions else result.nearest for result in answer.results]
+    array = [one.joint_positions for one in first if one is not None]
+    return Rows(columns, rows, reasons[:20], array=array if len(array) == len(first) == len(rows) else None)
 
 
 def manipulability(
@@ -197,10 +184,11 @@ def manipulability(
     fields: FieldsOption = None,
 ) -> None:
     """How well the tip can move and push at each configuration."""
-    shared, qs = session(context), rows_of(at or [], file, "joint_positions")
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
     kind = None if plot is None else picture_kind(plot)
-    body: dict[str, Any] = {"joint_positions": qs.tolist(), "base_frame": base, "tip_frame": tip, **fields_of(fields)}
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip, **fields_of(fields)}
     with shared.robot(robot) as (client, name):
+        body = _with_configurations(client, name, given, body)
         with shared.bar("manipulability") as progress:
             answer = in_calls(partial(client.manipulability, name), body, "joint_positions", progress)
         if plot is not None and kind is not None:

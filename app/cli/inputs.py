@@ -1,31 +1,29 @@
-"""Robots, tables and configurations, from arguments, files and standard input."""
+"""Robots, tables and fields, from arguments, files and standard input."""
 
-import csv
+import errno
 import json
-import math
+import os
 import re
 import sys
 import tomllib
 import uuid
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from io import BytesIO, StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from app.cli.rows import STDIN, cells_of, number, text_of
 from app.cli.xacro import expanded
-from app.model.errors import InvalidArray, InvalidDhTable, InvalidField
+from app.model.errors import InvalidDhTable, InvalidField, InvalidName
 
 if TYPE_CHECKING:
     from app.client import Client
-    from app.model.arrays import Array
 
-STDIN = "-"
-_TABLES = {".json", ".toml", ".csv"}
-_DESCRIPTIONS = {".urdf", ".xacro", ".xml"}
+_TABLES = (".json", ".toml", ".csv")
+_SUFFIXES = (".urdf", ".xacro", ".xml", ".zip", *_TABLES)
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _NUMBERS = {"a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort"}
-_PI = re.compile(r"([+-]?)(?:(\d+(?:\.\d*)?)\s*\*?\s*)?pi(?:\s*/\s*(\d+(?:\.\d*)?))?")
-_CONVENTION = re.compile(r"#\s*convention\s*[:=]\s*(standard|modified)\s*")
+_TOLD = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
 
 
 @contextmanager
@@ -42,10 +40,11 @@ def robot_named(
     """
     file = Path(argument)
     if not is_file(file):
+        _check_name(file, argument)
         yield argument
         return
     name = f"{name_of(file)[:40]}-{uuid.uuid4().hex[:8]}"
-    if file.suffix == ".zip":
+    if file.suffix.lower() == ".zip":
         client.add_archive(name, file)
     else:
         client.add_robot(name=name, **description_from(file, arguments, packages))
@@ -53,6 +52,16 @@ def robot_named(
         yield name
     finally:
         client.remove_robot(name)
+
+
+def _check_name(file: Path, argument: str) -> None:
+    """Raises where what is meant is a file, or can be neither that nor a name."""
+    if file.suffix.lower() in _SUFFIXES and not file.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), argument)
+    if file.suffix and file.is_file():
+        raise InvalidField("robot", f"{argument!r} must end in one of {', '.join(_SUFFIXES)}")
+    if not _NAME.fullmatch(argument):
+        raise InvalidName(argument)
 
 
 def name_of(file: Path) -> str:
@@ -63,21 +72,21 @@ def name_of(file: Path) -> str:
 
 def description_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> dict[str, Any]:
     """What the API takes of a robot without meshes: `dh` or `urdf`; for the arguments see `robot_named`."""
-    if file.suffix in _TABLES:
+    if file.suffix.lower() in _TABLES:
         return {"dh": table_from(file)}
     return {"urdf": urdf_from(file, arguments, packages)}
 
 
 def is_file(path: Path) -> bool:
     """Whether an argument means a file: it looks like one that a robot can be in."""
-    return path.suffix in {*_TABLES, *_DESCRIPTIONS, ".zip"} and path.is_file()
+    return path.suffix.lower() in _SUFFIXES and path.is_file()
 
 
 def urdf_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
     """A description as URDF."""
-    if file.suffix == ".xacro":
+    if file.suffix.lower() == ".xacro":
         return expanded(file, arguments, packages)
-    return file.read_text(encoding="utf-8")
+    return text_of(file.read_bytes(), file.name)
 
 
 def table_from(file: Path) -> Any:
@@ -86,9 +95,9 @@ def table_from(file: Path) -> Any:
     Raises:
         InvalidDhTable: The file is not one.
     """
-    text = file.read_text(encoding="utf-8")
+    text = text_of(file.read_bytes(), file.name)
     try:
-        match file.suffix:
+        match file.suffix.lower():
             case ".toml":
                 return tomllib.loads(text)
             case ".csv":
@@ -101,15 +110,21 @@ def table_from(file: Path) -> Any:
 
 
 def _table_of_rows(text: str) -> dict[str, Any]:
-    """A table of CSV; a line `# convention: modified` says what it is, else it is a standard one."""
-    lines = text.splitlines()
-    conventions = [found[1] for line in lines if (found := _CONVENTION.fullmatch(line))]
-    rows = csv.DictReader(line for line in lines if line.strip() and not line.startswith("#"))
+    """A table of CSV, as `dh from-urdf` writes it.
+
+    Lines such as `# convention: modified` say what it is beside its rows: `convention`, else it is a standard one, and
+    `base` and `tool`, poses as the API has them.
+    """
+    lines = [line for line in text.splitlines() if line.strip()]
+    told = {found[1]: found[2] for line in lines if (found := _TOLD.fullmatch(line))}
+    header, *rows = [cells_of(line) for line in lines if not line.startswith("#")] or [[]]
     joints = []
-    for number, row in enumerate(rows):
-        cells = {str(name).strip(): (text or "").strip() for name, text in row.items()}
-        joints.append({name: _cell(number, name, text) for name, text in cells.items() if text})
-    return {"convention": conventions[0] if conventions else "standard", "joints": joints}
+    for joint, row in enumerate(rows):
+        if len(row) > len(header):
+            raise InvalidDhTable(f"{len(row)} cells where there are {len(header)} columns", joint)
+        joints.append({name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text})
+    places = {name: json.loads(told[name]) for name in ("base", "tool") if name in told}
+    return {"convention": told.get("convention", "standard"), "joints": joints, **places}
 
 
 def _cell(joint: int, name: str, text: str) -> float | str:
@@ -121,19 +136,6 @@ def _cell(joint: int, name: str, text: str) -> float | str:
         raise InvalidDhTable(f"{text!r} is not a number, and not one such as -pi/2", joint, name) from None
 
 
-def number(text: str) -> float:
-    """A number, or a multiple of π such as `-pi/2` and `3*pi/4`.
-
-    Raises:
-        ValueError: It is neither.
-    """
-    found = _PI.fullmatch(text.strip())
-    if found is None:
-        return float(text)
-    sign, factor, divisor = found.groups()
-    return (-1.0 if sign == "-" else 1.0) * float(factor or 1.0) * math.pi / float(divisor or 1.0)
-
-
 def fields_of(text: str | None) -> dict[str, Any]:
     """Fields of the API from JSON, from a file with it, or from standard input; nothing where nothing is given.
 
@@ -143,9 +145,9 @@ def fields_of(text: str | None) -> dict[str, Any]:
     if text is None:
         return {}
     if text == STDIN:
-        text = sys.stdin.buffer.read().decode()
-    elif not text.lstrip().startswith("{"):
-        text = Path(text).read_text(encoding="utf-8")
+        text = text_of(sys.stdin.buffer.read(), "standard input")
+    elif not text.lstrip().startswith(("{", "[")):
+        text = text_of(Path(text).read_bytes(), text)
     try:
         content = json.loads(text)
     except json.JSONDecodeError as error:
@@ -153,71 +155,6 @@ def fields_of(text: str | None) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise InvalidField("fields", "must be a JSON object")
     return content
-
-
-def rows_of(given: list[str], file: str | None, field: str) -> "Array":
-    """Rows of numbers from arguments, or from a file or standard input: CSV, npy, or JSON.
-
-    Args:
-        given: Each a row: numbers between commas or blanks.
-        file: Path, or `-`.
-        field: What they are, for errors.
-
-    Raises:
-        InvalidArray: There are none, or they are no numbers.
-    """
-    if given and file is not None:
-        raise InvalidField(field, "give them as arguments or as a file, not both")
-    if file is not None:
-        return _rows(_content(file), file)
-    if not given:
-        raise InvalidField(field, "none are given: as an argument, or in a file, `-` for standard input")
-    return _same_length([_numbers(text, f"argument {i + 1}") for i, text in enumerate(given)], field)
-
-
-def _content(file: str) -> bytes:
-    if file == STDIN:
-        return sys.stdin.buffer.read()
-    return Path(file).read_bytes()
-
-
-def _rows(content: bytes, file: str) -> "Array":
-    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
-
-    if content.startswith(b"\x93NUMPY"):
-        array = np.load(BytesIO(content), allow_pickle=False)
-        return np.atleast_2d(np.asarray(array, dtype=float))
-    if content.lstrip().startswith(b"["):
-        return np.atleast_2d(np.asarray(json.loads(content), dtype=float))
-    lines = [row for row in csv.reader(StringIO(content.decode())) if any(cell.strip() for cell in row)]
-    if lines and not _is_number(lines[0][0].split()[0] if lines[0][0].split() else ""):
-        lines = lines[1:]  # names of columns
-    return _same_length([_numbers(",".join(row), f"line {i + 1}") for i, row in enumerate(lines)], file)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        number(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _numbers(text: str, where: str) -> list[float]:
-    words = text.replace(",", " ").split()
-    try:
-        return [number(word) for word in words]
-    except ValueError:
-        raise InvalidArray(f"{where}: {text.strip()[:80]!r} holds something that is not a number") from None
-
-
-def _same_length(rows: list[list[float]], what: str) -> "Array":
-    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
-
-    if not rows or len({len(row) for row in rows}) > 1:
-        counts = sorted({len(row) for row in rows})
-        raise InvalidArray(f"{what}: all rows must have as many numbers; these have {counts or 'none'}")
-    return np.array(rows)
 
 
 def pairs_of(given: list[str], field: str, value: Callable[[str], Any] = str) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from rich.console import Console
 
 from app.calls.refusals import NotAnswering, Refused
 from app.cli import arms, ask, bench, jobs, motions, robots, tables
-from app.cli.outputs import Format, Output
+from app.cli.outputs import Format, Output, check_place
 from app.cli.session import Session
 from app.model.errors import InvalidInput, KinematicsError, NotFound
 
@@ -24,6 +24,7 @@ EXIT_CODES = (
     "done to its end); 2, something is wrong with what was asked; 3, no service answers; 4, the service refuses for "
     "reasons of its own (a key is missing, it has too much to do), or something went wrong; 130, Ctrl-C."
 )
+_WRONG_FILES = (FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
 _NO_FAULT_OF_THE_CALL = frozenset({HTTPStatus.UNAUTHORIZED, HTTPStatus.TOO_MANY_REQUESTS})
 
 cli = typer.Typer(
@@ -54,6 +55,8 @@ def options(
     package: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=FOLDER of $(find NAME).")] = None,
 ) -> None:
     """What all commands share; before the command's name."""
+    if output is not None:
+        check_place(output)
     context.obj = Session(server, Output(form, output), arg or (), package or ())
 
 
@@ -83,10 +86,9 @@ def main() -> None:
         _end(error.detail, _NO_SERVICE)
     except KinematicsError as error:
         _end(error.detail, _ASKED_WRONG if _is_the_callers(error) else _FAILED)
-    except BrokenPipeError:
-        sys.stderr.close()  # whoever read the answer has had enough of it
     except OSError as error:
-        _end(f"{error.filename}: {error.strerror}" if error.filename else str(error), _ASKED_WRONG)
+        named = f"{error.filename}: {error.strerror}" if error.filename else error.strerror or str(error)
+        _end(named, _ASKED_WRONG if isinstance(error, _WRONG_FILES) else _FAILED)
 
 
 def _is_the_callers(error: KinematicsError) -> bool:

@@ -7,10 +7,12 @@ from typing import Annotated, Any
 
 import typer
 
-from app.cli.arms import UNREACHED, target_of
-from app.cli.inputs import fields_of, rows_of
+from app.cli.arms import UNREACHED
+from app.cli.inputs import fields_of
 from app.cli.outputs import Format, Rows, picture_kind
+from app.cli.rows import numbers_of, target_of
 from app.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
+from app.model.errors import InvalidField
 
 
 def trajectory(
@@ -59,17 +61,15 @@ def trajectory(
 
 
 def _motion(start: str, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
-    q = rows_of([start], None, "start")[0].tolist()
+    q = numbers_of(start, "start")
     if motion is not None:
+        if joint or line:
+            raise InvalidField("motion", "has the segments: give no --joint and no --line beside it")
         return {"start": q, **fields_of(motion)}
-    segments: list[dict[str, Any]] = [
-        {"type": "joint", "target": row} for text in joint for row in rows_of([text], None, "joint").tolist()
-    ]
-    segments += [
-        {"type": "line", "target": target_of(row, False)}
-        for text in line
-        for row in rows_of([text], None, "line").tolist()
-    ]
+    segments: list[dict[str, Any]] = [{"type": "joint", "target": numbers_of(text, "joint")} for text in joint]
+    segments += [{"type": "line", "target": target_of(numbers_of(text, "line"), False)} for text in line]
+    if not segments:
+        raise InvalidField("segments", "none are given: --joint, --line, or --motion with all of them")
     return {"start": q, "segments": segments}
 
 

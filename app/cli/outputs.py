@@ -1,7 +1,9 @@
 """Answers as tables for people, and as JSON, CSV and npy for programs."""
 
 import csv
+import errno
 import json
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -43,11 +45,15 @@ class Rows:
         columns: Their names.
         rows: Numbers and words.
         notes: Sentences about all of them, for people.
+        comments: Lines in front of them in CSV, for programs that read it again.
+        array: Numbers of another shape than the rows, for npy.
     """
 
     columns: Sequence[str]
     rows: Sequence[Sequence[Any]]
     notes: Sequence[str] = ()
+    comments: Sequence[str] = ()
+    array: Sequence[Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +73,7 @@ class Output:
         """How it is written after all."""
         if self.form is not None:
             return self.form
-        suffix = "" if self.file is None else self.file.suffix.removeprefix(".")
+        suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
         return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
 
     def write(self, content: Any, rows: Rows) -> None:
@@ -96,6 +102,8 @@ class Output:
         """An array as npy."""
         import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
 
+        if self.file is None and sys.stdout.isatty():
+            raise InvalidField("format", "npy is nothing to look at: give it a file with --output, or a pipe")
         stream = BytesIO()
         np.save(stream, array, allow_pickle=False)
         self.put(stream.getvalue())
@@ -105,8 +113,12 @@ class Output:
         if self.file is not None:
             self.file.write_bytes(content)
             return
-        sys.stdout.buffer.write(content)
-        sys.stdout.buffer.flush()
+        try:
+            sys.stdout.buffer.write(content)
+            sys.stdout.buffer.flush()
+        except BrokenPipeError:
+            # Whoever reads the answer has had enough of it: what is left goes nowhere, and the code says what it said.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def _show(self, rows: Rows) -> None:
         table = Table(*map(_word, rows.columns), box=None, header_style="bold", pad_edge=False)
@@ -114,11 +126,18 @@ class Output:
             table.add_row(*(_word(cell) for cell in row))
         left = len(rows.rows) - _SHOWN
         notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
-        if self.file is None:
-            _write(Console(), table, notes)
-            return
-        with self.file.open("w", encoding="utf-8") as file:
-            _write(Console(file=file, width=200), table, notes)
+        console = Console() if self.file is None else Console(file=StringIO(), width=200)
+        # Not by the console itself, which ends with 1, "the answer is no", where nobody reads on.
+        with console.capture() as shown:
+            _write(console, table, notes)
+        self.put(shown.get().encode())
+
+
+def check_place(file: Path) -> None:
+    """Raises OSError where a file cannot be: before the work, not behind it."""
+    wrong = errno.EISDIR if file.is_dir() else errno.ENOENT if not file.parent.is_dir() else 0
+    if wrong:
+        raise OSError(wrong, os.strerror(wrong), str(file))
 
 
 def picture_kind(file: Path) -> Literal["svg", "png"]:
@@ -126,8 +145,10 @@ def picture_kind(file: Path) -> Literal["svg", "png"]:
 
     Raises:
         InvalidField: None that there is.
+        OSError: There is no place for it.
     """
-    match file.suffix:
+    check_place(file)
+    match file.suffix.lower():
         case ".svg":
             return "svg"
         case ".png":
@@ -155,6 +176,7 @@ def _word(cell: Any) -> str:
 
 def _csv(rows: Rows) -> bytes:
     text = StringIO()
+    text.writelines(f"# {comment}\n" for comment in rows.comments)
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(rows.columns)
     writer.writerows(rows.rows)
@@ -164,6 +186,8 @@ def _csv(rows: Rows) -> bytes:
 def _numbers(rows: Rows) -> "Array":
     import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
 
+    if rows.array is not None:
+        return np.array(rows.array, dtype=float)
     numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
     if len(numbers) < len(rows.columns):
         words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)

@@ -25,6 +25,8 @@ def robots(
 ) -> None:
     """List the robots, or tell about one."""
     shared = session(context)
+    if urdf and robot is None:
+        raise InvalidField("urdf", "is that of one robot: name it")
     if robot is None:
         with shared.client() as client:
             answer = client.robots()
@@ -73,7 +75,7 @@ def add(
     shared, name = session(context), name or name_of(file)
     about: dict[str, Any] = {"description": description, "default_chain": ends}
     with shared.client() as client:
-        if file.suffix == ".zip":
+        if file.suffix.lower() == ".zip":
             info = (client.replace_archive if replace else client.add_archive)(name, file, **about)
         else:
             if ends is None:

@@ -27,9 +27,11 @@ def _table(file: Path) -> Any:
 
 
 def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> Rows:
-    rows = [(row.name, row.type, row.a, row.alpha, row.d, row.theta, row.lower, row.upper) for row in dh.joints]
-    columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper")
-    return Rows(columns, rows, (f"{dh.convention} convention", *notes))
+    columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort")
+    rows = [[getattr(row, column) for column in columns] for row in dh.joints]
+    places = {"base": dh.base, "tool": dh.tool}
+    told = [f"{name}: {pose.model_dump_json(exclude_unset=True)}" for name, pose in places.items() if pose is not None]
+    return Rows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
 
 
 @tables.command("to-urdf")

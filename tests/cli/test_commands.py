@@ -165,7 +165,7 @@ def test_what_cannot_be_reached_ends_with_one(shell: Shell) -> None:
     [
         (["fk", "planar_9r", "-q", "1 2"], "there is no robot named 'planar_9r'"),
         (["fk", "planar_2r", "-q", "1 2 3"], "has 3 numbers where the chain has 2 joints"),
-        (["fk", "planar_2r", "-q", "1 two"], "holds something that is not a number"),
+        (["fk", "planar_2r", "-q", "1 two"], "holds something that is not a finite number"),
         (["fk", "planar_2r"], "none are given"),
         (["fk", "planar_2r", "-q", "1 2", "-q", "1"], "all rows must have as many numbers"),
         (["fk", "planar_2r", "--from", "missing.csv"], "missing.csv: No such file"),
