@@ -33,22 +33,22 @@ class Settings:
         held_body_bytes: Large request bodies of each worker process that come in or wait for their answer, together;
             one of the largest has room in any case (`GELENK_HELD_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
-        crew_processes: Processes of each worker process for what may take long (`GELENK_CREW_PROCESSES`).
-        crew_waiting: Requests that may wait for one of these; more are refused (`GELENK_CREW_WAITING`).
+        crew_processes: Processes of each worker process for what may take long: its crew (`GELENK_CREW_PROCESSES`).
+        crew_waiting: Requests that may wait for one of the crew; more are refused (`GELENK_CREW_WAITING`).
         connections: Open connections of each worker process; where there are more, those are closed that wait longest
             for their client (`GELENK_CONNECTIONS`).
         requests_waiting: Requests of each worker process that may wait to be begun (`GELENK_REQUESTS_WAITING`).
-        client_requests: Requests of one client, told by its key or else by its address, that may wait for one of these
-            or be worked on (`GELENK_CLIENT_REQUESTS`).
-        crew_memory_bytes: What each of these may take beside the program itself (`GELENK_CREW_MEMORY_BYTES`).
-        request_seconds: How long a request may wait for one of these, and may then take, [s]
+        client_requests: Requests of one client, told by its key or else by its address, that may wait for one of the
+            crew or be worked on (`GELENK_CLIENT_REQUESTS`).
+        crew_memory_bytes: What each of the crew may take beside the program itself (`GELENK_CREW_MEMORY_BYTES`).
+        request_seconds: How long a request may wait for one of the crew, and may then take, [s]
             (`GELENK_REQUEST_SECONDS`).
         job_processes: Processes that the jobs of each worker process share, started when first needed
             (`GELENK_JOB_PROCESSES`).
         running_jobs: Jobs of each worker process that run at a time (`GELENK_RUNNING_JOBS`).
         unfinished_jobs: Jobs of all worker processes that wait or run; more are refused (`GELENK_UNFINISHED_JOBS`).
         kept_jobs: Jobs that are kept, the oldest finished ones go first (`GELENK_KEPT_JOBS`).
-        kept_job_bytes: Bytes of these (`GELENK_KEPT_JOB_BYTES`).
+        kept_job_bytes: Bytes of all jobs that are kept (`GELENK_KEPT_JOB_BYTES`).
         kept_job_days: How long a finished job is kept, [days] (`GELENK_KEPT_JOB_DAYS`).
         job_bytes: Bytes of the finished parts of one job, which it goes on from after a restart (`GELENK_JOB_BYTES`).
         job_seconds: How long a job may run in one go, [s] (`GELENK_JOB_SECONDS`).

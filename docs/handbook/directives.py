@@ -11,6 +11,7 @@ from docutils import nodes
 from docutils.parsers.rst import directives
 from matplotlib.figure import Figure
 from sphinx.application import Sphinx
+from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 from app.calls.call import Call
@@ -22,6 +23,7 @@ from docs.handbook.written import DIGITS, disagreement
 _PICTURES = "_pictures"
 _SVG, _PNG = b"<?xml", b"\x89PNG"
 
+_logger = logging.getLogger(__name__)
 _sessions: dict[str, Session] = {}
 
 
@@ -34,12 +36,22 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("answer", Answer)
     app.add_role("is", Is())
     app.connect("source-read", _begin)
+    app.connect("doctree-read", _look_for_robots)
     app.connect("build-finished", _end)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}
 
 
 def _begin(_: Sphinx, page: str, __: list[str]) -> None:
     _sessions.pop(page, None)
+
+
+def _look_for_robots(app: Sphinx, _: nodes.document) -> None:
+    """A page that leaves a robot behind would change what other pages see."""
+    page = app.env.docname
+    if page in _sessions:
+        robots = service().robots().robots
+        if left := [robot.name for robot in robots if robot.source == "uploaded"]:
+            _logger.warning("it leaves robots behind: %s", ", ".join(left), location=page)
 
 
 def _end(_: Sphinx, __: Exception | None) -> None:

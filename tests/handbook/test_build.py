@@ -69,6 +69,11 @@ gelenk.robot("ur5").name
 1 / 0
 ```
 
+```{run}
+row = {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}
+gelenk.add_robot(name="forgotten", dh={"convention": "standard", "joints": [row]}).name
+```
+
 Stated is {is}`3 = 1 + 1`, and {is}`nothing`, and {is}`1 = unheard`,
 and {is}`1 = gelenk.fk("ur5", joint_positions=[[0.0]])`, and a [dead link](nowhere.md).
 
@@ -94,6 +99,7 @@ FAULTS = (
     "nowhere.md",
     "it gives no picture",
     "stated is '5', and the call gives 4",
+    "it leaves robots behind: forgotten",
     "cannot be set",
     "isn't included in any toctree",
 )
