@@ -1,8 +1,8 @@
 """Names of the reference become links where a page first has them in code letters.
 
 Settings (`GELENK_DATA_DIR`), kinds of problems (`unknown-frame`), objects (`InverseResult`), and operations by their
-path: `POST /v1/dh/compare`, `/readyz`, or `…/velocity` behind a `POST /v1/robots/{robot}/…`. Where pages are not built
-they stay what they are, code letters.
+path: `POST /v1/dh/compare`, `/readyz`, or `…/velocity` behind a `POST /v1/robots/{robot}/…`. A page of the reference
+is not linked to itself. Where pages are not built they stay what they are, code letters.
 """
 
 import re
@@ -21,7 +21,6 @@ from docs.handbook.operations import Entry, entries
 from docs.handbook.schema_words import anchor
 from docs.handbook.session import service
 
-_REFERENCE = "reference/"
 _SETTING = re.compile(r"GELENK_([A-Z_]+)")
 _KIND = re.compile(r"[a-z]+(?:-[a-z]+)+")
 _OBJECT = re.compile(r"(?:[A-Z][a-z]+)+")
@@ -46,14 +45,12 @@ class NamesBecomeLinks(SphinxPostTransform):
     def run(self, **_: Any) -> None:
         """Look through the page."""
         page = self.env.docname
-        if page.startswith(_REFERENCE):
-            return
         places, met, prefix = self.env.domaindata["std"]["anonlabels"], set[str](), ("", "")
         for literal in [*self.document.findall(nodes.literal)]:
             if opening := _PREFIX.fullmatch(literal.astext()):
                 prefix = (opening[1], opening[2])
             place = place_of(literal.astext(), prefix)
-            if place is None or place not in places or _is_linked(literal):
+            if place is None or place not in places or places[place][0] == page or _is_linked(literal):
                 continue
             if place not in met:
                 met.add(place)
