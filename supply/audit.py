@@ -22,13 +22,7 @@ _SECONDS = 300
 
 def main() -> None:
     """Parse the arguments, ask, and report."""
-    parser = argparse.ArgumentParser(prog="./dev audit", description=__doc__)
-    parser.add_argument("--if-reachable", action="store_true", help="succeed where nobody can be asked")
-    audited = parser.add_mutually_exclusive_group()
-    audited.add_argument("--lock", type=Path, default=RUN_LOCK, help="another lock file")
-    audited.add_argument("--installed", type=Path, metavar="FOLDER", help="a folder of packages, as in an image")
-    parser.add_argument("--advisories", type=Path, metavar="FOLDER", help="advisories as OSV writes them")
-    arguments, options = parser.parse_known_args()
+    arguments, options = parser().parse_known_args()
     what = lock_file(arguments.lock) if arguments.installed is None else ["--path", str(arguments.installed)]
     if arguments.advisories is None:
         report(asked(*what, *options), arguments.if_reachable)
@@ -40,6 +34,17 @@ def main() -> None:
     print(f"advisories on {len(known)} packages, the last one of {advisories.newest(known)}")
     with advisories.served(known) as url:
         report(asked(*what, "--vulnerability-service", "osv", "--osv-url", url, *options), arguments.if_reachable)
+
+
+def parser() -> argparse.ArgumentParser:
+    """Of what is told to `./dev audit`; what it does not know is for pip-audit."""
+    made = argparse.ArgumentParser(prog="./dev audit", description=__doc__)
+    made.add_argument("--if-reachable", action="store_true", help="succeed where nobody can be asked")
+    audited = made.add_mutually_exclusive_group()
+    audited.add_argument("--lock", type=Path, default=RUN_LOCK, help="another lock file")
+    audited.add_argument("--installed", type=Path, metavar="FOLDER", help="a folder of packages, as in an image")
+    made.add_argument("--advisories", type=Path, metavar="FOLDER", help="advisories as OSV writes them")
+    return made
 
 
 def report(packages: Sequence[dict[str, Any]], if_reachable: bool) -> None:
