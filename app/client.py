@@ -12,23 +12,24 @@ is sent again where that is safe.
 """
 
 import asyncio
+import contextlib
 import os
-import random
+import threading
 import time
-from collections.abc import AsyncIterator, Callable, Iterator
-from http import HTTPStatus
+from collections.abc import AsyncGenerator, Callable, Iterator
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
 import httpx2
-import orjson
 
 from app.calls.arrays import Arrays, AsyncArrays
-from app.calls.call import Call, Reply
+from app.calls.call import Call
 from app.calls.exchange import segment
 from app.calls.jobs import AsyncJobs, Jobs
 from app.calls.operations import Operations
-from app.calls.refusals import NotAnswering, refusal
+from app.calls.patience import AT_ONCE, TIMEOUT, Patience
+from app.calls.reading import answer
+from app.model.errors import InvalidField, quoted
 from app.schemas.jobs import JobInfo
 
 T = TypeVar("T")
@@ -37,30 +38,28 @@ URL_VARIABLE = "GELENK_SERVER"
 KEY_VARIABLE = "GELENK_KEY"
 DEFAULT_URL = "http://127.0.0.1:8000"
 
-_TIMEOUT = httpx2.Timeout(5.0, read=120.0, write=120.0)
-"""[s]; the service ends what takes too long by itself, and says so."""
-_ATTEMPTS = 4
-_FIRST_PAUSE = 0.2
-_LONGEST_PAUSE = 30.0
-_COME_AGAIN = {HTTPStatus.TOO_MANY_REQUESTS, HTTPStatus.SERVICE_UNAVAILABLE}
-_NEVER_SENT = (httpx2.ConnectError, httpx2.ConnectTimeout, httpx2.PoolTimeout)
-_BROKEN_OFF = (httpx2.ReadError, httpx2.WriteError, httpx2.RemoteProtocolError, httpx2.CloseError)
+_BETWEEN_STREAMS = 1.0
+"""[s]; a stream of events that was broken off is not asked for again at once."""
 
 
 class _Settings:
     """Where the service is, and what every request carries."""
 
     def __init__(self, url: str | None, key: str | None) -> None:
-        self.url = (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).rstrip("/")
-        key = key or os.environ.get(KEY_VARIABLE)
-        self.headers = {} if key is None else {"Authorization": f"Bearer {key}"}
+        self.url = (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip().rstrip("/")
+        _check_address(self.url)
+        key = (key or os.environ.get(KEY_VARIABLE) or "").strip()
+        if not (key.isascii() and key.isprintable()):
+            raise InvalidField("key", "it has characters that no key has")
+        self.headers = {"Authorization": f"Bearer {key}"} if key else {}
 
     def options(self, transport: Any) -> dict[str, Any]:
         """For a client of httpx; what a laptop is set up to do with other hosts is not meant for a lab's service."""
         return {
             "base_url": f"{self.url}/",
             "headers": self.headers,
-            "timeout": _TIMEOUT,
+            "timeout": TIMEOUT,
+            "limits": httpx2.Limits(max_keepalive_connections=AT_ONCE),
             "transport": transport,
             "trust_env": False,
         }
@@ -73,53 +72,25 @@ def _request(http: httpx2.Client | httpx2.AsyncClient, call: Call[Any]) -> httpx
     return http.build_request(call.method, call.path, params=call.query or None, headers=call.headers, **content)
 
 
-def _answer(call: Call[T], response: httpx2.Response) -> T:
-    """What has come back, read.
-
-    Raises:
-        Refused: The service refuses the call.
-    """
-    if response.is_success:
-        return call.read(Reply(response.content, response.headers))
-    raise refusal(_problem(response))
-
-
-def _problem(response: httpx2.Response) -> dict[str, Any]:
-    """The problem; what is in front of the service may answer with something else."""
+def _check_address(url: str) -> None:
     try:
-        problem = orjson.loads(response.content)
-    except orjson.JSONDecodeError:
-        problem = None
-    if isinstance(problem, dict) and "detail" in problem:
-        return problem
-    return {"status": response.status_code, "detail": f"status {response.status_code} without a reason"}
+        parsed = httpx2.URL(url)
+    except httpx2.InvalidURL:
+        parsed = httpx2.URL()
+    if parsed.scheme not in {"http", "https"} or not parsed.host:
+        raise InvalidField("url", f"{quoted(url)} is no address of a service, such as {DEFAULT_URL}")
 
 
-class _Patience:
-    """How long to wait before a call is sent again, and when to give up."""
+class _Track:
+    """What is known of a job that is watched."""
 
-    def __init__(self, call: Call[Any], url: str) -> None:
-        self._call, self._url, self._tried = call, url, 0
+    def __init__(self) -> None:
+        self._last: JobInfo | None = None
 
-    def after_answer(self, response: httpx2.Response) -> float | None:
-        """Seconds, where the service asks to come again; None where its answer stands."""
-        self._tried += 1
-        wanted = response.headers.get("retry-after", "")
-        if response.status_code not in _COME_AGAIN or not wanted.isdigit() or self._tried >= _ATTEMPTS:
-            return None
-        return min(float(wanted), _LONGEST_PAUSE)
-
-    def after_failure(self, error: httpx2.TransportError) -> float:
-        """Seconds.
-
-        Raises:
-            NotAnswering: It was tried often enough, or the call might have been done already.
-        """
-        self._tried += 1
-        is_safe = isinstance(error, _NEVER_SENT) or (self._call.is_repeatable and isinstance(error, _BROKEN_OFF))
-        if not is_safe or self._tried >= _ATTEMPTS:
-            raise NotAnswering(self._url, str(error) or type(error).__name__) from error
-        return _FIRST_PAUSE * 2.0**self._tried * random.uniform(0.5, 1.0)  # noqa: S311 - spreads clients, hides nothing
+    def is_new(self, info: JobInfo) -> bool:
+        """Whether it is further on: a stream that was broken off begins with what is known."""
+        last, self._last = self._last, info
+        return info != last
 
 
 class Client(Operations):
@@ -137,7 +108,11 @@ class Client(Operations):
         settings = _Settings(url, key)
         self.url = settings.url
         self._http = httpx2.Client(**settings.options(transport))
+        self._turns = threading.BoundedSemaphore(AT_ONCE)
         self.arrays, self.jobs = Arrays(self), Jobs(self)
+
+    def __repr__(self) -> str:
+        return f"Client({self.url!r})"
 
     def __enter__(self) -> Self:
         return self
@@ -156,36 +131,43 @@ class Client(Operations):
             Refused: The service refuses it; an instance of the core's own exception where there is one.
             NotAnswering: The service cannot be reached, or breaks off.
         """
-        patience = _Patience(call, self.url)
+        patience = Patience(call, self.url)
         while True:
             try:
-                response = self._http.send(_request(self._http, call))
+                with self._turns:
+                    response = self._http.send(_request(self._http, call))
             except httpx2.TransportError as error:
                 pause: float | None = patience.after_failure(error)
             else:
                 pause = patience.after_answer(response)
             if pause is None:
-                return _answer(call, response)
+                return answer(call, response, self.url)
             time.sleep(pause)
 
     def watch(self, job: str) -> Iterator[JobInfo]:
-        """A job, whenever it is further on, until it has come to its end."""
-        last = None
+        """A job, whenever it is further on, until it has come to its end.
+
+        Raises:
+            Refused: There is no such job.
+            NotAnswering: The service is gone for good.
+        """
+        track = _Track()
         while True:
-            try:
-                with self._http.stream("GET", _events_path(job), timeout=_EVENTS) as response:
-                    if not response.is_success:
-                        response.read()
-                        raise refusal(_problem(response))
-                    for event in httpx2.EventSource(response):
-                        info = JobInfo.model_validate_json(event.data, extra="ignore")
-                        if info != last:  # a stream that was broken off begins with what is known
-                            yield info
-                        if event.event == "finished":
-                            return
-                        last = info
-            except httpx2.TransportError:
-                self.job(job)  # raises where the service is gone for good; else the stream goes on
+            stream = self._http.stream("GET", _events_path(job), timeout=_EVENTS)
+            with contextlib.suppress(httpx2.TransportError), stream as response:
+                for event in httpx2.EventSource(response):
+                    info = JobInfo.model_validate_json(event.data, extra="ignore")
+                    if track.is_new(info):
+                        yield info
+                    if event.event == "finished":
+                        return
+            # The stream was refused or broken off, or something on the way lets none through.
+            info = self.job(job)
+            if track.is_new(info):
+                yield info
+            if info.finished is not None:
+                return
+            time.sleep(_BETWEEN_STREAMS)
 
     def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
         """A job that has come to its end.
@@ -209,7 +191,11 @@ class AsyncClient(Operations):
         settings = _Settings(url, key)
         self.url = settings.url
         self._http = httpx2.AsyncClient(**settings.options(transport))
+        self._turns = asyncio.BoundedSemaphore(AT_ONCE)
         self.arrays, self.jobs = AsyncArrays(self), AsyncJobs(self)
+
+    def __repr__(self) -> str:
+        return f"AsyncClient({self.url!r})"
 
     async def __aenter__(self) -> Self:
         return self
@@ -225,42 +211,46 @@ class AsyncClient(Operations):
 
     async def send(self, call: Call[T]) -> T:
         """The answer to a call; raises as `Client.send` does."""
-        patience = _Patience(call, self.url)
+        patience = Patience(call, self.url)
         while True:
             try:
-                response = await self._http.send(_request(self._http, call))
+                async with self._turns:
+                    response = await self._http.send(_request(self._http, call))
             except httpx2.TransportError as error:
                 pause: float | None = patience.after_failure(error)
             else:
                 pause = patience.after_answer(response)
             if pause is None:
-                return _answer(call, response)
+                return answer(call, response, self.url)
             await asyncio.sleep(pause)
 
-    async def watch(self, job: str) -> AsyncIterator[JobInfo]:
+    async def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
         """A job, whenever it is further on, until it has come to its end."""
-        last = None
+        track = _Track()
         while True:
-            try:
-                async with self._http.stream("GET", _events_path(job), timeout=_EVENTS) as response:
-                    if not response.is_success:
-                        await response.aread()
-                        raise refusal(_problem(response))
+            stream = self._http.stream("GET", _events_path(job), timeout=_EVENTS)
+            with contextlib.suppress(httpx2.TransportError):
+                async with stream as response:
                     async for event in httpx2.EventSource(response):
                         info = JobInfo.model_validate_json(event.data, extra="ignore")
-                        if info != last:  # a stream that was broken off begins with what is known
+                        if track.is_new(info):
                             yield info
                         if event.event == "finished":
                             return
-                        last = info
-            except httpx2.TransportError:
-                await self.job(job)
+            # The stream was refused or broken off, or something on the way lets none through.
+            info = await self.job(job)
+            if track.is_new(info):
+                yield info
+            if info.finished is not None:
+                return
+            await asyncio.sleep(_BETWEEN_STREAMS)
 
     async def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
         """A job that has come to its end; for its arguments see `Client.wait`."""
-        async for info in self.watch(job):
-            if progress is not None:
-                progress(info)
+        async with contextlib.aclosing(self.watch(job)) as told:
+            async for info in told:
+                if progress is not None:
+                    progress(info)
         return info
 
 

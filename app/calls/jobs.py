@@ -2,8 +2,8 @@
 
 import functools
 import inspect
-from collections.abc import AsyncIterator, Callable, Coroutine, Iterator
-from contextlib import suppress
+from collections.abc import AsyncGenerator, Callable, Coroutine, Iterator
+from contextlib import aclosing, suppress
 from types import TracebackType
 from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
 
@@ -35,7 +35,7 @@ class Watching(Blocking, Protocol):
 class AwaitedWatching(Awaited, Protocol):
     """A client that is awaited."""
 
-    def watch(self, job: str) -> AsyncIterator[JobInfo]:
+    def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
         """A job, whenever it is further on."""
         ...
 
@@ -107,16 +107,18 @@ class AsyncJob(Generic[A]):
         """By which the service knows it."""
         return self.info.id
 
-    async def __aiter__(self) -> AsyncIterator[JobInfo]:
-        async for info in self._client.watch(self.id):
-            self.info = info
-            yield info
+    async def __aiter__(self) -> AsyncGenerator[JobInfo, None]:
+        async with aclosing(self._client.watch(self.id)) as told:
+            async for info in told:
+                self.info = info
+                yield info
 
     async def wait(self, progress: Progress | None = None) -> JobInfo:
         """As that of `Job`."""
-        async for info in self:
-            if progress is not None:
-                progress(info)
+        async with aclosing(aiter(self)) as told:
+            async for info in told:
+                if progress is not None:
+                    progress(info)
         return self.info
 
     async def result(self, progress: Progress | None = None) -> A:

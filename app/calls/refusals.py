@@ -7,7 +7,7 @@ from typing import Any
 
 from app.model.errors import KinematicsError, kinds
 
-_PREFIX = "urn:gelenk:"
+KIND_PREFIX = "urn:gelenk:"
 _STANDARD = frozenset({"type", "title", "status", "detail", "instance", "request_id"})
 
 
@@ -42,7 +42,7 @@ class Refused(KinematicsError):
     @property
     def kind(self) -> str:
         """Such as `unknown-frame`."""
-        return str(self.problem.get("type", "")).removeprefix(_PREFIX)
+        return str(self.problem.get("type", "")).removeprefix(KIND_PREFIX)
 
     def facts(self) -> dict[str, object]:
         """What the service tells beside the sentence."""
@@ -73,7 +73,7 @@ class NotAnswering(KinematicsError):
 
 def refusal(problem: Mapping[str, Any]) -> Refused:
     """The exception that a problem stands for."""
-    kind = str(problem.get("type", "")).removeprefix(_PREFIX)
+    kind = str(problem.get("type", "")).removeprefix(KIND_PREFIX)
     return _classes().get(kind, Refused)(problem)
 
 
