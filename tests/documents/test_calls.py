@@ -5,7 +5,9 @@ import os
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from tests.documents.agreement import agree
@@ -73,6 +75,16 @@ def test_a_key_is_made_and_used(tmp_path: Path) -> None:
             line = f"{ask.replace('gelenk.anna.…', key)} --silent --output answer --write-out '%{{http_code}}' {there}"
             run = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=True)
             assert run.stdout == status
+
+
+def test_a_map_is_asked_for_in_jobs(url: str) -> None:
+    """As the page on many machines has it, with fewer targets."""
+    (program,) = blocks(Path("docs/how-to/reachability-map-on-32-machines.md"), "python")
+    names: dict[str, Any] = {}
+    exec(program.replace("https://lab.example.org", url).replace("…", ""), names)  # noqa: S102 - our own page
+    targets = np.tile([0.4, 0.1, 0.5, 1.0, 0.0, 0.0, 0.0], (50, 1))
+    with names["service"]:
+        assert names["finish"](names["begin"](targets)).shape == (50, 7)
 
 
 class _Agreement(doctest.OutputChecker):
