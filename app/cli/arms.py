@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.cli.batches import in_calls
+from app.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
 from app.cli.inputs import fields_of
 from app.cli.outputs import Rows, picture_kind
 from app.cli.rows import AXES, ORIENTATIONS, numbers_of, rows_of
@@ -45,7 +46,12 @@ def fk(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    pose_format: Annotated[str, typer.Option("--pose", help=f"Notation: {', '.join(ORIENTATIONS)}.")] = _DEFAULT_POSE,
+    pose_format: Annotated[
+        str,
+        typer.Option(
+            "--pose", help=f"Notation: {', '.join(ORIENTATIONS)}.", autocompletion=one_of(tuple(ORIENTATIONS))
+        ),
+    ] = _DEFAULT_POSE,
     fields: FieldsOption = None,
 ) -> None:
     """Forward kinematics: the pose of the tip at each configuration."""
@@ -90,8 +96,12 @@ def jacobian(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    reference: Annotated[str, typer.Option(help="local_world_aligned, local or world.")] = "local_world_aligned",
-    representation: Annotated[str, typer.Option(help="geometric, zyz or rpy.")] = "geometric",
+    reference: Annotated[
+        str, typer.Option(help=f"One of {', '.join(REFERENCES)}.", autocompletion=one_of(REFERENCES))
+    ] = REFERENCES[0],
+    representation: Annotated[
+        str, typer.Option(help=f"One of {', '.join(REPRESENTATIONS)}.", autocompletion=one_of(REPRESENTATIONS))
+    ] = REPRESENTATIONS[0],
     fields: FieldsOption = None,
 ) -> None:
     """The Jacobian at each configuration: rows linear, then angular."""
@@ -125,7 +135,9 @@ def ik(
     file: FromOption = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    method: Annotated[str, typer.Option(help="auto, analytic, newton, gradient, …")] = "auto",
+    method: Annotated[
+        str, typer.Option(help=f"One of {', '.join(METHODS)}.", autocompletion=one_of(METHODS))
+    ] = METHODS[0],
     every: Annotated[bool, typer.Option("--all", help="All solutions, not only one.")] = False,
     seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
     task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.cli.completion import robots_beginning_with
 from app.cli.inputs import fields_of
 from app.cli.outputs import Output
 from app.cli.session import session
@@ -38,7 +39,10 @@ def ask(
         str, typer.Argument(help="Such as velocity; a wrong one is told all.", autocompletion=_beginning)
     ],
     fields: Annotated[str | None, typer.Argument(help="JSON, or a file with it; - is standard input.")] = None,
-    robot: Annotated[str | None, typer.Option(help="The robot, where the operation is about one.")] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(help="The robot, where the operation is about one.", autocompletion=robots_beginning_with),
+    ] = None,
 ) -> None:
     """Any operation of the API, with its fields as JSON; the answer is JSON too."""
     shared, body = session(context), fields_of(fields)

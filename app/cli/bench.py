@@ -1,5 +1,6 @@
 """How quickly calls are answered: by this process, or by a server and the network to it."""
 
+import json
 import statistics
 import time
 from collections.abc import Callable
@@ -45,7 +46,8 @@ def bench(
     )
     told = [dict(zip(_KEYS, row, strict=True)) for row in rows]
     shown = [(operation, round(single, 3), round(each, 3), round(ratio)) for operation, single, each, ratio in rows]
-    shared.output.write({"robot": robot, "where": where, "batch": batch, "rows": told}, Rows(columns, shown, (note,)))
+    answer = {"robot": robot, "where": where, "batch": batch, "rows": told}
+    shared.output.write(lambda: json.dumps(answer), Rows(columns, shown, (note,)))
 
 
 def _measured(

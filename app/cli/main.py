@@ -5,6 +5,7 @@ How it ends is `EXIT_CODES`.
 
 import runpy
 import sys
+import traceback
 from http import HTTPStatus
 from pathlib import Path
 from typing import Annotated
@@ -14,11 +15,12 @@ from rich.console import Console
 
 from app.calls.refusals import NotAnswering, Refused
 from app.cli import arms, ask, bench, jobs, motions, robots, tables
+from app.cli.examples import example_of
 from app.cli.outputs import Format, Output, check_place
 from app.cli.session import Session
 from app.model.errors import InvalidInput, KinematicsError, NotFound
 
-_ASKED_WRONG, _NO_SERVICE, _FAILED = 2, 3, 4
+_ASKED_WRONG, _NO_SERVICE, _FAILED, _INTERRUPTED = 2, 3, 4, 130
 EXIT_CODES = (
     "Exit codes: 0, all is well; 1, the answer is no (a target out of reach, another robot, a motion that cannot be "
     "done to its end); 2, something is wrong with what was asked; 3, no service answers; 4, the service refuses for "
@@ -73,7 +75,7 @@ for command in (
     *(motions.trajectory, motions.workspace),
     *(bench.bench, ask.ask),
 ):
-    cli.command()(command)
+    cli.command(epilog=example_of(command.__name__))(command)
 cli.add_typer(tables.tables)
 cli.add_typer(jobs.jobs)
 
@@ -89,6 +91,11 @@ def main() -> None:
     except OSError as error:
         named = f"{error.filename}: {error.strerror}" if error.filename else error.strerror or str(error)
         _end(named, _ASKED_WRONG if isinstance(error, _WRONG_FILES) else _FAILED)
+    except Exception as error:
+        if "KeyboardInterrupt" in str(error):  # what pydantic makes of one
+            sys.exit(_INTERRUPTED)
+        traceback.print_exc()
+        _end("something went wrong in the command itself: see above", _FAILED)
 
 
 def _is_the_callers(error: KinematicsError) -> bool:

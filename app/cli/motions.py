@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from app.cli.arms import UNREACHED
+from app.cli.completion import LAWS, WORKSPACES, one_of
 from app.cli.inputs import fields_of
 from app.cli.outputs import Format, Rows, picture_kind
 from app.cli.rows import numbers_of, target_of
@@ -27,7 +28,7 @@ def trajectory(
     ] = None,
     base: BaseOption = None,
     tip: TipOption = None,
-    law: Annotated[str, typer.Option(help="trapezoidal, cubic, quintic, time_optimal, …")] = "trapezoidal",
+    law: Annotated[str, typer.Option(help=f"One of {', '.join(LAWS)}.", autocompletion=one_of(LAWS))] = LAWS[0],
     period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
     plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
     later: LaterOption = False,
@@ -77,7 +78,9 @@ def workspace(
     context: typer.Context,
     robot: RobotArgument,
     samples: Annotated[int, typer.Option(help="How many configurations.")] = 100_000,
-    kind: Annotated[str, typer.Option(help="cloud, grid or dexterity.")] = "cloud",
+    kind: Annotated[
+        str, typer.Option(help=f"One of {', '.join(WORKSPACES)}.", autocompletion=one_of(WORKSPACES))
+    ] = WORKSPACES[0],
     base: BaseOption = None,
     tip: TipOption = None,
     plot: Annotated[Path | None, typer.Option(help="Draw it into this file, SVG or PNG.")] = None,

@@ -2,10 +2,9 @@
 
 import csv
 import errno
-import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from io import BytesIO, StringIO
@@ -76,16 +75,16 @@ class Output:
         suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
         return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
 
-    def write(self, content: Any, rows: Rows) -> None:
+    def write(self, content: Callable[[], str], rows: Rows) -> None:
         """An answer.
 
         Args:
-            content: As the API gives it.
+            content: Makes it as the API gives it, JSON.
             rows: The same as rows.
         """
         match self.format:
             case Format.JSON:
-                self.put(json.dumps(content, ensure_ascii=False).encode() + b"\n")
+                self.put(content().encode() + b"\n")
             case Format.CSV:
                 self.put(_csv(rows))
             case Format.NPY:
@@ -96,7 +95,8 @@ class Output:
     def tell(self, answer: "BaseModel") -> None:
         """An answer that has no rows: JSON, unless another format is asked for."""
         content = answer.model_dump(mode="json", exclude_unset=True)
-        Output(self.form or Format.JSON, self.file).write(content, Rows(("field", "value"), list(content.items())))
+        rows = Rows(("field", "value"), list(content.items()))
+        Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
     def save(self, array: "Array") -> None:
         """An array as npy."""

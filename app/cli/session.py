@@ -11,7 +11,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from app.cli.completion import robots_beginning_with
+from app.cli.completion import frames_beginning_with, robots_beginning_with
 from app.cli.inputs import pairs_of, robot_named
 from app.cli.outputs import Output, Rows
 from app.model.errors import InvalidField
@@ -36,8 +36,14 @@ RobotArgument = Annotated[
         help="A robot's name, or a file: URDF, xacro, a zip of a URDF and its meshes, a DH table as JSON, TOML or CSV.",
     ),
 ]
-BaseOption = Annotated[str | None, typer.Option("--base", help="Frame that poses are in; the default chain's.")]
-TipOption = Annotated[str | None, typer.Option("--tip", help="Frame that is meant; the default chain's.")]
+BaseOption = Annotated[
+    str | None,
+    typer.Option("--base", help="Frame that poses are in; the default chain's.", autocompletion=frames_beginning_with),
+]
+TipOption = Annotated[
+    str | None,
+    typer.Option("--tip", help="Frame that is meant; the default chain's.", autocompletion=frames_beginning_with),
+]
 FromOption = Annotated[
     str | None, typer.Option("--from", help="File with a row each, CSV, npy or JSON; - is standard input.")
 ]
@@ -98,7 +104,7 @@ class Session:
 
     def write(self, answer: "BaseModel", rows: Rows) -> None:
         """An answer of the API."""
-        self.output.write(answer.model_dump(mode="json", exclude_unset=True), rows)
+        self.output.write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
     @contextmanager
     def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.cli.completion import CONVENTIONS, one_of
+from app.cli.examples import example_of
 from app.cli.inputs import fields_of, is_file, table_from
 from app.cli.outputs import Format, Rows
 from app.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
     from app.schemas.dh import DhTablePayload
 
 TableArgument = Annotated[Path, typer.Argument(metavar="TABLE", help="DH table as JSON, TOML or CSV.")]
-ConventionOption = Annotated[str, typer.Option(help="standard or modified.")]
+ConventionOption = Annotated[str, typer.Option(help="standard or modified.", autocompletion=one_of(CONVENTIONS))]
 _DIFFERENT = 1
 
 tables = typer.Typer(name="dh", help="Denavit-Hartenberg tables: to and from URDF, compared, derived.")
@@ -34,7 +36,7 @@ def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> Rows:
     return Rows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
 
 
-@tables.command("to-urdf")
+@tables.command("to-urdf", epilog=example_of("dh to-urdf"))
 def to_urdf(
     context: typer.Context,
     table: TableArgument,
@@ -50,7 +52,7 @@ def to_urdf(
         shared.output.put(answer.urdf.encode())
 
 
-@tables.command("from-urdf")
+@tables.command("from-urdf", epilog=example_of("dh from-urdf"))
 def from_urdf(
     context: typer.Context,
     robot: RobotArgument,
@@ -71,7 +73,7 @@ def from_urdf(
     shared.write(answer, _rows(answer.dh, (how, *answer.notes)))
 
 
-@tables.command("convert")
+@tables.command("convert", epilog=example_of("dh convert"))
 def convert(context: typer.Context, table: TableArgument, convention: ConventionOption) -> None:
     """A table in the other convention."""
     shared = session(context)
@@ -80,7 +82,7 @@ def convert(context: typer.Context, table: TableArgument, convention: Convention
     shared.write(answer, _rows(answer.dh))
 
 
-@tables.command("compare")
+@tables.command("compare", epilog=example_of("dh compare"))
 def compare(
     context: typer.Context,
     table: TableArgument,
@@ -105,7 +107,7 @@ def compare(
         raise typer.Exit(_DIFFERENT)
 
 
-@tables.command("derive")
+@tables.command("derive", epilog=example_of("dh derive"))
 def derive(
     context: typer.Context,
     table: TableArgument,

@@ -1,5 +1,6 @@
 """Xacro, expanded on the user's machine: it can read any file, which is why no server does it."""
 
+import re
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -30,8 +31,17 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
     try:
         document = xacro.process_file(str(file), mappings=dict(arguments))
     except Exception as error:  # xacro evaluates expressions: they raise what they like
-        raise InvalidUrdf(f"xacro cannot expand it: {error}", element=file.name) from error
+        raise InvalidUrdf(f"xacro cannot expand it: {_sentence(error)}", element=file.name) from error
     return str(document.toxml())
+
+
+def _sentence(error: Exception) -> str:
+    """What went wrong, on one line, and but once: xacro puts the class and the text of the cause beside its own."""
+    if isinstance(error, RecursionError):
+        return "it includes itself, or a macro calls itself"
+    words = re.sub(r"<class '[^']*'>: | \[Errno.*", "", " ".join(str(error).split()))
+    half = len(words) // 2
+    return words[:half] if words[:half] == words[half + 1 :] else words
 
 
 def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:

@@ -128,6 +128,31 @@ def test_xacro_is_expanded_here(shell: Shell, url: str, tmp_path: Path) -> None:
     assert found["poses"][0]["position"] == [2.0, 0.0, 0.5]
 
 
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("<xacro:include filename='away.xacro'/>", "No such file or directory: "),
+        (
+            "<xacro:include filename='$(find nowhere)/a.xacro'/>",
+            "package 'nowhere' is not found: name its folder with ",
+        ),
+        ("<xacro:include filename='arm.xacro'/>", "it includes itself, or a macro calls itself"),
+        ("<link name='$(arg length)'/>", "Undefined substitution argument length"),
+        ("<link name='${1/0}'/>", "division by zero when evaluating expression '1/0'"),
+        ("<xacro:elbow/>", "unknown macro name: xacro:elbow"),
+        ("<link", "not well-formed"),
+    ],
+)
+def test_what_is_wrong_with_xacro_is_said_once_and_on_a_line(
+    shell: Shell, tmp_path: Path, content: str, sentence: str
+) -> None:
+    arm = tmp_path / "arm.xacro"
+    arm.write_text(f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{content}</robot>')
+    err = shell("fk", arm, "-q", "0", code=2)[1]
+    assert err.startswith("gelenk: arm.xacro: xacro cannot expand it: ")
+    assert err.count(sentence) == err.count("\n") == 1
+
+
 def test_configurations_in_and_out(shell: Shell, tmp_path: Path) -> None:
     rows = np.array([[0.1, 0.2], [0.3, 0.4], [-0.5, 0.6]])
     np.save(tmp_path / "q.npy", rows)

@@ -194,3 +194,20 @@ def test_the_service_is_served(tmp_path: Path) -> None:
     assert f"Gelenk at http://127.0.0.1:{port}/" in told
     usage = subprocess.run([*COMMAND, "serve", "--help"], capture_output=True, text=True, timeout=120, check=True)
     assert usage.stdout.startswith("usage: gelenk serve ")
+
+
+def test_an_error_of_the_command_itself_is_no_verdict(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Code 1 is an answer; and Ctrl-C is one wherever it strikes."""
+
+    def fails(*_: object) -> Any:
+        raise ZeroDivisionError
+
+    def interrupted(*_: object) -> Any:
+        raise ValueError("Error calling function `_given_alone`: KeyboardInterrupt: ")
+
+    monkeypatch.setattr("app.cli.arms._pose_row", fails)
+    out, err = shell("fk", "planar_2r", "-q", "0 0", code=4)
+    assert "ZeroDivisionError" in err
+    assert err.endswith("gelenk: something went wrong in the command itself: see above\n")
+    monkeypatch.setattr("app.cli.arms._pose_row", interrupted)
+    assert shell("fk", "planar_2r", "-q", "0 0", code=130) == (out, "")
