@@ -36,13 +36,13 @@ class Shell:
         out, err = self.run(*arguments, code=code, stdin=stdin)
         return out.decode(), err
 
-    def run(self, *arguments: object, code: int = 0, stdin: bytes = b"") -> tuple[bytes, str]:
+    def run(self, *arguments: object, code: int | None = 0, stdin: bytes = b"") -> tuple[bytes, str]:
         self._monkeypatch.setattr("sys.argv", ["gelenk", *map(str, arguments)])
         self._monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(stdin)))
         with pytest.raises(SystemExit) as end:
             main()
         out, err = self._capfd.readouterr()
-        assert (end.value.code or 0) == code, err + out
+        assert (end.value.code or 0) == (end.value.code or 0 if code is None else code), err + out
         return out, err.decode()
 
     def bytes(self, *arguments: object, code: int = 0) -> bytes:

@@ -21,6 +21,7 @@ from tests.cli.test_ends import ran
 URDF = "<robot name='a'><link name='base'/>\n<link  name=\"tool\"><visual/></link></robot>"
 
 
+@pytest.mark.slow
 def test_each_command_shows_a_call_and_each_call_answers(
     shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
