@@ -12,7 +12,7 @@ from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.steps import Step
 from app.model.arrays import Array
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 from app.schemas.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
 from app.trajectory.certify import Promise, certified
 from app.trajectory.extremes import Peaks, peaks
@@ -236,7 +236,7 @@ def spread(values: Sequence[float], count: int, field: str, of: str = "joints") 
         InvalidField: Another count of numbers.
     """
     if len(values) not in {1, count}:
-        raise InvalidField(field, f"has {len(values)} numbers where there are {count} {of}")
+        raise InvalidField(field, f"has {counted(len(values), 'number')} where there are {count} {of}")
     return np.broadcast_to(np.array(values), (count,))
 
 
@@ -249,7 +249,7 @@ def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
     if values is None:
         return np.zeros(joints)
     if len(values) != joints:
-        raise InvalidField(field, f"has {len(values)} numbers where there are {joints} joints")
+        raise InvalidField(field, f"has {counted(len(values), 'number')} for {counted(joints, 'joint')}")
     return np.array(values)
 
 
@@ -264,7 +264,7 @@ def table(rows: Sequence[Sequence[float]], field: str, count: int | None = None,
     width = len(rows[0]) if joints is None else joints
     for i, one in enumerate(rows):
         if len(one) != width:
-            raise InvalidField(field, f"entry {i} has {len(one)} numbers where there are {width} joints")
+            raise InvalidField(field, f"entry {i} has {counted(len(one), 'number')} for {counted(width, 'joint')}")
     return np.array(rows)
 
 

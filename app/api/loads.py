@@ -11,7 +11,7 @@ from app.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanis
 from app.kinematics.wrenches import WrenchFrame
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField, UnknownFrame, listed
+from app.model.errors import InvalidField, UnknownFrame, counted, listed
 from app.model.robot import Robot
 from app.schemas.common import Vectors
 from app.schemas.dynamics import DynamicsRequest
@@ -127,7 +127,8 @@ def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Arr
     for i, wrench in enumerate(wrenches):
         if len(wrench) != len(components):
             raise InvalidField(
-                "wrenches", f"entry {i} has {len(wrench)} numbers; there is one for each of {', '.join(components)}"
+                "wrenches",
+                f"entry {i} has {counted(len(wrench), 'number')}; there is one for each of {', '.join(components)}",
             )
     return one_each(np.array(wrenches, dtype=float).reshape(len(wrenches), len(components)), count, "wrenches")
 

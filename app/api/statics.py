@@ -36,7 +36,7 @@ from app.kinematics.statics import (
 from app.kinematics.subspaces import Subspaces
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField, TooLarge
+from app.model.errors import InvalidField, TooLarge, counted
 from app.schemas.common import Vectors
 from app.schemas.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from app.store.records import LoadedRobot
@@ -173,7 +173,7 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
         size = len(_task(call)) if name in _OF_THE_TIP else len(chain)
         for i, vector in enumerate(vectors):
             if len(vector) != size:
-                raise InvalidField(f"test_{name}", f"entry {i} has {len(vector)} numbers where {size} are needed")
+                raise InvalidField(f"test_{name}", f"entry {i} has {counted(len(vector), 'number')}, not {size}")
 
 
 def _check_size(call: StaticsRequest, count: int, n: int, most: int) -> None:

@@ -14,7 +14,7 @@ from app.kinematics.linear_inverse import Rule
 from app.kinematics.task_space import TaskSpace
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidArray, InvalidField, quoted
+from app.model.errors import InvalidArray, InvalidField, counted, quoted
 from app.schemas.velocity import NullSpace, VelocityRequest
 
 RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
@@ -160,7 +160,7 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
             allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
-            raise InvalidField(f"{asked}/{i}", f"{len(entry)} numbers; allowed are {allowed}")
+            raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed are {allowed}")
         # Six numbers of six directions are in the order of these too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
     return targets

@@ -11,7 +11,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from app.model.errors import InvalidArray, InvalidField
+from app.model.errors import InvalidArray, InvalidField, counted
 
 STDIN = "-"
 ORIENTATIONS = {
@@ -144,7 +144,7 @@ def target_of(row: Sequence[float], position_suffices: bool, notation: str | Non
             return {"matrix": [list(row[4 * i : 4 * i + 4]) for i in range(4)]}
     raise InvalidField(
         "targets",
-        f"a target has {len(row)} numbers; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z w), 16 (a "
+        f"a target has {counted(len(row), 'number')}; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z w), 16 (a "
         "matrix by rows), and with --task 3",
     )
 

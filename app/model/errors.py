@@ -65,6 +65,11 @@ def listed(names: tuple[str, ...], most: int = 12) -> str:
     return (", ".join(quoted(name) for name in names[:most]) or "none") + more
 
 
+def counted(count: int, thing: str) -> str:
+    """How many there are, as a sentence has it: `1 joint`, `2 joints`."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
+
+
 def kind_of(error: type[Exception]) -> str:
     """The name of a class of errors on the wire: `UnknownFrame` → `unknown-frame`."""
     return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()
@@ -231,7 +236,7 @@ class WrongJointCount(InvalidInput):
         """Both counts, and the names in order."""
         which = _configuration(self.index, self.field)
         return (
-            f"{which} has {self.given} numbers where the chain has {len(self.expected)} joints, "
+            f"{which} has {counted(self.given, 'number')} where the chain has {counted(len(self.expected), 'joint')}, "
             f"in this order: {listed(self.expected)}"
         )
 

@@ -162,7 +162,7 @@ def test_a_vanished_row_has_an_unbounded_force(client: TestClient) -> None:
     ("limits", "words"),
     [
         ({"joint_velocity": {"joint_1": 1.0}}, "limits/joint_velocity' gives no value for joint 'joint_2'"),
-        ({"joint_effort": [1.0]}, "limits/joint_effort' has 1 numbers where the chain has 2 joints"),
+        ({"joint_effort": [1.0]}, "limits/joint_effort' has 1 number where the chain has 2 joints"),
         ({"joint_effort": {"nose": 1.0}}, "limits/joint_effort' gives a value for 'nose'"),
     ],
 )

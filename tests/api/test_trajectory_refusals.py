@@ -76,7 +76,7 @@ def places(problem: dict[str, Any]) -> list[str]:
         ({"segments": [{**SPLINE, "waypoints": []}]}, "#/segments/0/waypoints", "at least 1"),
         ({"segments": [{**SPLINE, "waypoints": [BESIDE] * 1001}]}, "#/segments/0/waypoints", "at most 1000"),
         ({"segments": [{**SPLINE, "waypoints": [BESIDE] * 600}] * 2}, "#/segments", "1200 waypoints"),
-        ({"segments": [{**SPLINE, "waypoints": [BESIDE, [0.0]]}]}, "#/segments/0/waypoints/1", "1 numbers"),
+        ({"segments": [{**SPLINE, "waypoints": [BESIDE, [0.0]]}]}, "#/segments/0/waypoints/1", "1 number where"),
         ({"segments": [{**SPLINE, "waypoints": [BESIDE, pose()]}]}, "#/segments/0/waypoints", "entry 1 is a pose"),
         (
             {"segments": [{**SPLINE, "waypoints": [BESIDE, [0.0] * 7]}]},
@@ -139,7 +139,7 @@ def places(problem: dict[str, Any]) -> list[str]:
         (
             {"segments": [JOINT, {**JOINT, "limits": {"joint_velocity": [1.0]}}]},
             "#/segments/1/limits/joint_velocity",
-            "1 numbers",
+            "1 number where",
         ),
         ({"task": []}, "#/task", "at least 1"),
         ({"task": ["x", "x"]}, "#/task", "at most once"),

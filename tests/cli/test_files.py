@@ -83,7 +83,7 @@ REFUSED = {
     "half a json": (b"[[0.1,", "cannot be read as JSON"),
     "nan in json": (b"[[0.1, NaN]]", "NaN is not finite"),
     "another object": (b'{"q": []}', "there is no list 'joint_positions'"),
-    "ragged json": (b"[[0.1, 0.2], [0.3]]", "configuration 1 has 1 numbers where the chain has 2 joints"),
+    "ragged json": (b"[[0.1, 0.2], [0.3]]", "configuration 1 has 1 number where the chain has 2 joints"),
 }
 
 
