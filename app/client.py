@@ -14,6 +14,7 @@ is sent again where that is safe.
 import asyncio
 import contextlib
 import os
+import re
 import threading
 import time
 from collections.abc import AsyncGenerator, Callable, Iterator
@@ -38,6 +39,9 @@ URL_VARIABLE = "GELENK_SERVER"
 KEY_VARIABLE = "GELENK_KEY"
 DEFAULT_URL = "http://127.0.0.1:8000"
 
+_PAGES = re.compile(r"/*(/(docs|redoc|v1)/*)?$")
+"""The end of an address that was copied from a page of the service."""
+_LAST_PORT = 65_535
 _BETWEEN_STREAMS = 1.0
 """[s]; a stream of events that was broken off is not asked for again at once."""
 
@@ -46,7 +50,7 @@ class _Settings:
     """Where the service is, and what every request carries."""
 
     def __init__(self, url: str | None, key: str | None) -> None:
-        self.url = (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip().rstrip("/")
+        self.url = _PAGES.sub("", (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip())
         _check_address(self.url)
         key = (key or os.environ.get(KEY_VARIABLE) or "").strip()
         if not (key.isascii() and key.isprintable()):
@@ -77,7 +81,7 @@ def _check_address(url: str) -> None:
         parsed = httpx2.URL(url)
     except httpx2.InvalidURL:
         parsed = httpx2.URL()
-    if parsed.scheme not in {"http", "https"} or not parsed.host:
+    if parsed.scheme not in {"http", "https"} or not parsed.host or (parsed.port or 1) > _LAST_PORT:
         raise InvalidField("url", f"{quoted(url)} is no address of a service, such as {DEFAULT_URL}")
 
 

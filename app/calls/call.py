@@ -4,10 +4,25 @@ import functools
 import inspect
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
+from types import NoneType, UnionType
+from typing import (
+    Annotated,
+    Any,
+    Generic,
+    Literal,
+    ParamSpec,
+    Protocol,
+    Self,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    overload,
+)
 
 P = ParamSpec("P")
 T = TypeVar("T")
+R = TypeVar("R")
 
 JSON = "application/json"
 NPY = "application/x-npy"
@@ -87,6 +102,9 @@ class Sent(Generic[P, T]):
         self.describe = describe
         self.__doc__ = describe.__doc__
 
+    def __set_name__(self, _: type, name: str) -> None:
+        self.name = name
+
     @overload
     def __get__(self, client: None, owner: type) -> Self: ...
     @overload
@@ -99,12 +117,24 @@ class Sent(Generic[P, T]):
         if client is None:
             return self
 
-        def method(*args: P.args, **kwargs: P.kwargs) -> Any:
-            return client.send(self.describe(*args, **kwargs))
+        return method_of(self.name, self.describe, client.send)
 
-        functools.update_wrapper(method, self.describe)
-        method.__signature__ = inspect.signature(self.describe)  # type: ignore[attr-defined]
-        return method
+
+def method_of(name: str, describe: Callable[P, Call[T]], send: Callable[[Call[T]], R]) -> Callable[P, R]:
+    """A method that does something with the call that a function describes; raises TypeError as a function does."""
+    signature = inspect.signature(describe)
+    places = [one.name for one in signature.parameters.values() if one.kind != inspect.Parameter.KEYWORD_ONLY]
+
+    def method(*args: P.args, **kwargs: P.kwargs) -> R:
+        if len(args) > len(places):
+            told = f"{', '.join(places)} alone by place" if places else "nothing by place"
+            raise TypeError(f"{name} takes {told}; give all else by name, as in {signature}".partition(" ->")[0])
+        return send(describe(*args, **kwargs))
+
+    functools.update_wrapper(method, describe)
+    method.__name__ = method.__qualname__ = name
+    method.__signature__ = signature  # type: ignore[attr-defined]
+    return method
 
 
 ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation=str)
@@ -121,7 +151,36 @@ def documented(
         sentences: Its docstring.
         before: Parameters in front of the fields.
     """
-    parameters = [*before, *inspect.signature(fields).parameters.values()]
-    describe.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-    describe.__doc__ = sentences
+    parameters = [
+        one.replace(annotation=_words(one.annotation)) for one in inspect.signature(fields).parameters.values()
+    ]
+    parameters.sort(key=lambda one: one.default is not inspect.Parameter.empty)
+    describe.__signature__ = inspect.Signature([*before, *parameters])  # type: ignore[attr-defined]
+    told = {name: field.description for name, field in getattr(fields, "model_fields", {}).items()}
+    lines = [f"    {one.name}: {told[one.name]}" for one in parameters if told.get(one.name)]
+    describe.__doc__ = "\n".join([sentences, "", "Args:", *lines]) if lines else sentences
     return describe
+
+
+class _Words(str):
+    """An annotation as people read it."""
+
+    __slots__ = ()
+    __repr__ = str.__str__
+
+
+def _words(annotation: Any) -> _Words:
+    """A type without what only pydantic needs to know of it."""
+    origin, parts = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        return _words(parts[0])
+    if origin is Literal:
+        return _Words(" | ".join(repr(part) for part in parts))
+    if origin in {Union, UnionType}:
+        return _Words(" | ".join(dict.fromkeys(_words(part) for part in parts)))
+    if annotation is NoneType:
+        return _Words("None")
+    name = getattr(origin or annotation, "__name__", str(annotation))
+    if origin is None or name == "ndarray":
+        return _Words(name)
+    return _Words(f"{name}[{', '.join(_words(part) for part in parts)}]")

@@ -85,6 +85,8 @@ def _collector_at_rest(rests: bool) -> Iterator[None]:
 
 def segment(name: str) -> str:
     """A name as a part of a path."""
+    if not isinstance(name, str):
+        raise TypeError(f"a robot or a job is told by its name, a text, not by {name!r:.80}")
     return quote(name, safe="")
 
 

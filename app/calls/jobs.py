@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
 
 from app.calls.arrays import ArrayOperations
-from app.calls.call import Awaited, Blocking, Call
+from app.calls.call import Awaited, Blocking, Call, method_of
 from app.calls.exchange import reader
 from app.calls.operations import Operations
 from app.model.arrays import Array
@@ -51,6 +51,9 @@ class Job(Generic[A]):
 
     def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
         self._client, self.info, self._result = client, info, result
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
 
     @property
     def id(self) -> str:
@@ -101,6 +104,9 @@ class AsyncJob(Generic[A]):
 
     def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
         self._client, self.info, self._result = client, info, result
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
 
     @property
     def id(self) -> str:
@@ -169,6 +175,9 @@ class Begun(Generic[P, A]):
         self.describe, self._result = describe, result
         self.__doc__ = describe.__doc__
 
+    def __set_name__(self, _: type, name: str) -> None:
+        self.name = name
+
     @overload
     def __get__(self, jobs: None, owner: type) -> Self: ...
     @overload
@@ -181,12 +190,7 @@ class Begun(Generic[P, A]):
         if jobs is None:
             return self
 
-        def method(*args: P.args, **kwargs: P.kwargs) -> Any:
-            return jobs.begin(self.describe(*args, **kwargs), self._result)
-
-        functools.update_wrapper(method, self.describe)
-        method.__signature__ = inspect.signature(self.describe)  # type: ignore[attr-defined]
-        return method
+        return method_of(self.name, self.describe, lambda call: jobs.begin(call, self._result))
 
 
 def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:

@@ -1,6 +1,7 @@
 """Calls about what the service keeps, robots and jobs, and about the service itself."""
 
 from collections.abc import Callable, Mapping
+from os import PathLike
 from pathlib import Path
 from typing import Any, Concatenate, Literal, ParamSpec, TypeVar
 from urllib.parse import quote
@@ -79,7 +80,7 @@ def replacing(request: Callable[P, RobotReplacement]) -> Callable[Concatenate[st
 
 
 def add_archive(
-    name: str, archive: bytes | Path, description: str = "", default_chain: ChainEnds | None = None
+    name: str, archive: bytes | str | PathLike[str], description: str = "", default_chain: ChainEnds | None = None
 ) -> Call[RobotInfo]:
     """Add a robot with its meshes: a zip of one URDF and the files that it names."""
     fields = _archive_fields(description, default_chain, name=name)
@@ -87,7 +88,7 @@ def add_archive(
 
 
 def replace_archive(
-    robot: str, archive: bytes | Path, description: str = "", default_chain: ChainEnds | None = None
+    robot: str, archive: bytes | str | PathLike[str], description: str = "", default_chain: ChainEnds | None = None
 ) -> Call[RobotInfo]:
     """Replace an uploaded robot by a zip of one URDF and the files that it names."""
     fields, path = _archive_fields(description, default_chain), f"v1/robots/{segment(robot)}"
@@ -99,9 +100,9 @@ def _archive_fields(description: str, chain: ChainEnds | None, **further: str) -
     return {**further, "description": description, **ends}
 
 
-def content_of(file: bytes | Path) -> bytes:
+def content_of(file: bytes | str | PathLike[str]) -> bytes:
     """The bytes of a file that is given as such or by its path."""
-    return file.read_bytes() if isinstance(file, Path) else file
+    return file if isinstance(file, bytes) else Path(file).read_bytes()
 
 
 def remove(robot: str) -> Call[None]:

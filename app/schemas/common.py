@@ -1,6 +1,6 @@
 """The strict base of all payloads, and what many of them share."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, TypeAlias
 
@@ -48,7 +48,41 @@ Vectors: TypeAlias = Sequence[Sequence[float] | Array] | Array
 """What Python may give for rows of numbers; shape (N, m)."""
 
 
-class Payload(BaseModel):
+class Shown(BaseModel):
+    """A model that is shown at a prompt in a few lines, however much it holds."""
+
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        """What is there, long lists by their first entries."""
+        for name, value in super().__repr_args__():
+            if value is not None:
+                yield name, _Brief(value)
+
+    def __str__(self) -> str:
+        return repr(self)
+
+
+@dataclass(frozen=True, slots=True)
+class _Brief:
+    value: Any
+
+    def __repr__(self) -> str:
+        value = self.value
+        if isinstance(value, list):
+            many = len(value) > _MOST_SHOWN
+            shown = [repr(_Brief(item)) for item in (value[:_FIRST_SHOWN] if many else value)]
+            return f"[{', '.join([*shown, f'... {len(value)} in all'] if many else shown)}]"
+        if isinstance(value, dict):
+            return "{" + ", ".join(f"{key!r}: {_Brief(item)!r}" for key, item in value.items()) + "}"
+        told = repr(value)
+        return told if not isinstance(value, str) or len(told) <= _LONGEST_SHOWN else f"{told[:_LONGEST_SHOWN]}...'"
+
+
+_MOST_SHOWN, _FIRST_SHOWN = 12, 3
+"""Entries of a list that are all shown, and of a longer one its first."""
+_LONGEST_SHOWN = 300
+
+
+class Payload(Shown):
     """Something that comes in: no unknown fields, no NaN, no text for numbers."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
@@ -59,7 +93,7 @@ class Payload(BaseModel):
     """Fields that it gives so, or once where they are one word."""
 
 
-class Answer(BaseModel):
+class Answer(Shown):
     """Something that goes out."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)

@@ -11,8 +11,8 @@ from app.schemas.common import Answer, ChainOptions, FrameName, OnTheWire
 from app.schemas.pose import Pose, PoseFormat
 
 
-def _kind(value: Any) -> str:
-    return "<object>" if isinstance(value, dict) else "<list>"
+def _kind(value: Any) -> str | None:
+    return "<object>" if isinstance(value, dict) else "<list>" if isinstance(value, list) else None
 
 
 MAX_CONFIGURATIONS = 1_000_000
@@ -21,7 +21,11 @@ ByOrder: TypeAlias = Annotated[list[float], Field(max_length=128, fail_fast=True
 ByName: TypeAlias = Annotated[dict[str, float], Field(max_length=128)]
 _Configuration = Annotated[
     Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")],
-    Discriminator(_kind),
+    Discriminator(
+        _kind,
+        custom_error_type="configuration",
+        custom_error_message="a configuration is a list of one number a joint, or an object of values by joint name",
+    ),
 ]
 """Tags in angle brackets never show in a pointer."""
 
