@@ -71,7 +71,7 @@ def reader(answer: type[A]) -> Callable[[Reply], A]:
 def _collector_at_rest(rests: bool) -> Iterator[None]:
     """Without the collector of garbage, where wanted: of a hundred thousand new poses none is garbage.
 
-    It would look through them again and again, for four fifths of the time that a large answer takes to read.
+    It would look through them again and again, for a good part of the time that a large answer takes to read.
     """
     rests = rests and gc.isenabled()
     if rests:

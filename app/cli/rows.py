@@ -144,8 +144,8 @@ def target_of(row: Sequence[float], position_suffices: bool, notation: str | Non
             return {"matrix": [list(row[4 * i : 4 * i + 4]) for i in range(4)]}
     raise InvalidField(
         "targets",
-        f"a target has {counted(len(row), 'number')}; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z w), 16 (a "
-        "matrix by rows), and with --task 3",
+        f"a target has {counted(len(row), 'number')}; allowed are 6 (x y z roll pitch yaw), 7 (with a quaternion x y z "
+        "w), 16 (a matrix by rows), and with --task 3",
     )
 
 
