@@ -87,7 +87,7 @@ def main() -> None:
     except NotAnswering as error:
         _end(error.detail, _NO_SERVICE)
     except KinematicsError as error:
-        _end(error.detail, _ASKED_WRONG if _is_the_callers(error) else _FAILED)
+        _end(_sentence_of(error), _ASKED_WRONG if _is_the_callers(error) else _FAILED)
     except OSError as error:
         named = f"{error.filename}: {error.strerror}" if error.filename else error.strerror or str(error)
         _end(named, _ASKED_WRONG if isinstance(error, _WRONG_FILES) else _FAILED)
@@ -96,6 +96,12 @@ def main() -> None:
             sys.exit(_INTERRUPTED)
         traceback.print_exc()
         _end("something went wrong in the command itself: see above", _FAILED)
+
+
+def _sentence_of(error: KinematicsError) -> str:
+    """The service's; and where it wants a key, how a command gets one to it."""
+    wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
+    return f"{error.detail} (gelenk sends the one in GELENK_KEY)" if wants_key else error.detail
 
 
 def _is_the_callers(error: KinematicsError) -> bool:

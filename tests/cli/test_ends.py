@@ -52,7 +52,8 @@ def test_a_refusal_ends_with_its_code(
 ) -> None:
     monkeypatch.setattr("app.client.Client", refusing(status, kind))
     out, err = shell("--server", "http://gelenk.invalid", "robots", code=code)
-    assert (out, err) == ("", f"gelenk: the service says {kind}\n")
+    how = " (gelenk sends the one in GELENK_KEY)" if status == 401 else ""
+    assert (out, err) == ("", f"gelenk: the service says {kind}{how}\n")
 
 
 def test_the_codes_are_those_that_the_help_tells(shell: Shell) -> None:
