@@ -9,10 +9,12 @@ axis, measured from the origin of its frame.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from app.kinematics.derive.table import LENGTH_TOLERANCE, RowNumbers
-from app.model.arrays import Configuration
+
+if TYPE_CHECKING:  # symbols share nothing with numbers, not even their types
+    from app.model.arrays import Configuration
 
 Line: TypeAlias = Literal["x", "next axis", "own axis"]
 Point: TypeAlias = tuple[float, float, float]
@@ -86,4 +88,4 @@ class Dynamics:
 
     bodies: tuple[Body, ...]
     gravity: Gravity
-    velocities: Sequence[Configuration] | None = None
+    velocities: Sequence["Configuration"] | None = None
