@@ -1,6 +1,8 @@
 """The Inverse panel: a typed pose, its solutions as a list and as ghosts, and the verdict where none is."""
 
+import json
 import math
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -220,3 +222,28 @@ def test_long_work_is_cancelled(studio: Studio) -> None:
     studio.page.unroute("**/ik")
     studio.button("Solve again").click()
     studio.until("document.querySelectorAll('.solution').length === 2")
+
+
+def test_ghosts_that_are_there_before_the_meshes_get_them(studio: Studio) -> None:
+    """The service answers before a large mesh has come: until then nothing is drawn, and nothing complains."""
+    meshes: list[Route] = []
+    is_held = True
+
+    def hold(route: Route) -> None:
+        if is_held:
+            meshes.append(route)
+        else:
+            route.continue_()
+
+    studio.page.route("**/meshes/**", hold)
+    target = quote(json.dumps(TARGET))
+    studio.go(f"#panel=ik&robot=panda&q={quote(START)}&target={target}")
+    studio.until("studio.store.value.model !== null && !studio.store.value.loading")
+    studio.until(SOLVED)
+    parts = "studio.view.scene.getObjectByName('ghost 0').children.length"
+    assert studio.run(parts) == 0
+    is_held = False
+    for mesh in meshes:
+        mesh.continue_()
+    studio.wait_for_robot("panda")
+    studio.until(f"{parts} > 5")

@@ -28,7 +28,8 @@ export class Ghost {
       copy.matrixAutoUpdate = false;
       return { from, copy };
     });
-    this.group.add(...this.#parts.map(({ copy }) => copy));
+    // One by one: before the meshes have come there may be none, and `add` wants at least one.
+    for (const { copy } of this.#parts) this.group.add(copy);
   }
 
   /** @param present where the robot itself is to be afterwards. */
