@@ -40,7 +40,21 @@ class AwaitedWatching(Awaited, Protocol):
         ...
 
 
-class Job(Generic[A]):
+class _Told:
+    """What a job has, awaited or not: what the service has told of it."""
+
+    info: JobInfo
+
+    @property
+    def id(self) -> str:
+        """By which the service knows it."""
+        return self.info.id
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
+
+
+class Job(_Told, Generic[A]):
     """A job that was begun. Iterate over it to see how far it is; ask it for its result.
 
     As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
@@ -51,14 +65,6 @@ class Job(Generic[A]):
 
     def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
         self._client, self.info, self._result = client, info, result
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
-
-    @property
-    def id(self) -> str:
-        """By which the service knows it."""
-        return self.info.id
 
     def __iter__(self) -> Iterator[JobInfo]:
         for info in self._client.watch(self.id):
@@ -99,19 +105,11 @@ class Job(Generic[A]):
             self.cancel()
 
 
-class AsyncJob(Generic[A]):
+class AsyncJob(_Told, Generic[A]):
     """The same, awaited."""
 
     def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
         self._client, self.info, self._result = client, info, result
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
-
-    @property
-    def id(self) -> str:
-        """By which the service knows it."""
-        return self.info.id
 
     async def __aiter__(self) -> AsyncGenerator[JobInfo, None]:
         async with aclosing(self._client.watch(self.id)) as told:

@@ -74,7 +74,7 @@ class Original:
     ) -> None:
         self._control, self._is_compiled, self._warm_up, self._load = control, is_compiled, warm_up, load
         self._lifelines: dict[int, socket.socket] = {}
-        self._compiler = 0
+        self._compiling: tuple[int, socket.socket] | None = None
         self._selector = selectors.DefaultSelector()
         self._wakes, self._woken = socket.socketpair()
         self._goes_on = True
@@ -123,25 +123,25 @@ class Original:
         """
         parent = os.getpid()
         try:
-            self._compiler = os.fork()
+            pid = os.fork()
         except OSError as error:
             logger.error("the kernels are compiled where they stay, which takes memory: %s", error.strerror)
             return False
-        if self._compiler == 0:
+        if pid == 0:
             _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() == parent:  # else it has ended before that could be said
                 _name("compiler")
                 self._try("the kernels", self._warm_up)
             os._exit(0)
-        self._asker = asker
+        self._compiling = pid, asker
         self._selector.unregister(self._control)
         return True
 
-    def _take_over(self) -> None:
+    def _take_over(self, asker: socket.socket) -> None:
         """Load what was compiled, and take requests again."""
-        self._compiler = 0
+        self._compiling = None
         self._try("the kernels", self._warm_up)
-        self._asker.close()
+        asker.close()
         self._selector.register(self._control, selectors.EVENT_READ, self._take)
 
     def _try(self, what: str, load: Callable[[], None]) -> None:
@@ -212,12 +212,12 @@ class Original:
     def _reap(self) -> None:
         """Tell of the copies that have ended."""
         self._woken.recv(4096)
-        while self._lifelines or self._compiler:
+        while self._lifelines or self._compiling:
             pid, status = os.waitpid(-1, os.WNOHANG)
             if not pid:
                 return
-            if pid == self._compiler:
-                self._take_over()
+            if self._compiling and pid == self._compiling[0]:
+                self._take_over(self._compiling[1])
             lifeline = self._lifelines.pop(pid, None)
             if lifeline is None:
                 continue
