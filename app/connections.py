@@ -5,6 +5,7 @@ it comes in, so that the last one of a thousand waits for all others, be it the 
 """
 
 import asyncio
+import re
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -39,6 +40,9 @@ _LONGEST_PAUSE = 8.0
 """No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
 _EVICTED = 16
 """Connections that make room together where there are too many."""
+_CHUNK_BYTES = 20
+"""What frames a chunk of a body at most: sixteen hexadecimal digits and two ends of a line."""
+_ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +56,7 @@ class Bounds:
             end of its head.
         body_seconds: For a body; a longer one must keep coming.
         stalled_seconds: How long a client may take nothing of its answer.
-        head_bytes: Of request line and header fields.
+        head_bytes: Of request line and header fields; also of a body's chunk extensions and trailer fields.
     """
 
     connections: int = 2000
@@ -140,8 +144,9 @@ class BoundedProtocol(HttpToolsProtocol):
         super().__init__(*arguments, **options)
         self.app_state["gate"] = self._gate = gate
         self.since = self.loop.time()
-        self._head_bytes = self._body_bytes = self._unsent = 0
-        self._in_head = False
+        self._body_bytes = self._chunks = self._unsent = 0
+        self._in_message = self._in_head = False
+        self._stage = self._other_bytes = 0
         self._ends: float | None = None
 
     @property
@@ -161,29 +166,56 @@ class BoundedProtocol(HttpToolsProtocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Bytes have come."""
+        """Bytes have come: what is not of a body is counted, but for the read that ends its stage."""
+        stage, body_bytes = self._stage + (not self._in_message), self._body_bytes
         super().data_received(data)
-        if self._in_head:
-            self._head_bytes += len(data)
-            if self._head_bytes > self._gate.bounds.head_bytes:
+        if stage == self._stage:
+            self._other_bytes += len(data) - (self._body_bytes - body_bytes)
+            most = self._gate.bounds.head_bytes
+            if self._other_bytes > most + self._chunks * _CHUNK_BYTES:
+                what = "request line and header fields" if self._in_head else "chunk extensions and trailer fields"
                 status = HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
-                most = self._gate.bounds.head_bytes
-                self._refuse(status, "head-too-large", f"request line and header fields may have {most} bytes in all")
+                self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
+
+    def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
+        """A head, a body or a pause begins."""
+        self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
+        self._other_bytes = self._chunks = 0
 
     def on_message_begin(self) -> None:
         """The first byte of a request has come."""
         super().on_message_begin()
-        self.since, self._in_head, self._head_bytes = self.loop.time(), True, 0
+        self.since = self.loop.time()
+        self._begin_stage(in_head=True)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        """A header field has come; or a trailer field, which is dropped: the headers have been acted upon by then."""
+        if self._in_head:
+            super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
-        """The head has come as a whole."""
-        self.since, self._in_head, self._body_bytes = self.loop.time(), False, 0
+        """The head has come as a whole; where its target names a host, that one counts (RFC 9112, 3.2.2)."""
+        self.since, self._body_bytes = self.loop.time(), 0
+        self._begin_stage(in_body=True)
+        if target := _ABSOLUTE.fullmatch(self.url):
+            host, rest = target.groups()
+            self.url = rest if rest.startswith(b"/") else b"/" + rest
+            self.headers[:] = [(name, host if name == b"host" else value) for name, value in self.headers]
         super().on_headers_complete()
+
+    def on_chunk_header(self) -> None:
+        """A chunk of the body begins."""
+        self._chunks += 1
 
     def on_body(self, body: bytes) -> None:
         """Some of the body has come."""
         self._body_bytes += len(body)
         super().on_body(body)
+
+    def on_message_complete(self) -> None:
+        """The request has come as a whole."""
+        self._begin_stage()
+        super().on_message_complete()
 
     def on_response_complete(self) -> None:
         """The answer is on its way."""

@@ -12,7 +12,7 @@ from fastapi.routing import iter_route_contexts
 from app.api import documentation, openapi, problems, studio
 from app.api.access.directory import Directory
 from app.api.access.door import Check, Door
-from app.api.access.hosts import TrustedHosts
+from app.api.access.hosts import TrustedHosts, repeated
 from app.api.access.journal import Audit
 from app.api.access.keyring import Keyring
 from app.api.access.keys import KeyCheck
@@ -71,6 +71,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
     operations = setup.operations()
     runner = _runner(settings, operations)
+    audit = Audit(settings.data_dir / "audit")
     metrics = Metrics(library.catalogue_names, crew, runner.shelf.states)
     readiness = Readiness(crew, settings.data_dir, lambda: runner.failure)
 
@@ -85,6 +86,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
         crew.close()
         runner.close()
         derivations.shutdown()
+        audit.close()
 
     app = Application(
         settings.max_body_bytes,
@@ -137,7 +139,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     studio.install(app)
     queries = [operation.computation.options for operation in operations]
     openapi.describe(app, bool(settings.api_keys), [query for query in queries if query is not None])
-    app.door = _door(app, settings, metrics)
+    app.door = _door(app, settings, metrics, audit)
     return app
 
 
@@ -158,12 +160,12 @@ def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
     return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds, executor)
 
 
-def _door(app: Application, settings: Settings, metrics: Metrics) -> Door:
+def _door(app: Application, settings: Settings, metrics: Metrics, audit: Audit) -> Door:
     """The way in: what a request must pass before the application answers it."""
-    checks: list[Check] = [TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
+    checks: list[Check] = [repeated, TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
-    directory, audit = Directory(iter_route_contexts(app.routes)), Audit(settings.data_dir / "audit")
+    directory = Directory(iter_route_contexts(app.routes))
     return Door(app.answer, directory, settings.root_path, checks, metrics, audit)
 
 

@@ -6,8 +6,9 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
+from random import Random
 from typing import Any, Literal, cast
 
 import pytest
@@ -26,9 +27,12 @@ class Application:
     def __init__(self) -> None:
         self.at_work = self.most_at_work = 0
         self.left = 0
+        self.headers: list[tuple[bytes, bytes]] = []
+        self.path = ""
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         assert scope["type"] == "http"
+        self.headers, self.path = scope["headers"], scope["path"]
         size, more = 0, True
         while more:
             message = await receive()
@@ -216,6 +220,82 @@ def test_a_head_has_a_size(field: bytes) -> None:
         connection.sendall(b"GET / HTTP/1.1\r\n" + field)
         check_problem(answer(connection), 431, "head-too-large")
         still_answers(port)
+
+
+def chunked(trailers: bytes = b"", extension: bytes = b"", body: bytes = b"12345") -> bytes:
+    head = b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n"
+    return head + b"%x%b\r\n%b\r\n0\r\n%b\r\n" % (len(body), extension, body, trailers)
+
+
+def test_trailers_add_nothing_to_the_headers_whatever_their_name() -> None:
+    random = Random(1)
+    names = ["Host", "Authorization", "Prefer", "Content-Type", "Origin", "Accept", "Expect"]
+    names += ["".join(random.choices("abcXYZ-_019", k=random.randint(1, 40))) for _ in range(40)]
+    with serving() as (port, _, app, _), connected(port) as connection:
+        connection.sendall(chunked())
+        assert answer(connection)[0::2] == (200, b"5")
+        plain = app.headers
+        for name in names:
+            connection.sendall(chunked(f"{name}: 100-continue\r\n".encode()))
+            assert answer(connection)[0::2] == (200, b"5")
+            assert app.headers == plain
+
+
+@pytest.mark.parametrize("trickles", [False, True])
+@pytest.mark.parametrize("kind", ["one trailer", "trailers", "extension", "extensions"])
+def test_trailers_and_chunk_extensions_are_bounded_like_a_head(kind: str, trickles: bool) -> None:
+    start, piece = {
+        "one trailer": (chunked()[:-2] + b"X: ", b"a" * 1000),
+        "trailers": (chunked()[:-2], b"X: " + b"a" * 995 + b"\r\n"),
+        "extension": (chunked()[: -len(b"0\r\n\r\n")] + b"1;a=", b"b" * 1000),
+        "extensions": (chunked()[: -len(b"0\r\n\r\n")], b"1;a=" + b"b" * 990 + b"\r\nx\r\n"),
+    }[kind]
+    with serving() as (port, _, _, _), connected(port) as connection:
+        sent = 0
+        connection.sendall(start)
+        with suppress(BrokenPipeError, ConnectionResetError):
+            for _ in range(20_000):
+                connection.sendall(piece if trickles else piece * 100)
+                sent += len(piece) * (1 if trickles else 100)
+        assert sent < 10_000_000  # what the system's buffers take is not refused yet
+        with suppress(ConnectionResetError):
+            check_problem(answer(connection), 431, "head-too-large")
+        still_answers(port)
+
+
+def test_a_body_in_chunks_of_a_byte_is_within_bounds() -> None:
+    with serving(Bounds(body_seconds=20.0)) as (port, _, _, _), connected(port) as connection:
+        head = b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n"
+        connection.sendall(head + b"0000000000000001\r\nx\r\n" * 40_000 + b"0\r\n\r\n")
+        assert answer(connection)[0::2] == (200, b"40000")
+
+
+def test_large_bodies_with_the_next_request_behind_them_are_no_large_head() -> None:
+    with serving(Bounds()) as (port, _, _, _), connected(port) as connection:
+        post = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 200000\r\n\r\n" + bytes(200_000)
+        for _ in range(5):
+            connection.sendall(post + b"GET / HT")
+            assert answer(connection)[0::2] == (200, b"200000")
+            connection.sendall(b"TP/1.1\r\nHost: x\r\n\r\n")
+            assert answer(connection)[0::2] == (200, b"0")
+
+
+@pytest.mark.parametrize(
+    ("target", "host", "path"),
+    [
+        (b"/p", b"x", "/p"),
+        (b"http://y:80/p?a=//z/", b"y:80", "/p"),
+        (b"HTTPS://y/", b"y", "/"),
+        (b"http://y", b"y", "/"),
+        (b"http://y?a=b", b"y", "/"),
+        (b"http://x@y/p", b"x@y", "/p"),
+    ],
+)
+def test_the_host_in_a_target_counts_in_the_place_of_the_field(target: bytes, host: bytes, path: str) -> None:
+    with serving() as (port, _, app, _), connected(port) as connection:
+        connection.sendall(b"GET %b HTTP/1.1\r\nHost: x\r\n\r\n" % target)
+        assert answer(connection)[0] == 200
+        assert (dict(app.headers)[b"host"], app.path) == (host, path)
 
 
 def test_what_is_not_http_is_a_problem() -> None:

@@ -14,7 +14,21 @@ from app.api.problems import problem
 from app.model.errors import quoted
 
 LOCAL = ("localhost", "127.0.0.1", "[::1]")
+ONCE = frozenset(
+    b"authorization content-type origin sec-fetch-site access-control-request-method last-event-id".split()
+)
+"""Fields that decide something, and are no lists."""
 _MOST_REMEMBERED = 64
+
+
+def repeated(exchange: Exchange) -> Response | None:
+    """Refuses requests that say twice what counts once: whoever passed them on may have looked at the other one."""
+    names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
+    if len(names) == len(set(names)):
+        return None
+    name = next(name.decode() for name in names if names.count(name) > 1)
+    detail = f"a request has the header field `{name}` once at most"
+    return problem(exchange.request, HTTPStatus.BAD_REQUEST, "repeated-header", detail)
 
 
 class TrustedHosts:

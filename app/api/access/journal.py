@@ -2,7 +2,9 @@
 
 import logging
 import os
+import threading
 import time
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,11 @@ _LONGEST_PATH = 256
 _BUSY = 503
 _LEFT = 499
 """Stands in the log for the status of an answer that nobody waited for."""
+
+_SUM_SECONDS = 3600.0
+"""How long the refused writes of a key are summed up after one of them has got a line, [s]."""
+_MOST_CLIENTS = 8
+"""Addresses that such a line names."""
 
 requests = logging.getLogger("gelenk.requests")
 logger = logging.getLogger("gelenk")
@@ -49,8 +56,8 @@ def _facts(exchange: Exchange) -> dict[str, Any]:
 class Audit:
     """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
 
-    A line is on disk before the write is acknowledged. Who was not let in has written nothing: that stands in the log
-    alone, so that nobody can flood this one from outside.
+    A line is on disk before the write is acknowledged. Who was not let in has written nothing: what keys may not do is
+    summed up, and what comes without a good key stands in the log alone, so that nobody can flood this one.
 
     Args:
         folder: Where it is kept; made when first written to.
@@ -60,15 +67,36 @@ class Audit:
 
     def __init__(self, folder: Path, most_bytes: int = 16 * 1024 * 1024, kept: int = 4) -> None:
         self._folder, self._most_bytes, self._kept = folder, most_bytes, kept
+        self._refusals: dict[str, _Refusals] = {}
+        self._lock = threading.Lock()
 
     def write(self, exchange: Exchange, location: str | None) -> None:
-        """Add a line; where the disk does not take it, it goes to the log.
+        """Add a line, or count a refusal; where the disk does not take it, it goes to the log.
 
         Args:
             exchange: The write, with its status.
             location: Where what was written can be found.
         """
-        entry = {"time": moment(time.time())} | _facts(exchange) | {"location": location}
+        facts = _facts(exchange) | {"location": location}
+        if exchange.was_let_in:
+            self._append(facts)
+            return
+        with self._lock:
+            refusals = self._refusals.setdefault(exchange.key, _Refusals())
+            refusals.add(facts)
+            entry = refusals.summed() if time.monotonic() >= refusals.due else None
+        if entry is not None:
+            self._append(entry)
+
+    def close(self) -> None:
+        """Write what was counted since the last lines."""
+        with self._lock:
+            entries = [refusals.summed() for refusals in self._refusals.values() if refusals.count]
+        for entry in entries:
+            self._append(entry)
+
+    def _append(self, facts: dict[str, Any]) -> None:
+        entry = {"time": moment(time.time())} | facts
         content = (line(entry) + "\n").encode("ascii")
         try:
             with folders.exclusive(self._folder), folders.writing():
@@ -88,6 +116,38 @@ class Audit:
         for older, newer in zip(reversed(files), reversed(files[:-1]), strict=False):
             if newer.exists():
                 newer.replace(older)
+
+
+@dataclass(slots=True)
+class _Refusals:
+    """Writes that a key was refused since the last line that says so.
+
+    Attributes:
+        count: How many.
+        last: What is told of the last one.
+        since: When the first one was, [s].
+        clients: Addresses that they came from, some of them.
+        due: When the next line may be written, on the monotonic clock, [s].
+    """
+
+    count: int = 0
+    last: dict[str, Any] = field(default_factory=dict)
+    since: float = 0.0
+    clients: set[str] = field(default_factory=set)
+    due: float = 0.0
+
+    def add(self, facts: dict[str, Any]) -> None:
+        """Count one."""
+        self.since = self.since if self.count else time.time()
+        self.count, self.last = self.count + 1, facts
+        if len(self.clients) < _MOST_CLIENTS:
+            self.clients.add(facts["client"])
+
+    def summed(self) -> dict[str, Any]:
+        """What a line says of all of them; counting begins anew."""
+        entry = self.last | {"refused": self.count, "since": moment(self.since), "clients": sorted(self.clients)}
+        self.count, self.clients, self.due = 0, set(), time.monotonic() + _SUM_SECONDS
+        return entry
 
 
 def _private(path: str, flags: int) -> int:

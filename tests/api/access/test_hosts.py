@@ -3,7 +3,8 @@
 import pytest
 from fastapi import FastAPI
 
-from tests.api.access.asking import HOST, Answer, application, ask
+from app.api.access.hosts import ONCE
+from tests.api.access.asking import HOST, Answer, application, ask, bearer, keys_for
 
 ELSEWHERE = b"https://page.example"
 
@@ -45,6 +46,27 @@ def test_a_request_names_one_host(headers: list[tuple[bytes, bytes]]) -> None:
     status(APP, HOST[1])
     answer = ask(APP, "/healthz", headers=headers)
     assert (answer.status, answer.problem["type"]) == (400, "urn:gelenk:invalid-host")
+
+
+@pytest.mark.parametrize("name", sorted(ONCE))
+def test_what_a_request_may_say_once_it_does_not_say_twice(name: bytes) -> None:
+    for values in ((b"a", b"a"), (b"a", b"b"), (b"", b"a")):
+        answer = ask(APP, "/healthz", headers=[HOST, *((name, value) for value in values)])
+        assert (answer.status, answer.problem["type"]) == (400, "urn:gelenk:repeated-header")
+        assert name.decode() in answer.problem["detail"]
+    assert status(APP, HOST[1]) == 200
+
+
+@pytest.mark.parametrize("name", [b"accept", b"prefer", b"x-forwarded-for", b"cache-control", b"cookie", b"x-other"])
+def test_lists_may_come_in_several_fields(name: bytes) -> None:
+    assert ask(APP, "/healthz", headers=[HOST, (name, b"a"), (name, b"b")]).status == 200
+
+
+def test_of_two_keys_neither_counts() -> None:
+    text, keys = keys_for("read", "write")
+    app = application(api_keys=text)
+    for one, two in (("read", "write"), ("write", "read"), ("read", "read")):
+        assert ask(app, "/v1/robots", headers=(HOST, bearer(keys[one]), bearer(keys[two]))).status == 400
 
 
 def test_names_that_the_operator_adds() -> None:

@@ -43,7 +43,7 @@ def test_every_write_is_kept_with_who_what_when_from_where_and_the_result(tmp_pa
     assert ask(app, "/v1/robots/arm", "DELETE", (HOST, bearer(keys["read"]))).status == 403
     assert ask(app, "/v1/robots/arm", "DELETE", (HOST, bearer(keys["read+write"]))).status == 204
     assert ask(app, "/v1/robots/panda", "DELETE", (HOST, bearer(keys["read+write"]))).status == 403
-    added, *others = entries(tmp_path)
+    added, refused, *others = entries(tmp_path)
     assert before.timestamp() - 0.001 <= datetime.fromisoformat(added.pop("time")).timestamp()
     assert added == {
         "request_id": "anna-1",
@@ -55,9 +55,9 @@ def test_every_write_is_kept_with_who_what_when_from_where_and_the_result(tmp_pa
         "status": 201,
         "location": "/v1/robots/arm",
     }
+    assert (refused["key"], refused["operation"], refused["status"]) == ("read", "remove_robot", 403)
     told = [(each["key"], each["operation"], each["path"], each["status"]) for each in others]
     assert told == [
-        ("read", "remove_robot", "/v1/robots/arm", 403),
         ("read-write", "remove_robot", "/v1/robots/arm", 204),
         ("read-write", "remove_robot", "/v1/robots/panda", 403),
     ]
@@ -72,6 +72,37 @@ def test_who_is_not_let_in_and_what_only_asks_is_not_kept(tmp_path: Path) -> Non
     assert ask(app, "/v1/robots", "GET", (HOST, bearer(keys["read"]))).status == 200
     assert ask(app, "/v1/course/gear", "POST", (HOST, bearer(keys["read"]))).status == 415
     assert not (tmp_path / "audit").exists()
+
+
+def test_refused_writes_are_summed_up_and_push_no_line_out(tmp_path: Path) -> None:
+    text, keys = keys_for("read", "read+write")
+    app = application(data_dir=tmp_path, api_keys=text)
+    assert ask(app, "/v1/robots", "POST", (HOST, JSON, bearer(keys["read+write"])), ARM).status == 201
+    for i in range(300):
+        assert ask(app, f"/v1/robots/arm-{i}", "DELETE", (HOST, bearer(keys["read"]))).status == 403
+    added, first = entries(tmp_path)
+    assert added["status"] == 201
+    assert (first["key"], first["status"], first["refused"], first["clients"]) == ("read", 403, 1, ["192.0.2.7"])
+    app.door._audit.close()  # type: ignore[attr-defined]
+    *_, rest = entries(tmp_path)
+    assert (rest["key"], rest["refused"], rest["clients"]) == ("read", 299, ["192.0.2.7"])
+    assert first["since"] <= rest["since"] <= rest["time"]
+    assert len(entries(tmp_path)) == 3
+
+
+def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) -> None:
+    audit = Audit(tmp_path)
+    for i in range(1000):
+        exchange = written_by("anna")
+        exchange.status, exchange.was_let_in = 403, False
+        exchange.scope["client"] = (f"192.0.2.{i % 256}", 1)
+        audit.write(exchange, None)
+    audit.close()
+    audit.close()
+    _, rest = (json.loads(line) for line in (tmp_path / "audit.jsonl").read_text().splitlines())
+    assert rest["refused"] == 999
+    assert len(rest["clients"]) == 8
+    assert len(json.dumps(rest)) < 1000
 
 
 def test_a_write_is_kept_before_it_is_acknowledged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -105,7 +136,7 @@ def test_a_disk_that_refuses_does_not_refuse_the_write(
 def written_by(name: str) -> Exchange:
     scope = {"type": "http", "method": "POST", "path": "/v1/robots", "headers": [], "client": ("192.0.2.7", 1)}
     exchange = Exchange.begun(scope, Operation("add_robot", Scope.WRITE), None)
-    exchange.key, exchange.status = name, 201
+    exchange.key, exchange.status, exchange.was_let_in = name, 201, True
     return exchange
 
 
