@@ -150,6 +150,7 @@ def test_a_hang_is_ended_at_its_deadline(running: tuple[int, str]) -> None:
         os.kill(victim, signal.SIGSTOP)
         status, problem = tasks[0].result()
     assert (status, problem["type"]) == (504, "urn:gelenk:deadline-exceeded")
+    assert "job" in problem["detail"]
     check_whole(pid, url)
     wait_for(lambda: victim not in crew(pid), 5.0)
 

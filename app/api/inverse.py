@@ -23,7 +23,7 @@ _QUICK_STARTS = 64
 """Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a thread."""
 _QUICK_TARGETS = 8
 _SHARE_OF_TIME = 0.8
-"""Of the time that a request may take, what a search may: what is found is to be recomputed and sent."""
+"""Of the time that a request may take, what a search with a time limit may: what is found is to be sent too."""
 
 
 def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
@@ -39,7 +39,7 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
         and from a thousand random configurations, and takes the first start that reaches the target; from a seed that
         is near the target it stays on the seed's branch. Every solution is recomputed through Pinocchio before it is
         sent, and its errors are those of that computation. A target that is not solved is told why, with the nearest
-        configuration that was found. The same call gives the same answer, unless time runs out.
+        configuration that was found. The same call gives the same answer, unless it has a `time_limit`.
 
         Closed forms: arms whose last three axes meet in a point, or whose first three do (any three joints besides,
         turning or sliding); six joints with three parallel axes; positioning arms of two and three joints, with or
@@ -48,7 +48,7 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
         most other geometries `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one.
         """
         chain, targets, seeds = asked(loaded, call, bounds)
-        options = options_of(chain, call, min(call.time_limit, longest))
+        options = options_of(chain, call, None if call.time_limit is None else min(call.time_limit, longest))
         return _outcome(chain, call, inverse_kinematics(loaded.robot, chain, targets, seeds, options))
 
     def attempt(loaded: LoadedRobot, call: InverseRequest) -> Outcome | None:

@@ -11,7 +11,7 @@ from app.kinematics.kernels import chain_poses
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.poses import Poses
-from app.schemas.ik import InverseRequest
+from app.schemas.ik import MAX_TRACE, InverseRequest
 from app.schemas.pose import PoseFormat
 from app.schemas.pose_arrays import pose_list
 
@@ -80,14 +80,14 @@ def told_results(chain: Chain, pose_format: PoseFormat, result: InverseKinematic
         {"status": status, "solutions": solutions[firsts[i] : firsts[i + 1]], "reason": None}
         for i, status in enumerate(result.statuses)
     ]
-    for i, failure in result.failures.items():
-        entries[i].update(_failure(chain, pose_format, failure))
     if result.complete is not None:
         for entry, complete in zip(entries, result.complete, strict=True):
             entry["complete"] = complete
     if result.paths is not None:
         for entry, path in zip(entries, result.paths, strict=True):
             entry.update(_path(path))
+    for i, failure in result.failures.items():
+        entries[i].update(_failure(chain, pose_format, failure))
     return entries
 
 
@@ -119,12 +119,17 @@ def _failure(chain: Chain, pose_format: PoseFormat, failure: Failure) -> dict[st
         entry["blocking_joints"] = failure.blocking_joints
     if failure.unserved_directions is not None:
         entry["unserved_directions"] = failure.unserved_directions.tolist()
+    if failure.is_late:
+        entry["stop_reason"] = "time_limit"
     return entry
 
 
 def _path(path: Path) -> dict[str, Any]:
     entry: dict[str, Any] = {"stop_reason": path.stop_reason}
     if path.trace is not None:
+        every = max(1, -(-(len(path.trace) - 1) // (MAX_TRACE - 1)))
+        if every > 1:
+            entry["note"] = f"the trace tells 1 in {every} of {len(path.trace)} configurations, and the last"
         entry["trace"] = [
             {
                 "error": iterate.error,
@@ -133,6 +138,6 @@ def _path(path: Path) -> dict[str, Any]:
                 "method": iterate.method,
                 "joint_positions": iterate.joint_positions.tolist(),
             }
-            for iterate in path.trace
+            for iterate in [*path.trace[:-1:every], *path.trace[-1:]]
         ]
     return entry

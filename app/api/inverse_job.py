@@ -51,7 +51,7 @@ def inverse_work() -> LongWork[InverseRequest]:
 
 def _request(loaded: LoadedRobot, call: InverseRequest) -> dict[str, bytes]:
     """The files of a checked call; targets and seeds are arrays from here on."""
-    if "time_limit" in call.model_fields_set:
+    if call.time_limit is not None:
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )

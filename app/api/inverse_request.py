@@ -14,7 +14,7 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, TooLarge
 from app.model.poses import Poses
-from app.schemas.ik import InverseRequest
+from app.schemas.ik import MAX_TRACE, InverseRequest
 from app.schemas.pose_arrays import poses_from
 from app.store.records import LoadedRobot
 
@@ -111,7 +111,8 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: Bounds)
         raise TooLarge("targets", targets, bounds.targets)
     if is_stepwise(call) and targets > bounds.stepwise:
         raise TooLarge("targets of a method that is followed step by step", targets, bounds.stepwise)
-    numbers = targets * (joints + 4) * (call.max_solutions if call.solutions == "all" else 1)
+    rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
+    numbers = targets * (joints + 4) * rows
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)
 

@@ -629,7 +629,10 @@ class DeadlineExceeded(KinematicsError):
     @property
     def detail(self) -> str:
         """How long it may take."""
-        return f"the request took longer than the {self.allowed:g} s allowed and was ended: ask for less at once"
+        return (
+            f"the request took longer than the {self.allowed:g} s allowed and was ended: ask for less at once, or have "
+            "it done as a job (`Prefer: respond-async`) where it can be"
+        )
 
 
 @dataclass(eq=False)

@@ -15,6 +15,9 @@ MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000
 """Targets of a call that follows a method step by step, in Python."""
 
+MAX_TRACE = 1000
+"""Configurations of a trace that are told; of a longer one some, evenly."""
+
 MAX_JOB_TARGETS = 4_000_000
 MAX_JOB_STEPWISE = 100_000
 """The same of a call that is answered by a job."""
@@ -73,8 +76,13 @@ class InverseOptions(ChainOptions):
         "`solutions: all`; else the steps of the one start (if left out 100 with `newton`, 500 with "
         "`damped_least_squares`, 5000 with the two others).",
     )
-    time_limit: float = Field(
-        default=10.0, gt=0, le=60, description="For the whole call, [s]; what is not solved in time says so."
+    time_limit: float | None = Field(
+        default=None,
+        gt=0,
+        le=60,
+        description="For the whole call, [s]; each result that it has cut short has the `stop_reason` `time_limit`. If "
+        "left out each target is looked for to the end, so that the answer does not depend on how busy the machine "
+        "is; a call that outlasts what any request may take is a 504, and may be asked for as a job.",
     )
     random_seed: int = Field(default=0, ge=0, lt=2**53, description="Of the starts.")
     max_solutions: int = Field(
@@ -111,7 +119,7 @@ class InverseOptions(ChainOptions):
     trace: bool = Field(
         default=False,
         description="Whether each iteration is told; of `auto` those of the start that counts, and no closed form is "
-        "used then.",
+        f"used then. At most {MAX_TRACE} configurations a target are told.",
     )
     pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
 
@@ -193,7 +201,7 @@ class InverseResult(Answer):
     status: Status = Field(
         description="`unreachable`: by distance alone, or none of the starts came nearer than `nearest` and nothing "
         "leads on from there. `outside_limits`: it would be solved without limits. `singular`: the method came to a "
-        "halt where the Jacobian loses rank. `not_converged`: the budget or the time ran out."
+        "halt where the Jacobian loses rank. `not_converged`: the budget ran out, or a `time_limit`."
     )
     solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
     reason: str | None = Field(description="Why it is not solved.")
@@ -211,7 +219,8 @@ class InverseResult(Answer):
     )
     stop_reason: StopReason | None = Field(
         default=None,
-        description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ).",
+        description="Where one start was followed: why it went no further (`stagnated`: e lies in ker Jᵀ). "
+        "`time_limit`: the call's ended it, before it was solved, explained or brought to its objective.",
     )
     trace: list[IterationInfo] | None = Field(
         default=None,
@@ -219,6 +228,7 @@ class InverseResult(Answer):
         "from the seed if none does. Joints that turn freely may leave their limits on the way; in the solution they "
         "are turned back.",
     )
+    note: str | None = Field(default=None, description="What a long `trace` leaves out.")
 
 
 class InverseAnswer(Answer):

@@ -34,8 +34,6 @@ _REASONS: dict[Status, StopReason] = {
     "singular": "singularity",
     "not_converged": "out_of_reach",
 }
-_SECONDS = 5.0
-"""For the inverse kinematics of a target."""
 _MARGIN = 1e-9
 """By which a motion is slowed down beyond what sampled peaks ask for."""
 
@@ -89,7 +87,7 @@ def _solved(robot: Robot, chain: Chain, start: Array, segment: Segment, index: i
     target = Poses(T[None, :3, 3], T[None, :3, :3])
     form = closed_form(chain, following.task)
     every = form is not None and not form.has_free_elbow
-    options = Options(task=following.task, every=every, most=1, windings=every, time_limit=_SECONDS)
+    options = Options(task=following.task, every=every, most=1, windings=every)
     answer = inverse_kinematics(robot, chain, target, start[None], options)
     if len(answer.qs):
         return cast(Array, answer.qs[0])

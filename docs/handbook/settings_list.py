@@ -42,6 +42,7 @@ _BOUNDS = (
     ("keys", keyring.MAX_KEYS),
     ("targets of a call by a method of the course, or with `trace`", ik.MAX_STEPWISE),
     ("the same of a job", ik.MAX_JOB_STEPWISE),
+    ("configurations of a target's `trace`", ik.MAX_TRACE),
     ("targets of a job", ik.MAX_JOB_TARGETS),
 )
 """What is at most taken, whatever is set."""

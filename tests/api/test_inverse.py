@@ -2,6 +2,7 @@
 
 import time
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,10 @@ from starlette.testclient import TestClient
 from app.kinematics import configuration
 from app.kinematics.ik import branch_kernels, branches, judge, kernels, task
 from app.kinematics.ik.closed_form import closed_form
+from app.main import create_app
 from app.schemas.ik import InverseAnswer
 from app.schemas.pose import ORIENTATIONS
+from app.settings import Settings
 from tests.api.test_kinematics import NPY, Array, fk, npy
 from tests.robots import robot
 
@@ -236,6 +239,30 @@ def test_a_budget_that_is_too_small_says_so(client: TestClient) -> None:
     timed = ik(client, "panda", targets=targets * 40, time_limit=1e-6)["results"]
     assert {"not_converged"} < {entry["status"] for entry in timed} | {"solved"}
     assert any("time limit" in (entry["reason"] or "") for entry in timed)
+    assert all(entry["stop_reason"] == "time_limit" for entry in timed if entry["status"] == "not_converged")
+
+
+def test_a_long_trace_is_told_evenly_thinned(client: TestClient) -> None:
+    """From the first configuration to the last, in an answer of bounded size; a short one is told as a whole."""
+    call = {"method": "gradient", "step_size": 1e-3, "seeds": [[0.1, 0.2]], "trace": True, "position_tolerance": 1e-12}
+    target = {"position": [0.9, 0.8, 0.0], "rotation_vector": [0.0, 0.0, 0.0]}
+    whole = result(client, "planar_2r", target, **call, max_iterations=900)
+    assert len(whole["trace"]) == 901
+    assert "note" not in whole
+    long = result(client, "planar_2r", target, **call, max_iterations=2500)
+    told = long["trace"]
+    assert long["note"] == "the trace tells 1 in 3 of 2501 configurations, and the last"
+    assert told[: len(whole["trace"][::3])] == whole["trace"][::3][:-1] + told[300:301]
+    assert len(told) == 835
+    assert (told[-1]["step_length"], told[-1]["method"]) == (None, None)
+
+
+def test_traces_count_among_the_numbers_of_an_answer(tmp_path: Path) -> None:
+    with TestClient(create_app(Settings(data_dir=tmp_path, max_answer_numbers=11_000))) as small:
+        call = {"targets": [planar(0.5, 0)], "method": "newton", "trace": True}
+        assert small.post("/v1/robots/planar_2r/ik", json=call).status_code == 200
+        refused = small.post("/v1/robots/planar_2r/ik", json={**call, "targets": [planar(0.5, 0)] * 2})
+        assert (refused.status_code, refused.json()["allowed"]) == (413, 11_000)
 
 
 def test_time_is_kept_within_a_single_descent(client: TestClient) -> None:

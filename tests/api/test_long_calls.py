@@ -1,5 +1,6 @@
 """Operations asked for as jobs: checked at once, and answered in the very bytes that they answer with at once."""
 
+import asyncio
 import json
 import time
 from collections.abc import Mapping
@@ -15,6 +16,8 @@ from starlette.testclient import TestClient
 from app.api.access.keyring import new_key
 from app.api.access.scopes import Scope
 from app.api.preference import wants_answer_later
+from app.crew.crew import Crew
+from app.kinematics.ik import search, solve
 from app.main import create_app
 from app.model.arrays import Array
 from app.schemas.trajectory import TrajectoryRequest
@@ -181,6 +184,60 @@ def test_a_trajectory_may_have_more_samples_and_no_more(client: TestClient) -> N
     assert rows.shape == (120_001, 22)
     assert rows[-1, 0] == pytest.approx(12.0, abs=1e-12)
     np.testing.assert_allclose(np.diff(rows[:, 1:8], axis=0), 1e-4 * rows[:-1, 8:15], atol=1e-7)
+
+
+class Leap:
+    """A clock on which an hour passes each time that it is looked at: the busiest machine of all.
+
+    Args:
+        first: How often it is looked at before.
+    """
+
+    def __init__(self, first: int = 0) -> None:
+        self.now = -3600.0 * first
+
+    def monotonic(self) -> float:
+        self.now += 3600.0
+        return max(0.0, self.now)
+
+
+class Here(Crew):
+    """A crew without processes."""
+
+    async def run(self, function: Any, argument: Any, *_: Any) -> Any:
+        return await asyncio.to_thread(function, argument)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"objective": "mid_range"}, {"solutions": "all"}, {"method": "newton", "max_iterations": 3}],
+    ids=", ".join,
+)
+def test_the_answer_does_not_depend_on_how_busy_the_machine_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: dict[str, Any]
+) -> None:
+    with TestClient(create_app(Settings(data_dir=tmp_path), Here(1, 1, 0))) as client:
+        Ts = poses(client, "panda", 20, 7, None)
+        call = {"targets": told_poses(Ts), "max_iterations": 400, **options}
+        result = finished(client, client.post("/v1/robots/panda/ik", json=call, headers=LATER))
+        for module in (search, solve):
+            monkeypatch.setattr(module, "time", Leap())
+        now = client.post("/v1/robots/panda/ik", json=call)
+        assert now.content == client.get(result).content
+
+
+@pytest.mark.parametrize("trace", [False, True])
+def test_a_solution_that_time_kept_from_its_objective_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, trace: bool
+) -> None:
+    with TestClient(create_app(Settings(data_dir=tmp_path), Here(1, 1, 0))) as client:
+        targets = told_poses(poses(client, "panda", 2, 7, None)[1:])
+        call = {"targets": targets, "objective": "mid_range", "time_limit": 60.0, "trace": trace}
+        clock = Leap(first=2)
+        for module in (search, solve):
+            monkeypatch.setattr(module, "time", clock)
+        (result,) = client.post("/v1/robots/panda/ik", json=call).json()["results"]
+    assert (result["status"], result["stop_reason"]) == ("solved", "time_limit")
 
 
 def test_no_targets(client: TestClient) -> None:

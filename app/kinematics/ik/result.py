@@ -39,6 +39,7 @@ class Failure:
         blocking_joints: With `outside_limits`, the joints and by how much.
         unserved_directions: Unit twists in the base's axes, linear before angular, that the tip cannot follow there;
             shape (k, 6).
+        is_late: Whether time ran out before it was solved or explained.
     """
 
     reason: str
@@ -47,6 +48,7 @@ class Failure:
     orientation_error: float
     blocking_joints: tuple[BlockingJoint, ...] = ()
     unserved_directions: Array | None = None
+    is_late: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -206,14 +206,18 @@ def _one(question: Question, options: Options, deadline: float | None) -> Invers
     found, too_far, relaxed = _searched(question, options, deadline)
     if options.objective is not None and found.solved.any():
         found = _settled(question, options.objective, found, deadline)
+    is_unsettled = options.objective is not None and is_over(deadline)
     solved, *errors = judged(question, found.qs, found.solved, found.in_time)
     paths = None
     if options.trace:
         paths = [_retraced(question, options, found, i) for i in range(len(solved))]
+    if is_unsettled:
+        paths = [replace(path, stop_reason="time_limit") for path in paths or [Path("time_limit", None)] * len(solved)]
     statuses: list[Status] = ["solved"] * len(solved)
     failures: dict[int, Failure] = {}
     for i in np.flatnonzero(~solved).tolist():
-        statuses[i], failures[i] = explain(
+        tried, late = bool(found.in_time[i]), is_over(deadline)
+        statuses[i], failure = explain(
             question,
             i,
             found.qs[i],
@@ -221,9 +225,10 @@ def _one(question: Question, options: Options, deadline: float | None) -> Invers
             too_far=bool(too_far[i]),
             beyond_limits=relaxed.get(i),
             budget=options.max_iterations or MAX_ITERATIONS,
-            tried=bool(found.in_time[i]),
-            late=is_over(deadline),
+            tried=tried,
+            late=late,
         )
+        failures[i] = replace(failure, is_late=late or not tried)
     return _assembled(
         "damped_least_squares", found.qs, solved, errors, found.iterations, found.restarts, statuses, failures, paths
     )
