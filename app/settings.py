@@ -33,7 +33,8 @@ class Settings:
         held_body_bytes: Large request bodies of each worker process that come in or wait for their answer, together;
             one of the largest has room in any case (`GELENK_HELD_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
-        crew_processes: Processes of each worker process for what may take long: its crew (`GELENK_CREW_PROCESSES`).
+        crew_processes: Processes of each worker process for what may take long: its crew; up to half as many more, for
+            clients that have none while others have all (`GELENK_CREW_PROCESSES`).
         crew_waiting: Requests that may wait for one of the crew; more are refused (`GELENK_CREW_WAITING`).
         connections: Open connections of each worker process; where there are more, those are closed that wait longest
             for their client (`GELENK_CONNECTIONS`).
@@ -45,8 +46,11 @@ class Settings:
             (`GELENK_REQUEST_SECONDS`).
         job_processes: Processes that the jobs of each worker process share, started when first needed
             (`GELENK_JOB_PROCESSES`).
-        running_jobs: Jobs of each worker process that run at a time (`GELENK_RUNNING_JOBS`).
-        unfinished_jobs: Jobs of all worker processes that wait or run; more are refused (`GELENK_UNFINISHED_JOBS`).
+        running_jobs: Jobs of each worker process that run at a time; up to half as many more, likewise
+            (`GELENK_RUNNING_JOBS`).
+        unfinished_jobs: Jobs of one client, in all worker processes, that wait or run where nobody else has any, else
+            half as many; of all clients together half as many more; further ones are refused
+            (`GELENK_UNFINISHED_JOBS`).
         kept_jobs: Jobs that are kept, the oldest finished ones go first (`GELENK_KEPT_JOBS`).
         kept_job_bytes: Bytes of all jobs that are kept (`GELENK_KEPT_JOB_BYTES`).
         kept_job_days: How long a finished job is kept, [days] (`GELENK_KEPT_JOB_DAYS`).

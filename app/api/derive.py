@@ -11,7 +11,7 @@ from app.api.elsewhere import Elsewhere
 from app.api.lagrangian import formula_content, matrix_content, motion_content
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.remote import while_wanted
+from app.api.remote import client_of, while_wanted
 from app.api.routes import DocumentedRoute, in_thread
 from app.crew.crew import Crew
 from app.kinematics.derive.jacobian import ROW_NAMES
@@ -55,7 +55,7 @@ def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> Documen
             raise InvalidField("query", "this call has its parameters as fields of the body")
         body = await request.body()
 
-        elsewhere = Elsewhere(crew)
+        elsewhere = Elsewhere(crew, client_of(request))
 
         def work() -> Response:
             call = read_json(DeriveRequest, body)

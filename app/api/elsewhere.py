@@ -18,10 +18,11 @@ class Elsewhere:
 
     Args:
         crew: Who runs them.
+        client: Whose request it is.
     """
 
-    def __init__(self, crew: Crew) -> None:
-        self._crew, self._loop = crew, asyncio.get_running_loop()
+    def __init__(self, crew: Crew, client: str = "") -> None:
+        self._crew, self._client, self._loop = crew, client, asyncio.get_running_loop()
         self._lock = threading.Lock()
         self._under_way: Future[Any] | None = None
         self._is_over = False
@@ -42,7 +43,8 @@ class Elsewhere:
         """
 
         async def call() -> _Result:
-            return await asyncio.wait_for(self._crew.run(function, argument, seconds), max(0.0, seconds))
+            work = self._crew.run(function, argument, seconds, self._client)
+            return await asyncio.wait_for(work, max(0.0, seconds))
 
         with self._lock:
             if self._is_over:

@@ -16,6 +16,7 @@ from starlette.responses import Response
 from app.api.job_info import job_response
 from app.api.payloads import CSV, JSON, NPY
 from app.api.preference import APPLIED
+from app.api.remote import client_of
 from app.jobs.parcel import packed, unpacked
 from app.jobs.robot_files import robot_files
 from app.jobs.runner import Runner, Work
@@ -67,7 +68,7 @@ async def submitted(runner: Runner, kind: str, request: Request, planned: bytes)
 
     def submit() -> Response:
         files = {name: content.tobytes() for name, content in unpacked(planned).items()}
-        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files)
+        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files, client=client_of(request))
         location = f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"
         return job_response(job, 202, {"Location": location, **APPLIED})
 

@@ -72,12 +72,10 @@ class Remote:
 
     async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
         client = client_of(request)
-        if client is not None and self._requests[client] >= self._share:
+        if client and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.crew.retry_after)
-        self.crew.check_room()
-        work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds)
-        if client is None:
-            return await while_wanted(request.receive, work)
+        self.crew.check_room(client)
+        work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds, client)
         self._requests[client] += 1
         try:
             return await while_wanted(request.receive, work)
@@ -87,16 +85,17 @@ class Remote:
                 del self._requests[client]
 
 
-def client_of(request: Request) -> str | None:
+def client_of(request: Request) -> str:
     """Whom a request is from: the key that it came with, else its address.
 
-    Requests from this very machine are not told apart: what stands before the service may pass on those of others.
+    Those without a key from this very machine are of one client, the nameless one, which has no share of its own to
+    keep to: what stands before the service may pass on those of others.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:
         return f"key {key}"
     address = request.client.host if request.client else ""
-    return address if address and address not in _OWN_ADDRESSES else None
+    return "" if address in _OWN_ADDRESSES else address
 
 
 def load(desk: Desk, inquiry: Inquiry) -> Response:

@@ -13,7 +13,7 @@ from app.api.job_info import job_response
 from app.api.openapi import RobotPath, json_example, problem_responses
 from app.api.payloads import JSON, BoundedRequest, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.remote import Remote
+from app.api.remote import Remote, client_of
 from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
 from app.jobs.robot_files import robot_files, robot_of, robot_text
@@ -70,7 +70,7 @@ def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_bo
 
         def begin() -> Response:
             call = read_json(WorkspaceRequest, body)
-            job = _submitted(runner, robot, call, limits)
+            job = _submitted(runner, robot, call, limits, client_of(request))
             return job_response(job, 202, {"Location": f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"})
 
         return await asyncio.to_thread(begin)
@@ -96,7 +96,7 @@ def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_bo
     )
 
 
-def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits) -> Job:
+def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits, client: str) -> Job:
     """The job for a call, which is checked first."""
     if call.samples > limits.samples:
         raise TooLarge("samples", call.samples, limits.samples)
@@ -115,7 +115,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     digest = hashlib.sha256((ends + content + loaded.urdf).encode("utf-8", "surrogatepass")).hexdigest()
     whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame, "job_id": None})
     request = {**robot_files(loaded.record.name, loaded.robot, loaded.urdf), _CALL: whole.model_dump_json().encode()}
-    return runner.submit(KIND, digest, request, call.job_id)
+    return runner.submit(KIND, digest, request, call.job_id, client)
 
 
 def workspace_work(folder: Path) -> Work:

@@ -36,7 +36,13 @@ class _Alone(Crew):
         """Never: nothing is missing."""
         return False
 
-    async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:  # noqa: ARG002
+    async def run(
+        self,
+        function: Callable[[_Argument], _Result],
+        argument: _Argument,
+        seconds: float,  # noqa: ARG002
+        client: str = "",  # noqa: ARG002
+    ) -> _Result:
         """The result of a call."""
         return await asyncio.to_thread(function, argument)
 

@@ -1,7 +1,8 @@
 """A number of processes that calls are handed to from an event loop: bounded, each with a deadline, none lost.
 
 A call that crashes its process, outlasts its deadline, or whose caller leaves takes its own process with it and no
-other; a new one is there within milliseconds, because it is a copy of one that has everything loaded already.
+other; a new one is there within milliseconds, because it is a copy of one that has everything loaded already. So is
+one more for a client that comes while others have all of them.
 """
 
 import asyncio
@@ -13,7 +14,6 @@ import signal
 import socket
 import threading
 import time
-from collections import deque
 from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeAlias, TypeVar
@@ -22,6 +22,7 @@ from app.crew import wire
 from app.crew.process import serve
 from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
 from app.processes.copies import Copy, ended, started
+from app.processes.turns import Turns
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -36,6 +37,8 @@ _CROWD_SECONDS = 10.0
 _SMOOTHING = 0.1
 _MOMENT = 1.0
 """How long processes may be missing until that is worth to be told, [s]."""
+_LOOK_SECONDS = 0.5
+"""How often is looked whether those have left for whom an idle process is kept, [s]."""
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
 """A function, its argument, and how many seconds it may take."""
@@ -47,7 +50,7 @@ class Crew:
     """The processes; belongs to one event loop.
 
     Args:
-        count: How many.
+        count: How many; see `Turns` for when there are more.
         waiting: Calls that may wait for one.
         memory_bytes: What each may take beside what it has at its start.
 
@@ -61,7 +64,8 @@ class Crew:
         self.size, self.waiting, self._memory_bytes = count, waiting, memory_bytes
         self.busy = self.restarts = self.refused = 0
         self._idle: list[_Seat] = []
-        self._turns: deque[asyncio.Future[_Seat]] = deque()
+        self._turns: Turns[asyncio.Future[_Seat]] = Turns(count)
+        self._look: asyncio.TimerHandle | None = None
         self._seats: list[_Seat] = []
         self._renewals: set[asyncio.Task[None]] = set()
         self._seconds_a_call = 0.0
@@ -96,13 +100,14 @@ class Crew:
         await asyncio.gather(*self._renewals)
         self._is_begun = True
 
-    def check_room(self) -> None:
+    def check_room(self, client: str = "") -> None:
         """See whether a call would be taken; a crowd can be refused by this before tasks are made for each of them.
 
         Raises:
             ServiceBusy: Too many calls wait.
         """
-        if not self._idle and len(self._turns) >= self.waiting:
+        is_next = self._turns.has_room(client) if self._idle else self._turns.is_beyond(client)
+        if len(self._turns) >= self.waiting and not is_next:
             self._turn_away()
             raise ServiceBusy(self.retry_after)
 
@@ -117,13 +122,16 @@ class Crew:
         seconds = self._outside * self._seconds_a_call / self.size
         return min(_CROWD_SECONDS, max(0.0, seconds - (time.monotonic() - self._outside_since)))
 
-    async def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
+    async def run(
+        self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float, client: str = ""
+    ) -> _Result:
         """The function's result; cancelling this ends the call.
 
         Args:
             function: Of a module, with an argument and a result that can be sent to another process.
             argument: What it is called with.
             seconds: How long it may wait for its turn, and how long it may then take.
+            client: Whose call it is.
 
         Raises:
             ServiceBusy: Too many calls wait, or its turn does not come in time.
@@ -133,8 +141,8 @@ class Crew:
             ServiceStopping: There is no crew any more.
             Exception: Whatever the function raises.
         """
-        seat = await self._turn(seconds)
-        work = asyncio.get_running_loop().create_task(self._worked(seat, (function, argument, seconds)))
+        seat = await self._turn(client, seconds)
+        work = asyncio.get_running_loop().create_task(self._worked(seat, client, (function, argument, seconds)))
         try:
             return await asyncio.shield(work)
         except asyncio.CancelledError:
@@ -159,32 +167,50 @@ class Crew:
             for seat in self._seats:
                 self._renew(seat)
 
-    async def _turn(self, seconds: float) -> "_Seat":
+    async def _turn(self, client: str, seconds: float) -> "_Seat":
         self._fill()
-        while self._idle and not self._closed:
-            seat = self._idle.pop()
-            if seat.is_alive():
-                return seat
-            self._renew(seat)
         if self._closed:
             raise ServiceStopping
-        self.check_room()
+        self.check_room(client)
         turn: asyncio.Future[_Seat] = asyncio.get_running_loop().create_future()
-        self._turns.append(turn)
+        self._turns.add(client, turn)
+        if self._turns.is_beyond(client) and not self._idle and len(self._seats) < self.size + self._turns.half:
+            self._seats.append(_Seat(self._memory_bytes))
+            self._renew(self._seats[-1])
+        self._hand_out()
         try:
             async with asyncio.timeout(seconds):
                 return await turn
         except BaseException as error:
-            if turn in self._turns:
-                self._turns.remove(turn)
-            elif turn.done() and not turn.cancelled() and turn.exception() is None:
+            if not self._turns.remove(client, turn) and not turn.cancelled() and turn.exception() is None:
+                self._turns.give_back(client)
                 self._give_back(turn.result())
             if not isinstance(error, TimeoutError):
                 raise
             self._turn_away()
             raise ServiceBusy(self.retry_after) from None
 
-    async def _worked(self, seat: "_Seat", call: Call) -> Any:
+    def _hand_out(self) -> None:
+        """Give idle processes to those whose turn it is, and let those go that are too many."""
+        while self._idle and not self._closed:
+            if not self._idle[-1].is_alive():
+                self._renew(self._idle.pop())
+            elif (found := self._turns.take()) is None:
+                break
+            elif found[1].done():
+                self._turns.give_back(found[0])
+            else:
+                found[1].set_result(self._idle.pop())
+        while len(self._idle) > 1 and len(self._seats) > self.size:
+            seat = self._idle.pop(0)
+            self._seats.remove(seat)
+            threading.Thread(target=seat.close, daemon=True).start()  # it waits for the process to end
+        if self._look is not None:
+            self._look.cancel()
+        if self._idle and self._turns and not self._closed:
+            self._look = asyncio.get_running_loop().call_later(_LOOK_SECONDS, self._hand_out)
+
+    async def _worked(self, seat: "_Seat", client: str, call: Call) -> Any:
         self.busy += 1
         began = time.monotonic()
         try:
@@ -192,10 +218,11 @@ class Crew:
         finally:
             self.busy -= 1
             self._seconds_a_call += _SMOOTHING * (time.monotonic() - began - self._seconds_a_call)
+            self._turns.give_back(client)
             self._give_back(seat)
 
     def _give_back(self, seat: "_Seat") -> None:
-        """Hand a process to whoever waits longest; replace it first where it is not fit any more."""
+        """Hand a process to whoever's turn it is; replace it first where it is not fit any more."""
         if self._closed:
             seat.close()
             return
@@ -203,12 +230,8 @@ class Crew:
             self.restarts += not seat.is_retired
             self._renew(seat)
             return
-        while self._turns:
-            turn = self._turns.popleft()
-            if not turn.done():
-                turn.set_result(seat)
-                return
         self._idle.append(seat)
+        self._hand_out()
 
     def _renew(self, seat: "_Seat") -> None:
         if not self._renewals and self._is_begun:

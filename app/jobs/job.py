@@ -66,6 +66,7 @@ class Job:
         failure: Why it failed, where it did.
         attempts: How often it was begun without getting further than the time before.
         number: Its place among all jobs in the order in which they came: clocks are set, also back.
+        client: Who asked for it; empty where clients are not told apart.
     """
 
     id: str
@@ -80,6 +81,7 @@ class Job:
     failure: Failure | None = None
     attempts: int = 0
     number: int = 0
+    client: str = ""
 
     @property
     def is_final(self) -> bool:

@@ -2,7 +2,6 @@
 
 import contextlib
 import logging
-import queue
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -23,8 +22,11 @@ from app.model.errors import (
     ServiceStopping,
     UnknownJob,
 )
+from app.processes.turns import Turns
 
 _RENDERING_SECONDS = 60.0
+_LOOK_SECONDS = 0.5
+"""How often is looked whether a job that waits for clients who have left may begin, [s]."""
 _LOOK_FOR_LEFT = 5.0
 """How often the jobs of processes that are gone are looked for, [s]."""
 _ATTEMPTS = 3
@@ -47,7 +49,7 @@ class Runner:
         kinds: What does a job, by its kind.
         executor: Who computes their parts.
         workers: Processes of this machine, which draw pictures of results.
-        running: How many jobs are done at a time.
+        running: How many jobs are done at a time; see `Turns` for when there are more.
         seconds: How long a job may take from when it is begun.
     """
 
@@ -62,8 +64,9 @@ class Runner:
     ) -> None:
         self.shelf, self.workers, self._kinds = shelf, workers, kinds
         self._executor = executor or workers
-        self._running, self._seconds = running, seconds
-        self._queue: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
+        self._seconds = seconds
+        self._turns: Turns[Job] = Turns(running)
+        self._turned = threading.Condition()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
         self._orders: dict[str, Order] = {}
@@ -82,7 +85,9 @@ class Runner:
         """Why no job can be done at present, where that is so."""
         return self._executor.failure
 
-    def submit(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> Job:
+    def submit(
+        self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
+    ) -> Job:
         """Have a job done, or find that it was asked for already.
 
         Args:
@@ -90,6 +95,7 @@ class Runner:
             digest: Of the request.
             request: Files that the kind is told by what is asked for.
             job_id: Its name; one is made up if left out.
+            client: Who asks for it.
 
         Raises:
             JobExists: The name stands for another request.
@@ -99,7 +105,7 @@ class Runner:
         """
         if self._closed.is_set():
             raise ServiceStopping
-        job, is_new = self.shelf.add(kind, digest, request, job_id)
+        job, is_new = self.shelf.add(kind, digest, request, job_id, client)
         if is_new:
             self._do_later(job)
         return job
@@ -167,8 +173,8 @@ class Runner:
             self._closed.set()
         for executor in {self._executor, self.workers}:
             executor.close()
-        for _ in self._threads:
-            self._queue.put(None)
+        with self._turned:
+            self._turned.notify_all()
         for thread in self._threads:
             thread.join(2.0)
         self.shelf.close()
@@ -189,18 +195,34 @@ class Runner:
                 return
 
     def _do_later(self, job: Job) -> None:
-        self._queue.put(job)
+        with self._turned:
+            self._turns.add(job.client, job)
+            self._turned.notify_all()
         with self._lock:
             if self._closed.is_set() or any(thread.name == "job-0" for thread in self._threads):
                 return
-            threads = [threading.Thread(target=self._serve, name=f"job-{i}", daemon=True) for i in range(self._running)]
+            most = self._turns.size + self._turns.half
+            threads = [threading.Thread(target=self._serve, name=f"job-{i}", daemon=True) for i in range(most)]
             self._threads += threads
             for thread in threads:
                 thread.start()
 
     def _serve(self) -> None:
-        while not self._closed.is_set() and (job := self._queue.get()) is not None:
+        while (found := self._next()) is not None:
+            client, job = found
             self._do(job)
+            with self._turned:
+                self._turns.give_back(client)
+                self._turned.notify_all()
+
+    def _next(self) -> tuple[str, Job] | None:
+        """The job whose turn it is, once there is one; None at the end."""
+        with self._turned:
+            while not self._closed.is_set():
+                if (found := self._turns.take()) is not None:
+                    return found
+                self._turned.wait(_LOOK_SECONDS if self._turns else None)
+        return None
 
     def _do(self, job: Job) -> None:
         """A job from where it is to its end; nothing that goes wrong in it leaves it."""

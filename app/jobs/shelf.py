@@ -45,7 +45,7 @@ class Limits:
     Attributes:
         kept: Jobs, finished ones included; the oldest finished ones go first.
         kept_bytes: Of all of them.
-        unfinished: Jobs that wait or run.
+        unfinished: Jobs of one client that wait or run; see `Shelf._make_room` where there are several.
         job_bytes: Of the finished parts of one job.
         kept_seconds: How long a finished job is kept, [s].
     """
@@ -86,7 +86,9 @@ class Shelf:
         """Give up what says that this process lives."""
         self._owners.close()
 
-    def add(self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None) -> tuple[Job, bool]:
+    def add(
+        self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
+    ) -> tuple[Job, bool]:
         """A new job, or the one that stands under its name already for the same request.
 
         One that was given up because its service ended again and again begins anew.
@@ -96,6 +98,7 @@ class Shelf:
             digest: Of the request.
             request: What is asked for: files of the job's folder, from which it can be done at any time.
             job_id: Its name; one is made up if left out.
+            client: Who asks for it.
 
         Returns:
             The job, and whether it is new.
@@ -113,11 +116,12 @@ class Shelf:
                     raise JobExists(job_id)
                 if not _was_interrupted(found):
                     return self._as_it_is(found), False
-            self._make_room()
+            self._make_room(client)
             if job_id is not None and self._read(job_id) is not None:
                 folders.remove_folder(self._root, job_id)
             number = 1 + max((job.number for job in self._jobs()), default=0)
-            job = Job(job_id or uuid.uuid4().hex, kind, digest, self._owners.own_name, time.time(), number=number)
+            name, owner = job_id or uuid.uuid4().hex, self._owners.own_name
+            job = Job(name, kind, digest, owner, time.time(), number=number, client=client)
             files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
             folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
         return job, True
@@ -284,16 +288,23 @@ class Shelf:
         found = [self._read(path.name) for path in self._root.iterdir() if not path.name.startswith(".")]
         return sorted((job for job in found if job is not None), key=lambda job: (job.number, job.created))
 
-    def _make_room(self) -> None:
+    def _make_room(self, client: str) -> None:
         """Drop the oldest finished jobs beyond what is kept.
+
+        A client alone may have as many unfinished ones as there may be, beside others half as many; there may be half
+        as many more for those who came later.
 
         Raises:
             TooManyJobs: There are too many unfinished ones.
         """
         jobs = self._jobs()
         unfinished = [job for job in jobs if not job.is_final]
-        if len(unfinished) >= self._limits.unfinished:
-            raise TooManyJobs(len(unfinished), self._limits.unfinished, _PAUSE)
+        own, half = sum(job.client == client for job in unfinished), max(1, self._limits.unfinished // 2)
+        most = self._limits.unfinished if own == len(unfinished) else half
+        if own >= most:
+            raise TooManyJobs(own, most, _PAUSE, "client")
+        if len(unfinished) >= self._limits.unfinished + half:
+            raise TooManyJobs(len(unfinished), self._limits.unfinished + half, _PAUSE, "service")
         sizes = {job.id: _size(self._root / job.id) for job in jobs}
         count, total = len(jobs), sum(sizes.values())
         waiting = {job.id for job in unfinished}

@@ -5,6 +5,7 @@ which dies takes its own part with it and no other, and a job that is cancelled 
 killed. Nothing of them is left when the service ends.
 """
 
+import os
 import pickle
 import queue
 import threading
@@ -23,6 +24,8 @@ _GRACE = 1.0
 """How long a part of a cancelled job may go on before its process is killed, [s]."""
 _IDLE = 300.0
 """After how long without work a process is let go, [s]."""
+_NICENESS = 10
+"""Who waits for an answer goes first, before the crew too."""
 _ATTEMPTS = 2
 """How often a part is begun: a process may have been killed for no fault of it."""
 
@@ -203,6 +206,7 @@ class _Seat(threading.Thread):
 
 def serve(connection: Connection) -> None:
     """Do parts until the other side is gone; what a process runs."""
+    os.nice(_NICENESS)
     while True:
         try:
             function, argument = connection.recv()

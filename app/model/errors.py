@@ -564,16 +564,18 @@ class JobTookTooLong(KinematicsError):
 
 @dataclass(eq=False)
 class TooManyJobs(KinematicsError):
-    """So many jobs wait that another one has to be asked for later."""
+    """So many jobs wait, in all or of a client, that another one has to be asked for later."""
 
     unfinished: int
     allowed: int
     retry_after: int
+    limit: str = "service"
 
     @property
     def detail(self) -> str:
-        """How many there are."""
-        return f"{self.unfinished} jobs wait or run, of {self.allowed} allowed: ask again in {self.retry_after} s"
+        """How many there are, and whose limit that is."""
+        whose = "jobs of this client" if self.limit == "client" else "jobs of all clients"
+        return f"{self.unfinished} {whose} wait or run, of {self.allowed} allowed: ask again in {self.retry_after} s"
 
 
 @dataclass(eq=False)
@@ -610,6 +612,7 @@ class TooManyRequests(KinematicsError):
 
     allowed: int
     retry_after: int
+    limit: str = "client"
 
     @property
     def detail(self) -> str:

@@ -2,4 +2,5 @@
 
 - `copies`: starts a process, and ends it so that nothing of it is left.
 - `original`: what runs in the process that is copied.
+- `turns`: whose turn it is, where clients share processes or other places.
 """

@@ -349,6 +349,39 @@ def test_calls_get_their_turn_in_order() -> None:
     with_crew(test, 1)
 
 
+def test_who_comes_late_need_not_wait_for_who_has_all_processes() -> None:
+    async def test(crew: Crew) -> None:
+        pids = set(crew.pids)
+        heavy = [asyncio.create_task(crew.run(calls.sleep, LONG, LONG, "heavy")) for _ in range(6)]
+        await at_work(crew, 2)
+        assert set(crew.pids) == pids, "one client alone has as many as there are"
+        light = [await crew.run(calls.own_pid, None, LONG, "light") for _ in range(20)]
+        assert not any(task.done() for task in heavy)
+        assert len(set(light)) == 1, "it is not started anew for each call"
+        assert not pids & {*light}
+        for task in heavy:
+            task.cancel()
+        async with asyncio.timeout(LONG):
+            while len(crew.pids) > crew.size:
+                await asyncio.sleep(0.02)
+
+    with_crew(test, 2)
+
+
+def test_a_process_that_is_kept_for_a_client_who_has_left_is_taken() -> None:
+    async def test(crew: Crew) -> None:
+        assert await crew.run(calls.double, 1, LONG, "light") == 2
+        heavy = [asyncio.create_task(crew.run(calls.sleep, 6.0, LONG, "heavy")) for _ in range(2)]
+        await at_work(crew, 1)
+        assert crew.queue_length == 1
+        await at_work(crew, 2)
+        assert not any(task.done() for task in heavy)
+        for task in heavy:
+            task.cancel()
+
+    with_crew(test, 2)
+
+
 def test_an_error_comes_back_with_its_trace() -> None:
     async def test(crew: Crew) -> None:
         with pytest.raises(ValueError, match="no such thing") as raised:

@@ -123,6 +123,23 @@ def test_a_job_that_is_cancelled_before_its_turn_is_never_begun(runner: Runner) 
     assert (runner.shelf.get(last.id).state, runner.shelf.get(last.id).started) == ("cancelled", None)
 
 
+def test_turns_go_round_the_clients(tmp_path: Path) -> None:
+    runner = opened(tmp_path)
+
+    def asked(client: str, parts: int) -> Job:
+        return runner.submit("parts", "x", made_by("sleep", [0.1] * parts), client=client)
+
+    heavy = [asked("heavy", 1000) for _ in range(4)]
+    deadline = time.monotonic() + 20.0
+    while [runner.shelf.get(job.id).state for job in heavy] != ["running"] * 2 + ["queued"] * 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    light = [watched(runner, asked("light", 1))[-1].state for _ in range(2)]
+    assert light == ["succeeded"] * 2
+    assert not any(runner.shelf.get(job.id).is_final for job in heavy)
+    runner.close()
+
+
 def test_a_finished_job_is_removed(runner: Runner) -> None:
     job = submitted(runner, "double", [1])
     watched(runner, job)

@@ -237,6 +237,27 @@ def test_no_more_wait_than_may(tmp_path: Path) -> None:
         shelf.add("workspace", "3", {})
 
 
+def test_a_client_has_at_most_half_of_the_places_beside_others(tmp_path: Path) -> None:
+    """Alone it has all; and who comes then is let in, up to half as many more."""
+    with opened(tmp_path, Limits(unfinished=4)) as shelf:
+
+        def refused_to(client: str) -> tuple[int, int, str]:
+            with pytest.raises(TooManyJobs) as refused:
+                shelf.add("workspace", "x", {}, client=client)
+            return refused.value.unfinished, refused.value.allowed, refused.value.limit
+
+        first, *_ = (shelf.add("workspace", "x", {}, client="one")[0] for _ in range(4))
+        assert refused_to("one") == (4, 4, "client")
+        shelf.add("workspace", "x", {}, client="two")
+        assert refused_to("one") == (4, 2, "client")
+        shelf.change(first.id, state="cancelled")
+        assert refused_to("one") == (3, 2, "client")
+        shelf.add("workspace", "x", {}, client="two")
+        assert refused_to("two") == (2, 2, "client")
+        shelf.add("workspace", "x", {}, client="three")
+        assert refused_to("three") == (6, 6, "service")
+
+
 def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
     with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as shelf:
         names = [shelf.add("workspace", "x", {}, f"job-{i}")[0].id for i in range(3)]
