@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from tests.benchmarks import (
     batch,
+    fairness,
     ik,
     ik_all,
     jobs,
@@ -34,6 +35,7 @@ BENCHMARKS: dict[str, Callable[[], list[Row]]] = {
 ON_REQUEST: dict[str, Callable[[], list[Row]]] = {
     "solvers-few": ik.measure_few,
     "load": load.measure,
+    "fairness": fairness.measure,
     "soak": soak.measure,
 }
 GROUPS = {"ik": ["solvers", "quality", "batch", "requests", "volume"]}

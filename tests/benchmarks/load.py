@@ -176,19 +176,19 @@ def p99(latencies: list[float]) -> float:
 
 
 @contextmanager
-def serving(**settings: str) -> Iterator[tuple[str, int]]:
-    """The service with two workers, warm: its address, and its process."""
+def serving(workers: int = WORKERS, token: str = "", **settings: str) -> Iterator[tuple[str, int]]:
+    """The service, warm: its address, and its process."""
     port = free_port()
     with tempfile.TemporaryDirectory() as data_dir:
-        command = [sys.executable, "-m", "app.serve", "--port", str(port), "--workers", str(WORKERS)]
+        command = [sys.executable, "-m", "app.serve", "--port", str(port), "--workers", str(workers)]
         environment = {**os.environ, "GELENK_DATA_DIR": data_dir, **settings}
         with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as process:
             try:
                 url = f"http://{HOST}:{port}"
                 wait_for(f"{url}/readyz")
-                asyncio.run(warm_up(url))
+                asyncio.run(warm_up(url, token))
                 time.sleep(SETTLING_SECONDS)
-                asyncio.run(warm_up(url))
+                asyncio.run(warm_up(url, token))
                 yield url, process.pid
             finally:
                 process.terminate()
@@ -197,21 +197,21 @@ def serving(**settings: str) -> Iterator[tuple[str, int]]:
                 process.kill()
 
 
-async def warm_up(url: str) -> None:
+async def warm_up(url: str, token: str) -> None:
     """Have all processes answer once: those for what takes longer start when the service is ready for the rest."""
     until = time.perf_counter() + WARM_UP_SECONDS
     for call in (Call(*FK), Call(*TRAJECTORY)):
-        await asyncio.gather(*(let_in(url, call, until) for _ in range(FIRST)))
+        await asyncio.gather(*(let_in(url, request_of(call, token), until) for _ in range(FIRST)))
 
 
-async def let_in(url: str, call: Call, until: float) -> None:
+async def let_in(url: str, request: bytes, until: float) -> None:
     """Ask until there is an answer."""
-    async with contextlib.aclosing(asked(url, request_of(call), until)) as answers:
+    async with contextlib.aclosing(asked(url, request, until)) as answers:
         async for answer in answers:
             if answer.status == 200:
                 return
             await asyncio.sleep(answer.retry_after)
-    raise TimeoutError(call.path)
+    raise TimeoutError(request[:80])
 
 
 def loaded(url: str, pid: int, call: Call, clients: int, seconds: float) -> tuple[Crowd, Seen, float]:
@@ -285,10 +285,11 @@ async def watcher(url: str, seen: Seen, until: float) -> None:
         await asyncio.sleep(HEALTH_PERIOD)
 
 
-def request_of(call: Call) -> bytes:
-    """A call as it goes over the wire."""
+def request_of(call: Call, token: str = "") -> bytes:
+    """A call as it goes over the wire, with a key where there is one."""
     body = json.dumps(call.body).encode()
     head = f"POST /v1/robots/{call.path} HTTP/1.1\r\nHost: {HOST}\r\nContent-Type: application/json\r\n"
+    head += f"Authorization: Bearer {token}\r\n" if token else ""
     return f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
 
 
