@@ -84,7 +84,7 @@ def _work(folder: Path) -> Work:
 
     def work(run: Run) -> Files:
         forms, unsolved = set(), []
-        for k, found in enumerate(run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED))):
+        for k, found in enumerate(run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)):
             values = unpacked(found)
             forms.add(values["form"].tobytes())
             unsolved += (k * size + values["unsolved"]).tolist()

@@ -60,7 +60,7 @@ def _work(job: _Plan) -> Work:
         frame, names, told = (values[name].tobytes() for name in ("frame", "columns", "headers"))
         rows, width = values["shape"].tolist()
         count, headers = -(-rows // _PART), orjson.loads(told)
-        for _ in run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED)):
+        for _ in run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED), _PART):
             pass
 
         def column(name: str) -> Iterator[bytes]:

@@ -12,7 +12,7 @@ from app.jobs.job import Job
 from app.jobs.parts import Parts
 from app.jobs.shelf import Shelf
 from app.jobs.workers import Cancelled, Order, OutOfTime
-from app.model.errors import UnknownJob
+from app.model.errors import JobFailed, UnknownJob
 
 _Argument = TypeVar("_Argument")
 
@@ -74,6 +74,7 @@ class Run:
         argument: Callable[[int], _Argument],
         count: int,
         span: tuple[float, float] = (0.0, 1.0),
+        size: int = 1,
     ) -> Iterator[bytes]:
         """The parts of a stage in their order: those that are kept already as they are, the others computed.
 
@@ -83,17 +84,19 @@ class Run:
             argument: Of each part, by its number.
             count: How many parts there are.
             span: From where to where the job's progress goes meanwhile.
+            size: What the stage is about comes so many a part; for the name of one that fails.
 
         Raises:
             Cancelled: The job is no longer wanted.
             OutOfTime: It has taken too long.
             TooLarge: The parts take more room than a job may.
             StorageFailed: A part cannot be kept.
+            JobFailed: The processes that computed a part have died.
             Exception: Whatever the function raises.
         """
         waiting: deque[bytes | Future[bytes]] = deque()
         try:
-            yield from self._mapped(waiting, stage, function, argument, count, span)
+            yield from self._mapped(waiting, stage, function, argument, count, span, size)
         finally:
             for part in waiting:
                 if not isinstance(part, bytes):
@@ -107,6 +110,7 @@ class Run:
         argument: Callable[[int], _Argument],
         count: int,
         span: tuple[float, float],
+        size: int,
     ) -> Iterator[bytes]:
         """See `map`; what is handed out is in `waiting`."""
         for k in range(count):
@@ -116,7 +120,11 @@ class Run:
                 waiting.append(self.executor.submit(function, argument(number), self.order) if kept is None else kept)
             part = waiting[0]
             if not isinstance(part, bytes):
-                part = self._waited(part)
+                try:
+                    part = self._waited(part)
+                except ChildProcessError as error:
+                    which = f"part {k + 1} of {count} ({stage} from {k * size:,} on)"
+                    raise JobFailed(f"{which}: {error}") from error
                 self.parts.write(f"{stage}-{k}", part)
                 self._is_further = True
             waiting.popleft()

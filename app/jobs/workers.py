@@ -26,8 +26,9 @@ _IDLE = 300.0
 """After how long without work a process is let go, [s]."""
 _NICENESS = 10
 """Who waits for an answer goes first, before the crew too."""
-_ATTEMPTS = 2
-"""How often a part is begun: a process may have been killed for no fault of it."""
+ATTEMPTS = 3
+"""How often a part is begun whose process dies, which may be no fault of it."""
+DIED = f"its process died {ATTEMPTS} times, which is how often it is tried: by lack of memory, perhaps"
 
 
 class Cancelled(Exception):
@@ -89,7 +90,7 @@ class Workers:
 
         Returns:
             The function's result, or what it has raised; `Cancelled`, `OutOfTime`, or ChildProcessError where its
-            process has died twice.
+            process has died `ATTEMPTS` times.
         """
         future: Future[Any] = Future()
         with self._lock:
@@ -153,14 +154,14 @@ class _Seat(threading.Thread):
 
     def _done(self, function: Callable[[Any], Any], argument: Any, order: Order) -> Any:
         message = pickle.dumps((function, argument), protocol=pickle.HIGHEST_PROTOCOL)
-        for attempt in range(1, _ATTEMPTS + 1):
+        for attempt in range(1, ATTEMPTS + 1):
             self._look(order, None)
             try:
                 succeeded, result = self._asked(message, order)
             except (EOFError, ConnectionError, OSError) as error:
                 self._end()
-                if attempt == _ATTEMPTS:
-                    raise ChildProcessError("a process that computed a part of it has died") from error
+                if attempt == ATTEMPTS:
+                    raise ChildProcessError(DIED) from error
                 continue
             if not succeeded:
                 raise result

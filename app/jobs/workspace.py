@@ -16,7 +16,7 @@ from app.kinematics.sampling import Sampling
 from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
 from app.kinematics.tip_motion import Motion
 from app.kinematics.voxels import VoxelTable
-from app.kinematics.workspace import Part, Plan, Plane, Wish, plan, sampled
+from app.kinematics.workspace import PART, Part, Plan, Plane, Wish, plan, sampled
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.description import Description
@@ -123,7 +123,7 @@ def work_of(asked: Question) -> Work:
     def work(run: Run) -> Files:
         survey = Survey(asked.plan)
         end = _DONE if asked.asked is None else _SAMPLING_SHARE
-        for part in run.map("samples", _sampled, lambda k: (asked.plan, k), asked.plan.parts, (0.0, end)):
+        for part in run.map("samples", _sampled, lambda k: (asked.plan, k), asked.plan.parts, (0.0, end), PART):
             survey.add(_part(part))
         found = survey.result(asked.robot, asked.chain)
         dexterity = None if asked.asked is None else _dexterity(run, asked, found)
@@ -152,7 +152,7 @@ def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
         cells = slice(k * size, (k + 1) * size)
         return arm, centres[cells], found.voxels.first[cells]
 
-    parts = run.map("shares", _shares, part, -(-len(centres) // size), (_SAMPLING_SHARE, _DONE))
+    parts = run.map("voxels", _shares, part, -(-len(centres) // size), (_SAMPLING_SHARE, _DONE), size)
     return np.concatenate([np.empty(0), *(unpacked(part)["shares"] for part in parts)])
 
 

@@ -28,13 +28,14 @@ def die(code: int) -> int:
     os._exit(code)
 
 
-def die_once(mark: str) -> int:
-    """Die, but not the second time."""
-    path = Path(mark)
-    if path.exists():
-        return 1
-    path.touch()
-    os._exit(9)
+def killed(call: tuple[str, int]) -> int:
+    """What is killed the first few times, as by the system where memory runs out; each time leaves a byte in a file."""
+    path, times = call
+    with Path(path).open("ab", buffering=0) as file:
+        file.write(b".")
+        if file.tell() <= times:
+            os.kill(os.getpid(), signal.SIGKILL)
+    return 1
 
 
 def fail(text: str) -> int:

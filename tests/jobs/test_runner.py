@@ -174,6 +174,20 @@ def test_a_job_that_fails_says_why_and_harms_no_other(
     caplog.clear()
 
 
+@pytest.mark.parametrize("times", [1, 2, 99])
+def test_a_part_that_is_killed_is_tried_again_and_named_in_the_end(runner: Runner, tmp_path: Path, times: int) -> None:
+    values = [(str(tmp_path / f"{k}"), times if k == 2 else 0) for k in range(4)]
+    job = submitted(runner, "killed", values)
+    end = watched(runner, job)[-1]
+    if times < 3:
+        assert end.state == "succeeded"
+        assert runner.result(job.id, "result.txt").read_text() == repr([1] * 4)
+        return
+    with pytest.raises(JobFailed, match=r"part 3 of 4 \(all from 2 on\): its process died 3 times"):
+        runner.result(job.id, "result.txt")
+    assert (tmp_path / "2").read_bytes() == b"..."
+
+
 def test_a_job_that_takes_too_long_is_ended(tmp_path: Path) -> None:
     runner = opened(tmp_path, workers=1, running=1, seconds=0.5)
     try:

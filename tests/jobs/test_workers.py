@@ -9,7 +9,7 @@ import pytest
 
 from app.jobs import workers as workers_module
 from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
-from tests.jobs.parts import die, die_once, double, fail, gone, own_pid, sleep
+from tests.jobs.parts import double, fail, gone, killed, own_pid, sleep
 
 SOON = 20.0
 
@@ -57,10 +57,12 @@ def test_an_error_comes_back_as_it_was_raised(workers: Workers) -> None:
         workers.submit(fail, "no such thing", order()).result(SOON)
 
 
-def test_a_part_whose_process_dies_is_begun_again_once(workers: Workers, tmp_path: Path) -> None:
-    assert workers.submit(die_once, str(tmp_path / "mark"), order()).result(SOON) == 1
-    with pytest.raises(ChildProcessError):
-        workers.submit(die, 3, order()).result(SOON)
+def test_a_part_whose_process_is_killed_is_tried_three_times(workers: Workers, tmp_path: Path) -> None:
+    for times in (1, 2):
+        assert workers.submit(killed, (str(tmp_path / f"{times}"), times), order()).result(SOON) == 1
+    with pytest.raises(ChildProcessError, match="died 3 times"):
+        workers.submit(killed, (str(tmp_path / "always"), 99), order()).result(SOON)
+    assert (tmp_path / "always").read_bytes() == b"..."
     assert workers.submit(double, 4, order()).result(SOON) == 8
 
 
