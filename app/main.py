@@ -157,7 +157,8 @@ def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
     workers = Workers(settings.job_processes)
     shelf = Shelf(settings.data_dir / "jobs", kept)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers
-    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds, executor)
+    is_local = settings.ray_lost == "local"
+    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds, executor, is_local)
 
 
 def _door(app: Application, settings: Settings, metrics: Metrics, audit: Audit) -> Door:

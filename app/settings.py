@@ -58,6 +58,8 @@ class Settings:
         job_seconds: How long a job may run in one go, [s] (`GELENK_JOB_SECONDS`).
         ray_address: Head of a Ray cluster that computes the jobs' parts, `host:port`; this machine must be one of its
             own. Empty for processes of this machine (`GELENK_RAY_ADDRESS`).
+        ray_lost: What becomes of jobs while no machine of the cluster computes: they `wait`, and `/readyz` says so, or
+            go on in processes of this machine, `local` (`GELENK_RAY_LOST`).
         max_job_samples: Most configurations of a workspace (`GELENK_MAX_JOB_SAMPLES`).
         api_keys: A file of keys, or the keys themselves as `./dev keys` writes them; empty where none are needed
             (`GELENK_API_KEYS`).
@@ -95,6 +97,7 @@ class Settings:
     job_bytes: int = 1024**3
     job_seconds: int = 600
     ray_address: str = ""
+    ray_lost: str = "wait"
     max_job_samples: int = 10_000_000
     api_keys: str = ""
     open_access: bool = False
@@ -134,6 +137,7 @@ _LISTS = {
 }
 """Settings with several values: what each must be, and an example."""
 _ANSWERS = {"yes": True, "no": False}
+_CHOICES = {"log_level": LEVELS, "ray_lost": ("wait", "local")}
 
 
 def _parse(variable: str, name: str, text: str) -> _Value:
@@ -151,13 +155,13 @@ def _parse(variable: str, name: str, text: str) -> _Value:
         if text not in _ANSWERS:
             raise InvalidSetting(f"{variable} must be yes or no")
         return _ANSWERS[text]
-    if name == "log_level" and text not in LEVELS:
-        raise InvalidSetting(f"{variable} must be one of {', '.join(LEVELS)}")
+    if name in _CHOICES and text not in _CHOICES[name]:
+        raise InvalidSetting(f"{variable} must be one of {', '.join(_CHOICES[name])}")
     if name == "otlp_endpoint" and not _ENDPOINT.fullmatch(text):
         raise InvalidSetting(f"{variable} must be a URL such as http://127.0.0.1:4318")
     if name == "ray_address" and not _HEAD.fullmatch(text):
         raise InvalidSetting(f"{variable} must be the host and the port of a cluster's head, such as 10.0.0.5:6379")
-    if name in {"api_keys", "log_level", "otlp_endpoint", "ray_address"}:
+    if name in {"api_keys", "otlp_endpoint", "ray_address", *_CHOICES}:
         return text
     if not text.isdecimal() or int(text) == 0:
         raise InvalidSetting(f"{variable} must be a whole number greater than zero; it is {text!r}")

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 from app.jobs.job import Failure, Job
 from app.jobs.run import Executor, Files, Run
 from app.jobs.shelf import Shelf
-from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
+from app.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
 from app.model.errors import (
     JobCancelled,
     JobFailed,
@@ -27,6 +27,8 @@ from app.processes.turns import Turns
 _RENDERING_SECONDS = 60.0
 _LOOK_SECONDS = 0.5
 """How often is looked whether a job that waits for clients who have left may begin, [s]."""
+_GOODBYE_SECONDS = 2.0
+"""How long the jobs' threads are waited for at the end, [s]."""
 _LOOK_FOR_LEFT = 5.0
 """How often the jobs of processes that are gone are looked for, [s]."""
 _ATTEMPTS = 3
@@ -47,10 +49,11 @@ class Runner:
     Args:
         shelf: Where jobs are kept.
         kinds: What does a job, by its kind.
-        executor: Who computes their parts.
         workers: Processes of this machine, which draw pictures of results.
         running: How many jobs are done at a time; see `Turns` for when there are more.
         seconds: How long a job may take from when it is begun.
+        executor: Who computes their parts; the processes of this machine if left out.
+        is_local: Whether these do so too where nobody else does; jobs wait otherwise.
     """
 
     def __init__(
@@ -61,9 +64,10 @@ class Runner:
         running: int,
         seconds: float,
         executor: Executor | None = None,
+        is_local: bool = False,
     ) -> None:
         self.shelf, self.workers, self._kinds = shelf, workers, kinds
-        self._executor = executor or workers
+        self._executor, self._is_local = executor or workers, is_local
         self._seconds = seconds
         self._turns: Turns[Job] = Turns(running)
         self._turned = threading.Condition()
@@ -71,6 +75,7 @@ class Runner:
         self._lock = threading.Lock()
         self._orders: dict[str, Order] = {}
         self._unsaid: dict[str, tuple[Job, Failure]] = {}
+        self._waiting: list[Job] = []
         self._closed = threading.Event()
 
     def begin(self) -> None:
@@ -83,7 +88,7 @@ class Runner:
     @property
     def failure(self) -> str | None:
         """Why no job can be done at present, where that is so."""
-        return self._executor.failure
+        return None if self._is_local else self._executor.failure
 
     def submit(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
@@ -175,8 +180,9 @@ class Runner:
             executor.close()
         with self._turned:
             self._turned.notify_all()
+        ends = time.monotonic() + _GOODBYE_SECONDS
         for thread in self._threads:
-            thread.join(2.0)
+            thread.join(max(0.0, ends - time.monotonic()))
         self.shelf.close()
 
     def _take_up(self) -> None:
@@ -184,9 +190,12 @@ class Runner:
             self._executor.prepare()
             try:
                 # Where none can be done now, another process may, or this one later.
-                for job in self.shelf.take_up() if self._executor.failure is None else ():
-                    logger.warning("job %s goes on: the process of the service that did it has ended", job.id)
-                    self._do_later(job)
+                if self.failure is None:
+                    for job in self.shelf.take_up():
+                        logger.warning("job %s goes on: the process of the service that did it has ended", job.id)
+                        self._do_later(job)
+                    while self._waiting:
+                        self._do_later(self._waiting.pop(0))
                 self._say_again()
                 self.shelf.tidy()
             except (KinematicsError, OSError) as error:
@@ -229,9 +238,9 @@ class Runner:
         order = Order(time.monotonic() + self._seconds)
         self._orders[job.id] = order
         try:
-            job = self.shelf.begin(job)
-            if not job.is_final:
-                self._done(job, order)
+            self._done(job, order)
+        except Unavailable as reason:
+            self._postpone(job, reason)
         except (Cancelled, UnknownJob):
             if self._closed.is_set():
                 self._leave(job)
@@ -251,6 +260,11 @@ class Runner:
             self._clear(job)
 
     def _done(self, job: Job, order: Order) -> None:
+        if self.failure is not None:
+            raise Unavailable(self.failure)
+        job = self.shelf.begin(job)
+        if job.is_final:
+            return
         if job.attempts > _ATTEMPTS:
             raise JobInterrupted(
                 f"it was begun {_ATTEMPTS} times, and each time the service ended before it got further"
@@ -258,7 +272,8 @@ class Runner:
         request = self.shelf.request(job.id)
         if not request.is_dir():
             raise JobInterrupted("what it was asked for is not there any more")
-        run = Run(job, order, self._executor, self.shelf, self.shelf.parts(job.id))
+        executor = self.workers if self._is_local and self._executor.failure else self._executor
+        run = Run(job, order, executor, self.shelf, self.shelf.parts(job.id))
         for name, content in self._kinds[job.kind](request)(run).items():
             self.shelf.write(job.id, name, content)
         self.shelf.change(job, state="succeeded", progress=1.0)
@@ -269,6 +284,15 @@ class Runner:
             now = self.shelf.get(job.id)
             if now.is_final and now.created == job.created:
                 self.shelf.clear(job.id)
+
+    def _postpone(self, job: Job, reason: Unavailable) -> None:
+        """Put a job back: nobody computes what is left of it."""
+        logger.warning("job %s %s: %s", job.id, "goes on here" if self._is_local else "waits", reason)
+        self._leave(job)
+        if self._is_local:
+            self._do_later(job)
+        else:
+            self._waiting.append(job)
 
     def _leave(self, job: Job) -> None:
         """Leave a job to the next process of the service; the end of this one is no fault of it."""

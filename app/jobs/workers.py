@@ -39,6 +39,10 @@ class OutOfTime(Exception):
     """The result has not come in time."""
 
 
+class Unavailable(Exception):
+    """Nobody is there to compute it, through no fault of it: it may be asked for again."""
+
+
 @dataclass(eq=False)
 class Order:
     """What the parts of one job have in common.

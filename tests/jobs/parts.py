@@ -15,6 +15,10 @@ def double(value: int) -> int:
     return 2 * value
 
 
+def echo(value: Any) -> Any:
+    return value
+
+
 def own_pid(_: int) -> int:
     return os.getpid()
 

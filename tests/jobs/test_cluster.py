@@ -4,8 +4,11 @@ import contextlib
 import importlib.util
 import os
 import signal
+import socket
+import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import Future
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,16 +17,18 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.jobs.cluster import Cluster, _computed, code_digest
+from app.jobs import runner as runner_module
+from app.jobs.cluster import Cluster
+from app.jobs.driver import _computed, code_digest
 from app.jobs.job import Job
 from app.jobs.runner import Runner
 from app.jobs.shelf import Limits, Shelf
-from app.jobs.workers import Cancelled, Order, Workers
+from app.jobs.workers import Cancelled, Order, Unavailable, Workers
 from app.main import create_app
 from app.model.errors import JobFailed
 from app.settings import Settings
 from tests.jobs.parts import gone, made_by, of_parts, told
-from tests.jobs.ray_cluster import cluster
+from tests.jobs.ray_cluster import cluster, head, node, signalled
 from tests.test_serve import HOST, free_port
 
 NPY = "application/x-npy"
@@ -42,6 +47,7 @@ def address() -> Iterator[str]:
 def runner(address: str, tmp_path: Path) -> Iterator[Runner]:
     kinds = {"parts": of_parts}
     made = Runner(Shelf(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
+    made.begin()
     yield made
     made.close()
 
@@ -66,12 +72,106 @@ def test_a_cluster_that_is_not_there_is_said_to_be_missing(tmp_path: Path) -> No
         while (answer := client.get("/readyz")).json().get("waiting_for") != ["jobs"]:
             assert time.monotonic() < deadline, answer.text
             time.sleep(0.05)
-        assert (answer.status_code, answer.json()["failure"]) == (503, reason)
+        while (answer := client.get("/readyz")).json()["failure"] != reason:
+            assert time.monotonic() < deadline, answer.text
+            time.sleep(0.05)
+        assert answer.status_code == 503
         location = client.post("/v1/robots/panda/workspace", json={"samples": 10}).headers["location"]
-        while (job := client.get(location).json())["state"] in {"queued", "running"}:
-            time.sleep(0.02)
-        assert (job["state"], job["error"]["detail"]) == ("failed", reason)
+        time.sleep(0.3)
+        assert client.get(location).json()["state"] == "queued"
         assert client.get("/healthz").status_code == 200
+        assert client.delete(location).json()["state"] == "cancelled"
+
+
+def test_a_cluster_that_is_not_there_is_done_without_where_that_is_wanted(tmp_path: Path) -> None:
+    settings = Settings(data_dir=tmp_path, ray_address=f"{HOST}:{free_port()}", ray_lost="local")
+    with TestClient(create_app(settings)) as client:
+        location = client.post("/v1/robots/panda/workspace", json={"samples": 10}).headers["location"]
+        deadline = time.monotonic() + SOON
+        while (job := client.get(location).json())["state"] in {"queued", "running"}:
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        assert job["state"] == "succeeded"
+        assert "jobs" not in client.get("/readyz").json().get("waiting_for", [])
+
+
+class Scripted:
+    """An executor that computes here until it is said to be lost; a part that is under way is lost with it."""
+
+    count = 1
+
+    def __init__(self) -> None:
+        self.failure: str | None = None
+        self.under_way: list[Future[Any]] = []
+
+    def prepare(self) -> None:
+        """It is found as soon as it is there."""
+
+    def submit(self, function: Any, argument: Any, _: Order) -> "Future[Any]":
+        if self.failure is not None:
+            raise Unavailable(self.failure)
+        future: Future[Any] = Future()
+        self.under_way.append(future)
+        if argument[1] != "hangs":
+            future.set_result(function(argument))
+        return future
+
+    def lose(self) -> None:
+        self.failure = "its machine is lost"
+        self.under_way[-1].set_exception(Unavailable(self.failure))
+
+    def close(self) -> None:
+        """There is nothing to end."""
+
+
+@pytest.mark.parametrize("is_local", [False, True])
+def test_what_is_lost_waits_or_goes_on_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_local: bool) -> None:
+    monkeypatch.setattr(runner_module, "_LOOK_FOR_LEFT", 0.05)
+    executor, kinds = Scripted(), {"parts": of_parts}
+    runner = Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 60.0, executor, is_local)
+    with contextlib.closing(runner):
+        runner.begin()
+        job = submitted(runner, "echo", [1, 2, "hangs"])
+        deadline = time.monotonic() + SOON
+        while runner.shelf.get(job.id).progress < 0.6:
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        executor.lose()
+        if not is_local:
+            while runner.shelf.get(job.id).state != "queued":
+                assert time.monotonic() < deadline
+                time.sleep(0.02)
+            assert runner.failure == executor.failure
+            time.sleep(0.3)
+            assert (left := runner.shelf.get(job.id)).state == "queued"
+            assert (left.attempts, left.progress) == (0, 2 / 3)
+            executor.submit = lambda function, argument, _: done(function(argument))  # type: ignore[method-assign]
+            executor.failure = None
+        assert ended(runner, job).state == "succeeded"
+        assert runner.result(job.id, "result.txt").read_text() == "[1, 2, 'hangs']"
+        assert runner.failure is None
+
+
+def done(value: Any) -> "Future[Any]":
+    future: Future[Any] = Future()
+    future.set_result(value)
+    return future
+
+
+@with_ray
+def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothing(tmp_path: Path) -> None:
+    with socket.create_server((HOST, 0)) as head:
+        address = f"{HOST}:{head.getsockname()[1]}"
+        runner = Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
+        runner.begin()
+        job = submitted(runner, "double", [1])
+        head.accept()[0].close()  # the first look whether it is there; what comes next is Ray
+        time.sleep(1.0)
+        assert "not answered yet" in (runner.failure or "")
+        started = time.monotonic()
+        runner.close()
+        assert time.monotonic() - started < 3.0
+        assert runner.shelf.get(job.id).state == "queued"
 
 
 def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
@@ -162,7 +262,10 @@ def test_what_goes_wrong_on_the_cluster_is_told_as_it_would_be_here(runner: Runn
     assert runner.failure is not None
     assert ended(runner, submitted(runner, "double", [1, 2])).state == "succeeded"
     assert runner.failure is None
-    for function, reason in (("fail", "ValueError"), ("die", "has died")):
+    for function, reason in (
+        ("fail", "ValueError"),
+        ("die", r"part 1 of 1 \(all from 0 on\): its process died 3 times"),
+    ):
         job = ended(runner, submitted(runner, function, [3]))
         assert job.state == "failed"
         with pytest.raises(JobFailed, match=reason):
@@ -193,17 +296,55 @@ def test_the_end_of_the_driver_fails_what_is_under_way_and_nothing_else(address:
     computes = Cluster(address)
     order = Order(time.monotonic() + SOON)
     try:
+        computes.prepare()
         assert computes.submit(told, ("double", 1), order).result(SOON) == b"2"
         under_way = computes.submit(told, ("sleep", 30.0), order)
         assert computes._process is not None
         assert computes._process.pid is not None
         os.kill(computes._process.pid, signal.SIGKILL)
-        with pytest.raises(ChildProcessError, match="was lost"):
+        with pytest.raises(Unavailable, match="was lost"):
             under_way.result(SOON)
         assert computes.failure is not None
+        computes.prepare()
         assert computes.submit(told, ("double", 2), order).result(SOON) == b"4"
         assert computes.failure is None
     finally:
         computes.close()
     with pytest.raises(Cancelled):
         computes.submit(told, ("double", 2), order)
+
+
+@pytest.mark.slow
+@with_ray
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP])
+@pytest.mark.parametrize(("what", "others"), [("node", 0), ("node", 1), ("head", 0)])
+def test_no_job_hangs_on_a_part_of_the_cluster_that_is_lost(
+    tmp_path: Path, what: str, how: signal.Signals, others: int
+) -> None:
+    """Within half a minute it is done by what is left, or waits, and the service says which."""
+    with tempfile.TemporaryDirectory(prefix="ray-") as folder, contextlib.ExitStack() as stack:
+        ray_head, address = stack.enter_context(head(folder, 0))
+        nodes = [stack.enter_context(node(folder, address, 1)) for _ in range(1 + others)]
+        runner = Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
+        stack.callback(runner.close)
+        runner.begin()
+        job = submitted(runner, "sleep", [0.2] * 30)
+        deadline = time.monotonic() + SOON
+        while runner.shelf.get(job.id).progress < 0.1:
+            assert time.monotonic() < deadline, runner.failure
+            time.sleep(0.05)
+        signalled(ray_head if what == "head" else nodes[0], how)
+        deadline = time.monotonic() + 30.0
+        while (now := runner.shelf.get(job.id)).state == "running":
+            assert time.monotonic() < deadline, now
+            time.sleep(0.05)
+        assert now.state in {"succeeded", "queued"}
+        assert (now.state == "queued") <= (runner.failure is not None)
+        if what == "node":
+            assert now.state == ("succeeded" if others else "queued")
+        if (what, how, others) == ("node", signal.SIGSTOP, 0):
+            signalled(nodes[0], signal.SIGCONT)
+            assert ended(runner, job).state == "succeeded"
+        started = time.monotonic()
+        runner.close()
+        assert time.monotonic() - started < 3.0
