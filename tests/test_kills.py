@@ -152,7 +152,7 @@ class Writer(Client):
             return
         self.check_end(known[0])
         self.jobs[known[0]] = {"there", "gone"}
-        if self._is_done(ask(self._url, f"/v1/jobs/{known[0]}", "DELETE"), {200}, known[0]):
+        if self._is_done(ask(self._url, f"/v1/jobs/{known[0]}?finished=remove", "DELETE"), {200}, known[0]):
             self.jobs[known[0]] = {"gone"}
 
     def check_end(self, name: str) -> None:

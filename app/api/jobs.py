@@ -5,7 +5,7 @@ from collections.abc import AsyncIterator, Mapping
 from typing import Annotated, Any, Literal
 
 import orjson
-from fastapi import APIRouter, Header, Path, Response
+from fastapi import APIRouter, Header, Path, Query, Response
 from starlette.background import BackgroundTask
 from starlette.requests import Request
 from starlette.responses import StreamingResponse
@@ -21,7 +21,7 @@ from app.jobs.workspace import ARRAY, KIND, SUMMARY
 from app.jobs.workspace_picture import picture
 from app.model.errors import InvalidArray, UnknownJob
 from app.schemas.ik import InverseAnswer
-from app.schemas.jobs import JobInfo
+from app.schemas.jobs import Finished, JobInfo
 from app.schemas.trajectory_answer import TrajectoryAnswer
 from app.schemas.workspace import WorkspaceAnswer
 
@@ -51,6 +51,13 @@ _EVENT = {
 }
 JobPath = Annotated[
     str, Path(description="Name of a job.", openapi_examples={"panda-workspace": {"value": "panda-workspace"}})
+]
+FinishedQuery = Annotated[
+    Finished,
+    Query(
+        description="What becomes of a job that has come to its end.",
+        openapi_examples={"remove": {"value": "remove"}},
+    ),
 ]
 LastEvent = Annotated[
     str | None,
@@ -147,14 +154,15 @@ def jobs_router(runner: Runner) -> APIRouter:
         operation_id="cancel_job",
         summary="Cancel a job, or remove a finished one",
         response_model=JobInfo,
-        responses=problem_responses(404, 422, 503, 507),
+        responses=problem_responses(404, 409, 422, 503, 507),
     )
-    def cancel_job(job: JobPath) -> Response:
+    def cancel_job(job: JobPath, finished: FinishedQuery = "keep") -> Response:
         """A job that waits or runs is cancelled at once, whichever worker does it, and stays to be looked at.
 
-        One that has come to its end is removed together with its result; the answer shows it for the last time.
+        One that has come to its end, if only in this moment, keeps its result: 409 with its `state`. With
+        `finished=remove` it is removed together with its result; the answer shows it for the last time.
         """
-        return job_response(runner.cancel(job))
+        return job_response(runner.cancel(job, remove=finished == "remove"))
 
     return router
 

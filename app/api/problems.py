@@ -31,6 +31,7 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.StorageFull: HTTPStatus.INSUFFICIENT_STORAGE,
     errors.JobExists: HTTPStatus.CONFLICT,
     errors.JobNotFinished: HTTPStatus.CONFLICT,
+    errors.JobFinished: HTTPStatus.CONFLICT,
     errors.JobCancelled: HTTPStatus.CONFLICT,
     errors.JobFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
     errors.JobInterrupted: HTTPStatus.CONFLICT,

@@ -13,7 +13,7 @@ from app.calls.exchange import reader
 from app.calls.operations import Operations
 from app.model.arrays import Array
 from app.model.errors import KinematicsError
-from app.schemas.jobs import JobInfo
+from app.schemas.jobs import Finished, JobInfo
 
 P = ParamSpec("P")
 A = TypeVar("A")
@@ -92,9 +92,13 @@ class Job(_Told, Generic[A]):
         self.wait(progress)
         return self._client.send(_array(self.id))
 
-    def cancel(self) -> JobInfo:
-        """End it, or remove its result where it has come to its end."""
-        self.info = self._client.send(_cancel(self.id))
+    def cancel(self, finished: Finished = "keep") -> JobInfo:
+        """End it, or remove its result where it has come to its end and that is said.
+
+        Raises:
+            JobFinished: It has come to its end, and that is not said.
+        """
+        self.info = self._client.send(_cancel(self.id, finished))
         return self.info
 
     def __enter__(self) -> Self:
@@ -102,7 +106,7 @@ class Job(_Told, Generic[A]):
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         with suppress(KinematicsError):  # someone else has removed it, or the service is away
-            self.cancel()
+            self.cancel("remove")
 
 
 class AsyncJob(_Told, Generic[A]):
@@ -135,9 +139,9 @@ class AsyncJob(_Told, Generic[A]):
         await self.wait(progress)
         return await self._client.send(_array(self.id))
 
-    async def cancel(self) -> JobInfo:
+    async def cancel(self, finished: Finished = "keep") -> JobInfo:
         """As that of `Job`."""
-        self.info = await self._client.send(_cancel(self.id))
+        self.info = await self._client.send(_cancel(self.id, finished))
         return self.info
 
     async def __aenter__(self) -> Self:
@@ -147,7 +151,7 @@ class AsyncJob(_Told, Generic[A]):
         self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
     ) -> None:
         with suppress(KinematicsError):
-            await self.cancel()
+            await self.cancel("remove")
 
 
 class Begins(Protocol):

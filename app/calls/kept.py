@@ -13,7 +13,7 @@ from app.calls.exchange import described_by, encoded, posted, reader, segment
 from app.schemas.common import Answer, ChainEnds
 from app.schemas.dh import FromUrdfAnswer
 from app.schemas.health import Health
-from app.schemas.jobs import JobInfo
+from app.schemas.jobs import Finished, JobInfo
 from app.schemas.robots import NewRobot, RobotInfo, RobotList, RobotReplacement
 
 P = ParamSpec("P")
@@ -126,9 +126,10 @@ def job(job: str) -> Call[JobInfo]:
     return Call("GET", f"v1/jobs/{segment(job)}", reader(JobInfo))
 
 
-def cancel(job: str) -> Call[JobInfo]:
-    """Cancel a job, or remove one that has come to its end."""
-    return Call("DELETE", f"v1/jobs/{segment(job)}", reader(JobInfo), is_repeatable=False)
+def cancel(job: str, finished: Finished = "keep") -> Call[JobInfo]:
+    """Cancel a job; one that has come to its end is refused, or removed where that is said."""
+    query = {} if finished == "keep" else {"finished": finished}
+    return Call("DELETE", f"v1/jobs/{segment(job)}", reader(JobInfo), query, is_repeatable=False)
 
 
 def result(answer: type[A]) -> Callable[[str], Call[A]]:

@@ -1,5 +1,6 @@
 """Commands about jobs that a service does while nobody waits for them."""
 
+from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -8,6 +9,14 @@ from app.cli.outputs import Format
 from app.cli.session import session
 
 JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
+
+
+class Finished(StrEnum):
+    """What becomes of a job that has come to its end."""
+
+    KEEP = "keep"
+    REMOVE = "remove"
+
 
 jobs = typer.Typer(name="jobs", help="Jobs of a service: how far they are, what came out, the end of them.")
 
@@ -44,9 +53,13 @@ def result(context: typer.Context, job: JobArgument) -> None:
 
 
 @jobs.command("cancel")
-def cancel(context: typer.Context, job: JobArgument) -> None:
-    """Cancel a job, or remove one that has come to its end."""
+def cancel(
+    context: typer.Context,
+    job: JobArgument,
+    finished: Annotated[Finished, typer.Option(help="What becomes of one that has come to its end.")] = Finished.KEEP,
+) -> None:
+    """Cancel a job; one that has come to its end is refused, or removed where that is said."""
     shared = session(context)
     with shared.client() as client:
-        info = client.cancel_job(job)
+        info = client.cancel_job(job, finished=finished.value)
     shared.tell_job(info)

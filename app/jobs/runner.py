@@ -15,6 +15,7 @@ from app.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
 from app.model.errors import (
     JobCancelled,
     JobFailed,
+    JobFinished,
     JobInterrupted,
     JobNotFinished,
     JobTookTooLong,
@@ -115,20 +116,26 @@ class Runner:
             self._do_later(job)
         return job
 
-    def cancel(self, job_id: str) -> Job:
-        """End a job that is not finished, in whichever process it is; remove one that is.
+    def cancel(self, job_id: str, *, remove: bool = False) -> Job:
+        """End a job that is not finished, in whichever process it is.
+
+        Args:
+            job_id: Its name.
+            remove: Whether one that is finished goes, with its result.
 
         Returns:
             The job: cancelled, or as it was before it was removed.
 
         Raises:
             UnknownJob: There is none of this name.
+            JobFinished: It is finished, if only in this moment, and stays.
         """
-        job = self.shelf.get(job_id)
-        if job.is_final:
-            self.shelf.remove(job_id)
-            return job
+        was_final = self.shelf.get(job_id).is_final
         job = self.shelf.change(job_id, state="cancelled")
+        if was_final or job.state != "cancelled":
+            if not remove:
+                raise JobFinished(job_id, job.state)
+            self.shelf.remove(job_id)
         order = self._orders.get(job_id)
         if order is not None:
             order.cancelled.set()

@@ -29,6 +29,7 @@
     │   └── StorageFull              the disk is full
     ├── JobExists                    the name stands for another job
     ├── JobNotFinished               a job that has no result yet
+    ├── JobFinished                  a job that cannot be cancelled any more
     ├── JobCancelled                 a job that will have none
     ├── JobFailed                    something went wrong in a job
     ├── JobInterrupted               a job that the end of the service has ended
@@ -502,6 +503,19 @@ class JobNotFinished(KinematicsError):
     def detail(self) -> str:
         """How far it is."""
         return f"job {quoted(self.job)} is {self.state!a}, at {self.progress:.0%}: its result comes when it is done"
+
+
+@dataclass(eq=False)
+class JobFinished(KinematicsError):
+    """A job that is to be cancelled has come to its end."""
+
+    job: str
+    state: str
+
+    @property
+    def detail(self) -> str:
+        """What has become of it, and how it is removed."""
+        return f"job {quoted(self.job)} is {self.state!a} and stays so: with `finished=remove` it is removed"
 
 
 @dataclass(eq=False)

@@ -1,6 +1,6 @@
 """What travels about jobs."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -15,6 +15,9 @@ JobName = Annotated[
         examples=["panda-workspace"],
     ),
 ]
+
+Finished: TypeAlias = Literal["keep", "remove"]
+"""What becomes of a job that is to be cancelled and has come to its end."""
 
 
 class JobError(Answer):

@@ -25,6 +25,7 @@ SHORT = {"samples": 1000}
 LONG = {"kind": "dexterity", "samples": 200_000, "voxel_size": 0.04, "orientations": 10}
 """Half a minute of inverse kinematics."""
 PATH = "/v1/robots/panda/workspace"
+REMOVE = {"finished": "remove"}
 
 
 def posted(client: TestClient, call: dict[str, Any]) -> str:
@@ -174,10 +175,25 @@ def test_a_cancelled_job_has_no_result_and_is_removed_the_second_time(client: Te
     assert client.get(location).json()["state"] == "cancelled"
     late = client.get(f"{location}/result")
     assert (late.status_code, late.json()["type"]) == (409, "urn:gelenk:job-cancelled")
-    assert client.delete(location).json()["state"] == "cancelled"
+    assert client.delete(location, params=REMOVE).json()["state"] == "cancelled"
     assert client.get(location).status_code == 404
     after = posted(client, SHORT)
     assert ended(lambda: client.get(after).json())["state"] == "succeeded"
+
+
+def test_cancelling_what_has_just_finished_keeps_its_result(client: TestClient) -> None:
+    """It is removed only where that is said."""
+    location = posted(client, SHORT)
+    job = ended(lambda: client.get(location).json())
+    late = client.delete(location)
+    assert (late.status_code, late.json()["type"]) == (409, "urn:gelenk:job-finished")
+    assert (late.json()["job"], late.json()["state"]) == (job["id"], job["state"])
+    assert "finished=remove" in late.json()["detail"]
+    assert client.get(location).json() == job
+    assert client.get(f"{location}/result").status_code == 200
+    assert client.delete(location, params={"finished": "gone"}).status_code == 422
+    assert client.delete(location, params=REMOVE).json() == job
+    assert client.get(location).status_code == 404
 
 
 def test_a_job_goes_on_when_a_process_is_killed(client: TestClient) -> None:

@@ -110,6 +110,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
     errors.JobExists: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", digest, {}, "one") for digest in "ab"]),
     errors.JobNotFinished: lambda: result_of({}),
+    errors.JobFinished: lambda: on_a_shelf(cancelled_twice),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
     errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
     errors.JobInterrupted: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobInterrupted("gone"))}),
@@ -169,6 +170,12 @@ def result_of(state: dict[str, object]) -> None:
         Runner(shelf, {}, Workers(1), running=1, seconds=1.0).result(job.id, "result.json")
 
     on_a_shelf(ask)
+
+
+def cancelled_twice(shelf: Shelf) -> None:
+    runner, (job, _) = Runner(shelf, {}, Workers(1), running=1, seconds=1.0), shelf.add("workspace", "", {})
+    for _ in range(2):
+        runner.cancel(job.id)
 
 
 def submitted_too_late(shelf: Shelf) -> None:

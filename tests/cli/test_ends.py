@@ -74,7 +74,7 @@ def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.Mo
 
     monkeypatch.setattr("app.calls.jobs.Job.result", interrupted)
     ended: list[str] = []
-    monkeypatch.setattr("app.calls.jobs.Job.cancel", lambda job: ended.append(job.id))
+    monkeypatch.setattr("app.calls.jobs.Job.cancel", lambda job, _: ended.append(job.id))
     shell("workspace", "planar_2r", "--samples", 1000, code=130)
     assert len(ended) == 1
 
@@ -95,7 +95,7 @@ def test_a_job_is_begun_for_later(shell: Shell, url: str, tmp_path: Path) -> Non
     assert rows == b""
     expected = [result["solutions"][0]["joint_positions"] for result in at_once["results"]]
     assert np.array_equal(np.load(tmp_path / "found.npy"), expected)
-    assert shell.json("--server", url, "jobs", "cancel", begun["id"])["state"] == "succeeded"
+    assert shell.json("--server", url, "jobs", "cancel", begun["id"], "--finished", "remove")["state"] == "succeeded"
     shell("--server", url, "jobs", "show", begun["id"], code=2)
 
 

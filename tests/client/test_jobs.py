@@ -56,7 +56,9 @@ def test_who_leaves_ends_the_job(gelenk: Client) -> None:
     assert gelenk.job(job.id).state == "cancelled"
     with pytest.raises(errors.JobCancelled):
         job.result()
-    assert job.cancel().state == "cancelled"
+    with pytest.raises(errors.JobFinished):
+        job.cancel()
+    assert job.cancel("remove").state == "cancelled"
 
 
 def test_what_is_wrong_is_said_before_there_is_a_job(gelenk: Client) -> None:
@@ -80,7 +82,7 @@ def test_awaited(url: str) -> None:
                 found, at_once = await job.result(), await gelenk.ik("ur5", targets=there, solutions="all")
             motion = await gelenk.jobs.trajectory("planar_2r", **MOTION)
             samples = await motion.array()
-            await motion.cancel()
+            await motion.cancel("remove")
             return found, at_once, samples, states, job.id
 
     found, at_once, sampled, states, job = asyncio.run(ask())

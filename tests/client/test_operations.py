@@ -147,7 +147,7 @@ def test_a_job_tells_how_far_it_is(gelenk: Client) -> None:
     assert answer.samples == 200_000
     assert gelenk.arrays.job_result(job.id).shape == tuple(answer.array.shape)
     assert gelenk.picture(f"v1/jobs/{job.id}/result", "svg").startswith(b"<?xml")
-    assert gelenk.cancel_job(job.id).state == "succeeded"
+    assert gelenk.cancel_job(job.id, finished="remove").state == "succeeded"
 
 
 def test_many_calls_at_once(url: str) -> None:
@@ -159,7 +159,7 @@ def test_many_calls_at_once(url: str) -> None:
             job = await gelenk.workspace("planar_2r", samples=10_000)
             seen: list[float] = []
             done = await gelenk.wait(job.id, lambda info: seen.append(info.progress))
-            await gelenk.cancel_job(job.id)
+            await gelenk.cancel_job(job.id, finished="remove")
             return answers, array, done, seen
 
     answers, array, done, seen = asyncio.run(ask())

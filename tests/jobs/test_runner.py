@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from app.model.errors import (
     InvalidField,
     JobCancelled,
     JobFailed,
+    JobFinished,
     JobInterrupted,
     JobNotFinished,
     JobTookTooLong,
@@ -140,10 +142,25 @@ def test_turns_go_round_the_clients(tmp_path: Path) -> None:
     runner.close()
 
 
+def test_a_job_that_comes_to_its_end_while_it_is_cancelled_keeps_its_result(
+    runner: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job = submitted(runner, "double", [1])
+    watched(runner, job)
+    get = runner.shelf.get
+    monkeypatch.setattr(runner.shelf, "get", lambda name: replace(get(name), state="running"))
+    with pytest.raises(JobFinished):
+        runner.cancel(job.id)
+    monkeypatch.undo()
+    assert runner.result(job.id, "result.txt").read_text() == "[2]"
+
+
 def test_a_finished_job_is_removed(runner: Runner) -> None:
     job = submitted(runner, "double", [1])
     watched(runner, job)
-    assert runner.cancel(job.id).state == "succeeded"
+    with pytest.raises(JobFinished):
+        runner.cancel(job.id)
+    assert runner.cancel(job.id, remove=True).state == "succeeded"
     for ask in (runner.shelf.get, runner.cancel, lambda job_id: runner.result(job_id, "result.txt")):
         with pytest.raises(UnknownJob):
             ask(job.id)

@@ -211,7 +211,7 @@ def test_a_job_goes_on_without_its_panel_until_it_is_cancelled(studio: Studio, r
     studio.wait_for_robot("panda")
     studio.page.get_by_text("Cancelled at").wait_for()
     # A job that is gone is told, and forgotten.
-    get(f"{studio.url}/v1/jobs/{job}", "DELETE")
+    get(f"{studio.url}/v1/jobs/{job}?finished=remove", "DELETE")
     refusals.add(404)
     studio.page.reload()
     studio.wait_for_robot("panda")

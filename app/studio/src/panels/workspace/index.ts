@@ -110,11 +110,11 @@ class WorkspacePanel {
   }
 
   async #cancel(): Promise<void> {
-    if (this.#followed) this.#progress.show(await this.#follower.end(this.#followed));
+    if (this.#followed) this.#progress.show(await this.#follower.cancel(this.#followed));
   }
 
   async #remove(): Promise<void> {
-    if (this.#followed) await this.#follower.end(this.#followed);
+    if (this.#followed) await this.#follower.remove(this.#followed);
     this.#remember(null);
   }
 

@@ -57,10 +57,15 @@ export class Follower {
     });
   }
 
-  /** Cancel a job that runs, or remove one that has come to its end. */
-  async end(id: string): Promise<JobInfo> {
-    if (last?.id === id) last = null;
+  /** Cancel a job; one that has come to its end meanwhile stays. */
+  async cancel(id: string): Promise<JobInfo> {
     return this.api.call<JobInfo>({ method: "DELETE", path: pathOf(id) });
+  }
+
+  /** Remove a job with its result. */
+  async remove(id: string): Promise<JobInfo> {
+    if (last?.id === id) last = null;
+    return this.api.call<JobInfo>({ method: "DELETE", path: `${pathOf(id)}?finished=remove` });
   }
 
   /** Follow nothing any more; the job itself goes on. */
