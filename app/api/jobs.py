@@ -32,7 +32,7 @@ HEARTBEAT_SECONDS = 15.0
 """After how long without news a stream sends a comment, so that nothing on the way takes it for dead."""
 
 _PIECE = 256 * 1024
-EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), trajectory_job.KIND: (CSV,)}
+EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), trajectory_job.KIND: (CSV, SVG, PNG)}
 """Media types that a kind of job has a result in beside JSON and npy."""
 _PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
 
@@ -127,7 +127,7 @@ def jobs_router(runner: Runner) -> APIRouter:
                     **csv_content("Of a trajectory what the call itself answers with."),
                     **picture_content(
                         "A workspace from the front, the side and above, or in its plane, coloured by the measure or "
-                        "the dexterity."
+                        "the dexterity. Of a trajectory what the call itself answers with."
                     ),
                 }
             },
@@ -142,9 +142,9 @@ def jobs_router(runner: Runner) -> APIRouter:
         One that was given up because the service ended each time that it was begun is a 409: it has to be asked for
         again.
         """
-        offered = (JSON, NPY, *EXTRA.get(runner.shelf.get(job).kind, ()))
-        wanted = preferred_type(request.headers.get("accept", ""), offered)
-        if wanted in _PICTURES:
+        kind = runner.shelf.get(job).kind
+        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(kind, ())))
+        if kind == KIND and wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
             return Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
         return _file_response(runner, job, wanted)

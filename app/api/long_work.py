@@ -14,7 +14,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from app.api.job_info import job_response
-from app.api.payloads import CSV, JSON, NPY
+from app.api.payloads import CSV, JSON, NPY, PNG, SVG
 from app.api.preference import APPLIED
 from app.api.remote import client_of
 from app.jobs.parcel import packed, unpacked
@@ -25,7 +25,7 @@ from app.store.records import LoadedRobot
 
 _Request = TypeVar("_Request", bound=Payload)
 
-RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv"}
+RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv", SVG: "result.svg", PNG: "result.png"}
 """The file of a result by its media type, of any kind of job."""
 HEADERS = "headers.json"
 """The file with what the headers of these tell, by media type."""

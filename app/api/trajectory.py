@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from app.api.routes import Computation, Operation, Outcome, PictureFormat
+from app.api.routes import Computation, Operation, Outcome
 from app.api.trajectory_job import trajectory_work
 from app.api.trajectory_planned import Bounds, Planned
 from app.api.trajectory_samples import MAX_SAMPLES
@@ -10,9 +10,6 @@ from app.model.arrays import Array
 from app.schemas.trajectory import TrajectoryRequest
 from app.schemas.trajectory_answer import TrajectoryAnswer
 from app.store.records import LoadedRobot
-
-_MOST_NAME = 16
-"""Characters of a robot's name in a title, which has room for 48."""
 
 
 def trajectory_operation(max_answer_numbers: int) -> Operation:
@@ -48,7 +45,7 @@ def trajectory_operation(max_answer_numbers: int) -> Operation:
         def array() -> tuple[Array, dict[str, str]]:
             return planned.table(planned.times()), planned.headers
 
-        return Outcome(content, array, lambda kind: _picture(loaded, planned, kind), planned.columns)
+        return Outcome(content, array, lambda kind: planned.picture(loaded.record.name, kind), planned.columns)
 
     return Operation(
         name="trajectory",
@@ -86,26 +83,3 @@ def trajectory_operation(max_answer_numbers: int) -> Operation:
             "sample_period": 0.05,
         },
     )
-
-
-def _picture(loaded: LoadedRobot, planned: Planned, kind: PictureFormat) -> bytes:
-    # Matplotlib takes a third of a second to load.
-    from app.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
-
-    chain, question, found = planned.chain, planned.question, planned.found
-    spans = []
-    for report in found.segments:
-        limits = question.segment_bounds[report.index].limits
-        label = f"{report.index} {report.type}"
-        spans.append(
-            Span(label, report.start_time, report.end_time, (limits.velocity, limits.acceleration, limits.jerk))
-        )
-    slides = [loaded.robot.description.joint[name].type == "prismatic" for name in chain.joint_names]
-    unit = "m" if slides and all(slides) else "(rad or m)" if any(slides) else "rad"
-    units = [unit, *(f"{unit}/{per}" for per in ("s", "s²", "s³"))]
-    name = loaded.record.name
-    title = f"{name if len(name) <= _MOST_NAME else name[: _MOST_NAME - 1] + '…'}: {found.motion.duration:.4g} s"
-    if found.failure is not None:
-        title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
-    lines = Lines(chain.joint_names, units, (None, None, None), spans=spans)
-    return profiles_picture(title, found.motion, lines, kind)

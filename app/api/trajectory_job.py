@@ -1,7 +1,7 @@
 """Trajectories as a job: planned and judged, then told some samples a part."""
 
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import IO, TypeAlias
 
@@ -9,7 +9,8 @@ import numpy as np
 import orjson
 
 from app.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
-from app.api.payloads import CSV, JSON, NPY, csv_head, csv_rows, read_json
+from app.api.payloads import CSV, JSON, NPY, PNG, SVG, csv_head, csv_rows, read_json
+from app.api.routes import PictureFormat
 from app.api.trajectory_planned import SAMPLED, Bounds, Planned, checked
 from app.api.trajectory_samples import MAX_JOB_SAMPLES
 from app.jobs.parcel import packed, unpacked
@@ -25,7 +26,8 @@ _CALL = "call.json"
 _PART = 8192
 """Samples of a part."""
 _PLAN, _STAGE = "plan", "samples"
-_PLANNED, _SAMPLED = 0.5, 0.95
+_PLANNED, _SAMPLED, _DRAWN = 0.5, 0.9, 0.95
+_PICTURES: tuple[tuple[str, PictureFormat], ...] = ((SVG, "svg"), (PNG, "png"))
 _GAP = b"\0"
 """Stands round the name of a field whose entries come from the parts: no JSON has it."""
 
@@ -45,7 +47,7 @@ def trajectory_work(max_answer_numbers: int) -> LongWork[TrajectoryRequest]:
     def work(folder: Path) -> Work:
         return _work((robot_text(folder), (folder / _CALL).read_bytes(), max_answer_numbers))
 
-    return LongWork(KIND, request, work, f"{MAX_JOB_SAMPLES:,} samples, but there is no picture")
+    return LongWork(KIND, request, work, f"{MAX_JOB_SAMPLES:,} samples")
 
 
 def _bounds(max_answer_numbers: int) -> Bounds:
@@ -62,6 +64,11 @@ def _work(job: _Plan) -> Work:
         count, headers = -(-rows // _PART), orjson.loads(told)
         for _ in run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED), _PART):
             pass
+        pictures = run.map("picture", drawn_part, lambda k: (job, _PICTURES[k][1]), len(_PICTURES), (_SAMPLED, _DRAWN))
+        drawn: Files = {
+            RESULTS[media_type]: partial(_write, picture)
+            for (media_type, _), picture in zip(_PICTURES, pictures, strict=True)
+        }
 
         def column(name: str) -> Iterator[bytes]:
             return (unpacked(part)[name].tobytes() for part in run.finished(_STAGE, count))
@@ -87,6 +94,7 @@ def _work(job: _Plan) -> Work:
             RESULTS[JSON]: write_json,
             RESULTS[NPY]: write_npy,
             RESULTS[CSV]: write_csv,
+            **drawn,
             HEADERS: lambda target: target.write(headers_file({NPY: headers, CSV: headers})),
         }
 
@@ -99,6 +107,10 @@ def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:
     for i, entries in enumerate(lists):
         target.write((b"," if i else b"") + entries[1:-1])
     target.write(b"]")
+
+
+def _write(content: bytes, target: IO[bytes]) -> None:
+    target.write(content)
 
 
 @lru_cache(maxsize=1)
@@ -131,3 +143,9 @@ def sampled_part(job: tuple[_Plan, int]) -> bytes:
     rows = planned.table(times)
     told = {name: as_bytes(orjson.dumps(entries)) for name, entries in planned.told_samples(times).items()}
     return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **told)
+
+
+def drawn_part(job: tuple[_Plan, PictureFormat]) -> bytes:
+    """A picture of the motion, in a process of its own."""
+    plan, kind = job
+    return _planned(plan).picture(plan[0].name, kind)

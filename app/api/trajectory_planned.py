@@ -7,6 +7,7 @@ from typing import Any
 import orjson
 
 from app.api.payloads import json_rows
+from app.api.routes import PictureFormat
 from app.api.trajectory_answer import (
     columns,
     samples,
@@ -33,6 +34,8 @@ from app.trajectory.plan import plan
 from app.trajectory.problem import Trajectory
 
 _NUMBERS_A_POSE = 16
+_MOST_NAME = 16
+"""Characters of a robot's name in a title, which has room for 48."""
 SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
 """Fields of the answer that have an entry for each sample."""
 
@@ -179,3 +182,25 @@ class Planned:
             "certificate": certificate,
         }
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
+
+    def picture(self, name: str, kind: PictureFormat) -> bytes:
+        """Position, velocity, acceleration and jerk over time, under the name of the robot."""
+        # Matplotlib takes a third of a second to load.
+        from app.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
+
+        chain, found = self.chain, self.found
+        spans = []
+        for report in found.segments:
+            limits = self.question.segment_bounds[report.index].limits
+            label = f"{report.index} {report.type}"
+            spans.append(
+                Span(label, report.start_time, report.end_time, (limits.velocity, limits.acceleration, limits.jerk))
+            )
+        slides = [self.robot.description.joint[name].type == "prismatic" for name in chain.joint_names]
+        unit = "m" if slides and all(slides) else "(rad or m)" if any(slides) else "rad"
+        units = [unit, *(f"{unit}/{per}" for per in ("s", "s²", "s³"))]
+        title = f"{name if len(name) <= _MOST_NAME else name[: _MOST_NAME - 1] + '…'}: {found.motion.duration:.4g} s"
+        if found.failure is not None:
+            title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
+        lines = Lines(chain.joint_names, units, (None, None, None), spans=spans)
+        return profiles_picture(title, found.motion, lines, kind)

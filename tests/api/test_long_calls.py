@@ -24,6 +24,7 @@ from app.schemas.trajectory import TrajectoryRequest
 from app.settings import Settings
 
 JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
+SVG, PNG = "image/svg+xml", "image/png"
 LATER = {"Prefer": "respond-async"}
 
 
@@ -168,7 +169,7 @@ MOTION: dict[str, Any] = {
     ids=["several parts", "all there is to tell", "without poses", "out of reach"],
 )
 def test_trajectories(client: TestClient, options: dict[str, Any]) -> None:
-    same(client, "/v1/robots/panda/trajectory", (JSON, NPY, CSV), json={**MOTION, **options})
+    same(client, "/v1/robots/panda/trajectory", (JSON, NPY, CSV, SVG, PNG), json={**MOTION, **options})
 
 
 @pytest.mark.slow

@@ -196,7 +196,7 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
     "get_job": lambda f, _: ["jobs", "show", f["job"]],
     "watch_job": lambda f, _: ["jobs", "watch", f["job"]],
     "get_job_result": lambda f, _: ["jobs", "result", f["job"]],
-    "cancel_job": lambda f, _: ["jobs", "cancel", f["job"]],
+    "cancel_job": lambda f, _: ["jobs", "cancel", f["job"], "--finished", f["finished"]],
 }
 """Each operation that has a command of its own, with the arguments that say what its example does."""
 ON_A_SERVER = {"workspace"}
