@@ -7,8 +7,10 @@ import runpy
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -100,3 +102,29 @@ def test_the_real_project_has_all_parts_that_are_carried() -> None:
     carried = runpy.run_path("dev")["CARRIED"]
     assert carried
     assert [part for part in carried if not Path(part).exists()] == []
+
+
+@pytest.mark.parametrize("has_environment", [False, True])
+def test_where_nothing_can_be_written_it_says_what_is_missing(project: Path, has_environment: bool) -> None:
+    """As another user where this one may write everything, with a Python that others may run."""
+    user: dict[str, Any] = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+    python = shutil.which("python3", path="/usr/bin:/bin") if user else sys.executable
+    if python is None:
+        pytest.skip("needs a Python of the system")
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(folder, "project")
+        shutil.copytree(project, tree)
+        if has_environment:
+            (tree / ".venv" / "bin").mkdir(parents=True)
+            (tree / ".venv" / "bin" / "python").symlink_to(python)
+        for path in (Path(folder), *tree.rglob("*/"), tree):
+            path.chmod(0o555)
+        command = [python, str(tree / "dev"), "serve"]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False, **user)
+        for path in (Path(folder), *tree.rglob("*/"), tree):
+            path.chmod(0o755)
+    assert run.returncode == 1
+    assert run.stderr.count("\n") == 1
+    missing = "requirements.lock is not installed in .venv" if has_environment else "there is no .venv"
+    assert run.stderr.startswith(missing)
+    assert f"{tree} cannot be written to: run ./dev install there" in run.stderr
