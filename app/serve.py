@@ -3,11 +3,13 @@
 import argparse
 import asyncio
 import contextlib
+import errno
 import fcntl
 import ipaddress
 import os
 import resource
 import shutil
+import socket
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -64,6 +66,7 @@ def main() -> None:
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
     _open_as_many_files_as_allowed()
+    listener = _listening(arguments.host, arguments.port)
     where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
     print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
     bounds = Bounds(connections=settings.connections, waiting=settings.requests_waiting)
@@ -85,7 +88,22 @@ def main() -> None:
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
     )
     with metrics_folder(arguments.workers):
-        Supervisor(config, config.bind_socket()).run()
+        Supervisor(config, listener).run()
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    """A socket that listens already: of two services that are started at once, one is told now and not when it serves.
+
+    Raises:
+        SystemExit: Another program listens there, or nobody can.
+    """
+    family, both = (socket.AF_INET6, socket.has_dualstack_ipv6()) if ":" in host else (socket.AF_INET, False)
+    try:
+        return socket.create_server((host, port), family=family, dualstack_ipv6=both)
+    except OSError as error:
+        taken = f"another program has it; --port names another one than {port}"
+        reason = taken if error.errno == errno.EADDRINUSE else error.strerror or str(error)
+        sys.exit(f"cannot listen at {host}:{port}: {reason}")
 
 
 @contextlib.contextmanager

@@ -211,6 +211,44 @@ def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
     assert "GELENK_DATA_DRI" in run.stderr
 
 
+@pytest.mark.parametrize("arguments", [[], ["--workers", "3"]], ids=str)
+@pytest.mark.parametrize("host", [HOST, "localhost"])
+def test_a_taken_port_is_all_that_it_tells_of(host: str, arguments: list[str], tmp_path: Path) -> None:
+    """Also where the other one has only just begun, and does not serve yet."""
+    environment = {
+        **os.environ,
+        "GELENK_DATA_DIR": str(tmp_path / "data"),
+        "NUMBA_CACHE_DIR": str(tmp_path / "kernels"),
+    }
+    with socket.socket() as other:
+        other.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        other.bind((HOST, 0))
+        other.listen()
+        port = other.getsockname()[1]
+        command = [sys.executable, "-m", "app.serve", "--host", host, "--port", str(port), *arguments]
+        run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode != 0
+    assert (run.stdout, run.stderr.count("\n")) == ("", 1)
+    assert f"{host}:{port}: another program has it" in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_of_two_that_begin_at_once_one_is_told_at_once(tmp_path: Path) -> None:
+    port = free_port()
+    environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
+    command = [sys.executable, "-m", "app.serve", "--port", str(port)]
+    with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as first:
+        try:
+            assert first.stdout is not None
+            first.stdout.readline()  # it has only said where it is going to be
+            second = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
+            assert second.returncode != 0
+            assert second.stderr.count("\n") == 1
+        finally:
+            first.terminate()
+            first.wait(timeout=20)
+
+
 def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: str) -> uvicorn.Config:
     """What the server would be started with."""
     found: list[uvicorn.Config] = []
@@ -224,7 +262,7 @@ def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: s
 
     monkeypatch.setattr("sys.argv", ["serve", *arguments])
     monkeypatch.setattr(serve, "Supervisor", catch)
-    monkeypatch.setattr(uvicorn.Config, "bind_socket", lambda _: None)
+    monkeypatch.setattr("socket.create_server", lambda *_, **__: None)
     monkeypatch.setattr("logging.config.dictConfig", lambda _: None)
     for variable, value in settings.items():
         monkeypatch.setenv(variable, value)
