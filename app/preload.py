@@ -24,19 +24,20 @@ def kept() -> Iterator[None]:
 
 
 with kept():
-    from app.kinematics import warm
     from app.logs import configuration
-    from app.model.compilation import is_stored
     from app.settings import Settings
 
     logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
     logging.captureWarnings(True)
+    from app.kinematics import warm
+    from app.model import compilation
+
     importlib.import_module("app.main")
 
 
 def is_compiled() -> bool:
-    """Whether `warm_up` will find the kernels compiled."""
-    return is_stored()
+    """Whether `warm_up` will find the kernels compiled, or has to compile them where they stay."""
+    return compilation.STORE is None or compilation.is_stored()
 
 
 @kept()

@@ -19,7 +19,10 @@ from app.store.library import Library
 from app.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
-"""A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms."""
+"""A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms.
+
+So it compiles nothing either: as long as the crew is starting, that is all asked of it.
+"""
 
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
@@ -125,7 +128,8 @@ def json_handler(
         if request.scope["query_string"]:
             raise InvalidField("query", "this call has its parameters as fields of the body")
         wanted, pieces = request.preferred(offered), await request.pieces()
-        found = quick(b"".join(pieces)) if wanted == offered[0] and request.length <= INLINE_BYTES else None
+        is_small = request.length <= INLINE_BYTES and not remote.crew.is_starting
+        found = quick(b"".join(pieces)) if wanted == offered[0] and is_small else None
         return found or await remote.answer(request, errand, Inquiry(buffers(pieces), wanted=wanted))
 
     return handle

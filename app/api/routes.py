@@ -223,7 +223,7 @@ class Computation(Generic[_Request]):
                 inquiry = Inquiry(buffers(pieces), robot, query, npy_in)
                 planned = await remote.told(request, PlanErrand(name), inquiry)
                 return await submitted(runner, self.long.kind, request, planned)
-            if request.length <= INLINE_BYTES:
+            if request.length <= INLINE_BYTES and not remote.crew.is_starting:
                 call = self._parse(query, b"".join(pieces), npy_in)
                 if wanted not in _PICTURES and not self.is_heavy(call):
                     loaded = await remote.resident(request, robot)

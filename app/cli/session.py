@@ -3,7 +3,7 @@
 import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -27,6 +27,7 @@ A = TypeVar("A")
 
 _LONG_SECONDS = 0.5
 """Work that is over sooner needs no bar."""
+_COMPILING = "compiling the kernels{}: about a minute …"
 
 RobotArgument = Annotated[
     str,
@@ -86,14 +87,18 @@ class Session:
         # What computes takes seconds to load: completion and --help need not wait for it.
         from app.client import Client  # noqa: PLC0415
 
-        transport = None
-        if not self.server:
-            from app.cli.local import InProcess  # noqa: PLC0415
+        with ExitStack() as stack:
+            transport = None
+            if not self.server:
+                from app.cli.local import InProcess  # noqa: PLC0415
+                from app.model.compilation import STORE, when_compiling  # noqa: PLC0415
 
-            transport = InProcess()
-        # In this very process there is no name to look up, and no key to show.
-        with Client(self.server or "http://127.0.0.1", transport=transport) as client:
-            yield client
+                if sys.stderr.isatty():
+                    text = _COMPILING.format("" if STORE is None else ", once")
+                    stack.enter_context(when_compiling(lambda: print(text, file=sys.stderr)))
+                transport = InProcess()
+            # In this very process there is no name to look up, and no key to show.
+            yield stack.enter_context(Client(self.server or "http://127.0.0.1", transport=transport))
 
     @contextmanager
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:

@@ -35,6 +35,8 @@ _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _CROWD_SECONDS = 10.0
 """Those that were refused are told to come back over so long a time at most: many of them have left for good."""
 _SMOOTHING = 0.1
+_START_SECONDS = 600.0
+"""How long the first processes may take, which may have to compile: it does not count against what a call may wait."""
 _MOMENT = 1.0
 """How long processes may be missing until that is worth to be told, [s]."""
 _LOOK_SECONDS = 0.5
@@ -58,6 +60,7 @@ class Crew:
         busy: Processes at work.
         restarts: Processes that were replaced after a crash, a deadline, a lack of memory or a caller who left.
         refused: Calls for which there was no room.
+        is_starting: Whether the first processes are being started.
     """
 
     def __init__(self, count: int, waiting: int, memory_bytes: int) -> None:
@@ -71,7 +74,7 @@ class Crew:
         self._seconds_a_call = 0.0
         self._outside, self._outside_since = 0.0, 0.0
         self._whole_until = -math.inf
-        self._is_begun = self._closed = False
+        self._is_begun = self._closed = self.is_starting = False
 
     @property
     def queue_length(self) -> int:
@@ -96,9 +99,10 @@ class Crew:
 
     async def start(self) -> None:
         """Start all processes, and return when they are there."""
+        self.is_starting = True
         self._fill()
         await asyncio.gather(*self._renewals)
-        self._is_begun = True
+        self.is_starting, self._is_begun = False, True
 
     def check_room(self, client: str = "") -> None:
         """See whether a call would be taken; a crowd can be refused by this before tasks are made for each of them.
@@ -130,7 +134,7 @@ class Crew:
         Args:
             function: Of a module, with an argument and a result that can be sent to another process.
             argument: What it is called with.
-            seconds: How long it may wait for its turn, and how long it may then take.
+            seconds: How long it may wait for its turn, and how long it may then take; beside the start.
             client: Whose call it is.
 
         Raises:
@@ -179,7 +183,7 @@ class Crew:
             self._renew(self._seats[-1])
         self._hand_out()
         try:
-            async with asyncio.timeout(seconds):
+            async with asyncio.timeout(seconds + _START_SECONDS * self.is_starting):
                 return await turn
         except BaseException as error:
             if not self._turns.remove(client, turn) and not turn.cancelled() and turn.exception() is None:

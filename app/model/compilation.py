@@ -2,13 +2,19 @@
 
 import contextlib
 import hashlib
+import logging
 import re
-from collections.abc import Callable
+import threading
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any, TypeVar, cast
 
 import llvmlite.binding
 import numba
+from numba.core import event
+from platformdirs import user_cache_path
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
@@ -43,26 +49,106 @@ def _processor_digest() -> str:
     return hashlib.sha256(repr(words).encode()).hexdigest()[:8]
 
 
-# Numba renews what it has stored of a function when the function's own file changes, but not when one does from which
-# it took another function: so each state of the sources has a store of its own.
+def _store() -> Path | None:
+    """The first folder that can be written to: what is set, else one in the tree or in the user's cache; or none.
+
+    Numba renews what it has stored of a function when the function's own file changes, but not when one does from
+    which it took another function: so each state of the sources has a store of its own.
+    """
+    given, state = _SETTINGS.CACHE_DIR, f"{_kernel_digest()}-{_processor_digest()}"
+    own = (Path(__file__).parents[1] / "__pycache__" / "kernels", user_cache_path("gelenk") / "kernels")
+    folders = (Path(given),) if given else own
+    for store in (folder / state for folder in folders):
+        with contextlib.suppress(OSError):
+            store.mkdir(parents=True, exist_ok=True)
+            TemporaryFile(dir=store).close()
+            return store
+    logging.getLogger("gelenk").warning(
+        "the kernels are compiled anew at each start, a minute or so, because nothing can be written to %s: "
+        "NUMBA_CACHE_DIR names another folder",
+        " or ".join(map(str, folders)),
+    )
+    return None
+
+
 _SETTINGS: Any = numba.config
-_STORE = Path(_SETTINGS.CACHE_DIR or Path(__file__).parents[1] / "__pycache__" / "kernels")
-_STORE /= f"{_kernel_digest()}-{_processor_digest()}"
-_SETTINGS.CACHE_DIR = str(_STORE)
-_ALL_STORED = _STORE / "all"
-_OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "fastmath": {"contract"}}
+STORE = _store()
+"""Where compiled kernels are kept; None where nothing can be written."""
+_SETTINGS.CACHE_DIR = str(STORE or "")
+_OPTIONS: dict[str, Any] = {
+    "cache": STORE is not None,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+}
 _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
 
 
 def is_stored() -> bool:
     """Whether all kernels have been compiled for this kind of processor before, and only need to be read."""
-    return _ALL_STORED.exists()
+    return STORE is not None and (STORE / "all").exists()
 
 
 def note_stored() -> None:
-    """Say that all of them have been; where nothing can be written none is stored either."""
-    with contextlib.suppress(OSError):
-        _ALL_STORED.touch()
+    """Say that all of them have been."""
+    if STORE is not None:
+        with contextlib.suppress(OSError):
+            (STORE / "all").touch()
+
+
+class _Clock(event.Listener):
+    """Stands still as long as any thread compiles, reads what was compiled, or waits until another one has."""
+
+    def __init__(self) -> None:
+        self._lock, self._depth = threading.Lock(), 0
+        self._since = self._seconds = 0.0
+
+    def on_start(self, _: Any) -> None:
+        with self._lock:
+            if not self._depth:
+                self._since = time.monotonic()
+            self._depth += 1
+
+    def on_end(self, _: Any) -> None:
+        with self._lock:
+            self._depth -= 1
+            if not self._depth:
+                self._seconds += time.monotonic() - self._since
+
+    def now(self) -> float:
+        with self._lock:
+            return (self._since if self._depth else time.monotonic()) - self._seconds
+
+
+class _Teller(event.Listener):
+    """Tells once that something is compiled, and not only read."""
+
+    def __init__(self, tell: Callable[[], None]) -> None:
+        self._tell, self._has_told = tell, False
+
+    def on_start(self, _: Any) -> None:
+        if not self._has_told:
+            self._has_told = True
+            self._tell()
+
+    def on_end(self, _: Any) -> None:
+        pass
+
+
+_CLOCK = _Clock()
+event.register("numba:compiler_lock", _CLOCK)  # type: ignore[no-untyped-call]
+
+
+def clock() -> float:
+    """Like `time.monotonic`, [s], but compiling takes no time: what a limit of time is measured with."""
+    return _CLOCK.now()
+
+
+@contextlib.contextmanager
+def when_compiling(tell: Callable[[], None]) -> Iterator[None]:
+    """Call a function when the first kernel is compiled within this context; never where all of them are stored."""
+    with event.install_listener("numba:compile", _Teller(tell)):
+        yield
 
 
 def compiled(function: _Function) -> _Function:

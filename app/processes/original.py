@@ -27,8 +27,8 @@ from typing import NoReturn
 LOADED = "app.preload"
 """What is imported first.
 
-Its function `warm_up` computes one of everything, `is_compiled` tells whether that takes a moment or a minute, and
-`load` imports.
+Its function `warm_up` computes one of everything, `is_compiled` tells whether another process could compile nothing for
+it, and `load` imports.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "app.plots.profiles", "sympy")
 """Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
@@ -60,7 +60,7 @@ class Original:
 
     Args:
         control: Where requests come from.
-        is_compiled: Whether `warm_up` need not compile.
+        is_compiled: Whether another process could compile nothing for `warm_up`.
         warm_up: Loads what takes longer than the first copies can wait.
         load: Imports a module.
     """

@@ -9,6 +9,7 @@ import pytest
 
 from app.cli import local
 from app.cli.main import main
+from app.kinematics.warm import warm_up
 from tests.test_serve import service
 
 
@@ -21,6 +22,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 @pytest.fixture(scope="package")
 def own() -> Iterator[local.InProcess]:
     """One application in this process for all tests here: it takes a second to begin."""
+    warm_up()  # what it compiles would be told of
     transport = local.InProcess()
     yield transport
     transport.close()

@@ -6,6 +6,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import httpx2
+import numba
 import numpy as np
 import pytest
 
@@ -151,3 +153,19 @@ def test_a_bar_is_shown_on_a_terminal_alone_and_only_of_long_work(
     shown, bar = shell(*arguments)
     assert name in bar
     assert shown == out
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_compiling_is_told_on_a_terminal(
+    shell: Shell, own: InProcess, monkeypatch: pytest.MonkeyPatch, is_terminal: bool
+) -> None:
+    handle = own.handle_request
+
+    def cold(request: httpx2.Request) -> httpx2.Response:
+        numba.njit(lambda x: x + 1)(1)
+        return handle(request)
+
+    monkeypatch.setattr(own, "handle_request", cold)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal)
+    told = shell("--format", "csv", *LONG["fk"])[1].count("compiling the kernels, once: about a minute …\n")
+    assert told == is_terminal

@@ -10,12 +10,14 @@ import time
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 from pickle import PickleBuffer
+from typing import Any
 
 import pytest
 
 from app.crew.crew import Crew
 from app.crew.wire import PIECE
 from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from app.processes import copies
 from tests.crew import calls
 from tests.jobs.parts import gone
 
@@ -333,6 +335,29 @@ def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
         assert (crew.queue_length, crew.restarts) == (0, 0)
 
     with_crew(test, 1)
+
+
+def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where kernels are compiled it takes a minute or two."""
+    begin = copies.started
+
+    def slow(*arguments: Any) -> Any:
+        time.sleep(1.0)
+        return begin(*arguments)
+
+    monkeypatch.setattr("app.crew.crew.started", slow)
+
+    async def run() -> None:
+        crew = Crew(1, 10, MEMORY)
+        starting = asyncio.create_task(crew.start())
+        await asyncio.sleep(0.0)
+        assert crew.is_starting
+        assert await crew.run(calls.sleep, 0.0, 0.5) == 0.0
+        await starting
+        assert not crew.is_starting
+        crew.close()
+
+    asyncio.run(run())
 
 
 def test_calls_get_their_turn_in_order() -> None:

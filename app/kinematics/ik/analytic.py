@@ -51,7 +51,7 @@ def nearest(
         form: The closed form of the chain.
         elbow_angle: Where a free elbow is to be, [rad]; where the seed has it if left out, and if that does not fit
             into the limits wherever it does, nearest to the seed.
-        deadline: When to stop, on the clock of `time.monotonic`, [s].
+        deadline: When to stop, on `app.model.compilation.clock`, [s].
     """
     count, n = len(question), len(question.chain)
     qs, labels = np.empty((count, n)), np.full((2, count), -1, dtype=np.int64)
@@ -108,7 +108,7 @@ def every(
         most: Largest number of solutions of a target.
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
         elbow_angle: Where a free elbow is to be, [rad]; all the way round, in steps, if left out.
-        deadline: When to stop, on the clock of `time.monotonic`, [s].
+        deadline: When to stop, on `app.model.compilation.clock`, [s].
         sample: Whether of joints that a singularity leaves free other positions than the seed's are given too.
     """
     tables: list[Branches] = []

@@ -110,7 +110,7 @@ def descend(
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
         respect_limits: Whether joint limits hold.
-        deadline: When to stop, on the clock of `time.monotonic`, [s].
+        deadline: When to stop, on `app.model.compilation.clock`, [s].
     """
     bounds = search_bounds(chain, respect_limits)[:2]
     q = np.clip(seed, *bounds)

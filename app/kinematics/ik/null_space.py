@@ -60,7 +60,7 @@ def settle(
         objective: What is to become small.
         task: Which directions count.
         respect_limits: Whether joint limits hold.
-        deadline: When to stop improving, on the clock of `time.monotonic`, [s].
+        deadline: When to stop improving, on `app.model.compilation.clock`, [s].
     """
     bounds = np.array(limits_of(chain, respect_limits))
     best = qs.copy()

@@ -5,7 +5,6 @@ comes in, nor on the number of threads.
 """
 
 import os
-import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from app.kinematics.ik.iteration import SOME, Goal
 from app.kinematics.ik.task import FULL_POSE, Task
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
+from app.model.compilation import clock
 from app.model.poses import Poses
 
 MAX_ITERATIONS = 20_000
@@ -95,7 +95,7 @@ def search(
         max_iterations: Budget for each target.
         random_seed: Of the starts.
         slack: Share of the tolerances that errors are made smaller by, see `Goal.slack`.
-        deadline: When to stop, on the clock of `time.monotonic`, [s].
+        deadline: When to stop, on `app.model.compilation.clock`, [s].
         threads: How many share a large batch; by default as many as there are processors.
     """
     goal = make_goal(
@@ -249,7 +249,7 @@ def processors() -> int:
 
 def is_over(deadline: float | None) -> bool:
     """Whether time has run out."""
-    return deadline is not None and time.monotonic() > deadline
+    return deadline is not None and clock() > deadline
 
 
 def chunk_of(chain: Chain) -> int:

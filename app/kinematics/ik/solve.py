@@ -1,6 +1,5 @@
 """Inverse kinematics: solutions, each recomputed through Pinocchio, or a verdict why there is none."""
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias, cast
@@ -39,6 +38,7 @@ from app.kinematics.ik.verdict import (
 from app.kinematics.ik.words import Status
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
+from app.model.compilation import clock
 from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.model.robot import Robot
@@ -68,7 +68,7 @@ class Options:
         method: `auto`; `analytic`, a closed form or an elimination; or one of the course's methods from the seed alone.
         rule: How that steps.
         max_iterations: Budget for a target; None for the method's default.
-        time_limit: For all targets, [s].
+        time_limit: For all targets, [s]; compiling does not count.
         random_seed: Of the starts.
         objective: What the freedom of a redundant arm is used for.
         elbow_angle: Where a free elbow is to be, [rad]; of a closed form that has one.
@@ -110,7 +110,7 @@ def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array,
     Raises:
         InvalidField: A closed form is asked for, and none is known.
     """
-    deadline = None if options.time_limit is None else time.monotonic() + options.time_limit
+    deadline = None if options.time_limit is None else clock() + options.time_limit
     question = Question(robot, chain, targets, seeds, options.task, options.tolerances, options.respect_limits)
     form = _form(question, options)
     if form is not None:
