@@ -11,7 +11,7 @@ import orjson
 from app.jobs.parcel import packed, unpacked
 from app.jobs.run import Files, Run
 from app.jobs.runner import Work
-from app.kinematics.dexterity import Orientations, Over, orientations, shares
+from app.kinematics.dexterity import Orientations, Over, excluded, orientations, shares
 from app.kinematics.sampling import Sampling
 from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
 from app.kinematics.tip_motion import Motion
@@ -47,6 +47,7 @@ class Question:
         wish: What is asked of it.
         plan: How the samples are computed.
         asked: The orientations of a dexterity map.
+        excluded: Why the chain can take all of these in no region; see `dexterity.excluded`.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Question:
     wish: Wish
     plan: Plan
     asked: Orientations | None
+    excluded: str | None
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -79,14 +81,16 @@ def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, coun
         InvalidField: Something cannot be taken.
     """
     work, motion = plan(chain, wish)
-    asked = None
+    asked = reason = None
     if wish.kind == "dexterity":
         asked = orientations(chain, motion, over, count)
-        work = replace(work, notes=(*work.notes, *_spread_notes(chain, motion, wish.plane, asked)))
-    return Question(name, robot, chain, wish, work, asked)
+        reason = excluded(motion, work.grid.dimensions, asked.spread)
+        notes = (*work.notes, *_spread_notes(motion, wish.plane, asked), *([reason] if reason else []))
+        work = replace(work, notes=notes)
+    return Question(name, robot, chain, wish, work, asked, reason)
 
 
-def _spread_notes(chain: Chain, motion: Motion, plane: Plane | None, asked: Orientations) -> list[str]:
+def _spread_notes(motion: Motion, plane: Plane | None, asked: Orientations) -> list[str]:
     """Why a dexterity map cannot be what it may be expected to be."""
     missed = _missed_notes(motion, plane)
     match asked.spread:
@@ -94,10 +98,7 @@ def _spread_notes(chain: Chain, motion: Motion, plane: Plane | None, asked: Orie
             return [*missed, "the tip never turns: its one orientation is all that is asked for"]
         case "turns":
             return [*missed, "the tip turns about one direction only: turns about that one are asked for"]
-    needed = motion.dimensions + (3 if asked.spread == "rotations" else 2)
-    if len(chain) >= needed:
-        return missed
-    return [*missed, f"{len(chain)} joints cannot take all orientations at a position, for which {needed} are needed"]
+    return missed
 
 
 def _missed_notes(motion: Motion, plane: Plane | None) -> list[str]:
@@ -253,7 +254,7 @@ def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict
         "reach": None if found.reach is None else dict(zip(("min", "max"), found.reach, strict=True)),
         "voxels": _voxels(work, found),
         "measure": _measure(asked, found),
-        "dexterity": None if dexterity is None else _dexterity_summary(asked, dexterity),
+        "dexterity": None if dexterity is None else _dexterity_summary(asked, found, dexterity),
         "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
         | {"columns": asked.columns},
         "notes": work.notes,
@@ -273,6 +274,7 @@ def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
         "inner_count": found.inner,
         "volume": count * grid.cell,
         "inner_volume": found.inner * grid.cell,
+        "volume_bounds": found.volume,
         "late_share": found.late,
     }
 
@@ -291,9 +293,11 @@ def _measure(asked: Question, found: Workspace) -> dict[str, Any]:
     return content | dict(zip(names, values, strict=True))
 
 
-def _dexterity_summary(asked: Question, values: Array) -> dict[str, Any]:
+def _dexterity_summary(asked: Question, found: Workspace, values: Array) -> dict[str, Any]:
     assert asked.asked is not None  # noqa: S101
-    grid, full = asked.plan.grid, int(np.sum(values == 1.0))
+    grid, full = asked.plan.grid, found.voxels.keys[values == 1.0]
+    counts = (0, 0, 0) if asked.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))
+    lower, volume, upper = (count * grid.cell for count in counts)
     return {
         "method": "inverse_kinematics",
         "spread": asked.asked.spread,
@@ -301,6 +305,8 @@ def _dexterity_summary(asked: Question, values: Array) -> dict[str, Any]:
         "mean_share": float(values.mean()) if len(values) else None,
         "max_share": float(values.max()) if len(values) else None,
         "reached_count": int(np.sum(values > 0.0)),
-        "full_count": full,
-        "full_volume": full * grid.cell,
+        "full_count": len(full),
+        "full_volume": volume,
+        "full_volume_bounds": (lower, min(upper, found.volume[1])),
+        "excluded": asked.excluded,
     }

@@ -65,6 +65,32 @@ def orientations(chain: Chain, motion: Motion, over: Over, count: int) -> Orient
     return Orientations(over, rotations_from_quaternions_xyzw(rotation_spiral(count)), FULL_POSE)
 
 
+def excluded(motion: Motion, dimensions: int, spread: Spread) -> str | None:
+    """Why the chain can take all orientations nowhere but in a set without volume; None where nothing excludes more.
+
+    Positions with all their orientations are a set of as many dimensions as both together have, and what a chain
+    reaches has no more dimensions than its tip has independent velocities.
+
+    Args:
+        motion: Of its tip.
+        dimensions: Of the grid: in a slice they are fewer than those of the workspace.
+        spread: Over what the orientations are spread.
+    """
+    turns = ("fixed", "turns", "approach_directions", "rotations").index(spread)
+    moves, both = motion.ranks(spread == "approach_directions")
+    moves = min(moves, dimensions)
+    if both >= moves + turns:
+        return None
+    reason = (
+        f"all these orientations are possible in no region: {moves + turns} independent velocities of the tip are "
+        f"needed for that, {moves} to move it and {turns} to turn it, and the chain has {both}; where some are reached "
+        "all the same, the middle of the voxel and the orientation happen to agree"
+    )
+    if spread == "rotations" and motion.ranks(True)[1] >= moves + 2:
+        reason += "; `approach_directions` asks for the tip's z axis alone, for which they suffice"
+    return reason
+
+
 def sphere_spiral(count: int) -> Array:
     """Unit vectors at equal steps of height and of the golden angle; shape (count, 3)."""
     heights = 1.0 - (2.0 * np.arange(count) + 1.0) / count

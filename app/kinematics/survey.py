@@ -1,12 +1,13 @@
 """The parts of a workspace put together, and certified."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from app.kinematics.certify import Certificate, agreed, certify_jacobians, certify_poses
 from app.kinematics.kernels import chain_jacobians, chain_poses
-from app.kinematics.voxels import NO_VOXELS, VoxelTable, merged
+from app.kinematics.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
 from app.kinematics.workspace import Part, Plan
 from app.model.arrays import Array
 from app.model.chain import Chain
@@ -18,6 +19,8 @@ VOXEL_COLUMNS = ("x", "y", "z", "samples", "best_measure")
 
 _PENDING = 500_000
 """Rows of tables that wait until they are merged."""
+_RARE = 0.02
+"""Share of the samples that may be alone in their cell, where nearly all cells are to be met [Good1953]."""
 _LATE = 0.1
 """Of the samples, the last that say whether more of them would find more."""
 
@@ -66,7 +69,8 @@ class Workspace:
         reach: Smallest and largest distance of the tip from the base's origin, [m].
         measures: Of the samples that count.
         voxels: The cells that they fall into.
-        inner: How many of these have a neighbour on every side.
+        inner: How many of these have a neighbour on every side, also across edges and corners.
+        volume: Between what two values the volume of all that can be reached lies, [m³, m² or m].
         late: Share of the cells that only the last tenth of the samples found.
         points: Of each its position and measure, where wanted; shape (count, 4).
         certificate: How good the samples are.
@@ -78,6 +82,7 @@ class Workspace:
     measures: Measures | None
     voxels: VoxelTable
     inner: int
+    volume: tuple[float, float]
     late: float | None
     points: Array | None
     certificate: SurveyCertificate
@@ -141,7 +146,8 @@ class Survey:
             self._distances if count else None,
             self._statistics() if count else None,
             voxels,
-            int(plan.grid.inner(voxels.keys).sum()),
+            len(plan.grid.inner(voxels.keys)),
+            volume_bounds(plan.grid, voxels, plan.extent),
             float(late.mean()) if count else None,
             points,
             self._certificate(robot, chain),
@@ -174,6 +180,33 @@ class Survey:
             certify_jacobians(robot, chain, qs, Js).max_error,
             error,
         )
+
+
+def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float, float]:
+    """Between what two values the volume of the region that samples come from lies, [m³, m² or m].
+
+    It has the inner cells, and no more than those it meets. Where the samples are too few to meet nearly all of them,
+    twice as large cells tell more. How many are still missing is estimated from those that one or two samples have
+    met [Chao1984]. Without samples there is nothing but the ball that the tip does not leave.
+
+    Args:
+        grid: The cells.
+        table: Those that samples have met.
+        farthest: No position is further from the base's origin, [m].
+    """
+    d = grid.dimensions
+    if d == 0:
+        return 0.0, 0.0
+    lower, upper = 0.0, math.pi ** (d / 2) / math.gamma(d / 2 + 1) * farthest**d
+    while len(table):
+        once, twice = (int(np.sum(table.counts == count)) for count in (1, 2))
+        lower = max(lower, len(grid.inner(table.keys)) * grid.cell)
+        if once <= _RARE * table.counts.sum():
+            return lower, min(upper, (len(table) + 0.5 * once * max(0, once - 1) / (twice + 1)) * grid.cell)
+        if len(table) <= 1 << d:
+            break
+        grid, table = coarser(grid, table)
+    return lower, upper
 
 
 def _products(plan: Plan, Js: Array) -> tuple[Array, float]:

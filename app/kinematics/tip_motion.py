@@ -32,7 +32,8 @@ class Motion:
         # Directions are a matter of structure, and a few samples of their own tell them even where one is asked for.
         probes = replace(sampling, sequence="random", seed=0).configurations(0, _DIRECTIONS)
         self.positions = chain_poses(chain.flat, qs)[0]
-        self._Js = chain_jacobians(chain.flat, probes)[2]
+        _, self._rotations, self._Js = chain_jacobians(chain.flat, probes)
+        self._moves = sampling.ranges.upper > sampling.ranges.lower
         self._velocities = self._Js.transpose(1, 0, 2).reshape(6, -1)
         self.farthest = _farthest(chain, sampling.ranges)
 
@@ -114,6 +115,23 @@ class Motion:
     def turning(self) -> tuple[Array, int]:
         """Unit vectors as columns, those that the tip turns about first, and how many these are."""
         return _span(self._velocities[3:])
+
+    def ranks(self, direction_only: bool) -> tuple[int, int]:
+        """Independent velocities of the tip, at most: in position, and in position and orientation together.
+
+        Args:
+            direction_only: Whether of the orientation the direction of the tip's z axis alone counts.
+        """
+        Js = self._Js[:, :, self._moves]
+        moving = Js[:, :3] / max(self.farthest, np.finfo(float).tiny)
+        turning = (self._rotations.transpose(0, 2, 1) @ Js[:, 3:])[:, : 2 if direction_only else 3]
+        return _largest_rank(moving), _largest_rank(np.concatenate((moving, turning), axis=1))
+
+
+def _largest_rank(matrices: Array) -> int:
+    """Shape (N, m, n)."""
+    scale = float(np.abs(matrices).max(initial=np.finfo(float).tiny))
+    return int(np.linalg.matrix_rank(matrices, tol=_STRUCTURAL * scale).max()) if matrices.size else 0
 
 
 def _span(vectors: Array) -> tuple[Array, int]:

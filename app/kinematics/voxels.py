@@ -5,11 +5,11 @@ it. Tables of parts of the samples merge into the table of all of them, whatever
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.model.arrays import Array, Flags, Indices
+from app.model.arrays import Array, Indices
 from app.model.errors import TooLarge
 
 MAX_VOXELS = 2_000_000
@@ -58,15 +58,25 @@ class Grid:
         centres: Array = self.origin + (indices * self.size) @ self.axes[:, : self.dimensions].T
         return centres
 
-    def inner(self, keys: Indices) -> Flags:
-        """Which of the cells have a neighbour on every side; `keys` ascending, shape (M,)."""
-        inside = np.ones(len(keys), dtype=np.bool_)
-        for axis in range(self.dimensions):
-            step = 1 << (_BITS * axis)
-            for neighbours in (keys - step, keys + step):
-                places = np.minimum(np.searchsorted(keys, neighbours), max(len(keys) - 1, 0))
-                inside &= keys[places] == neighbours
-        return inside
+    def inner(self, keys: Indices) -> Indices:
+        """The cells all of whose neighbours are there, also those across an edge or a corner; shape (M,) → (k,).
+
+        Cells that meet a region have such ones only where they lie wholly inside it, if what it leaves out is nowhere
+        thinner than two cells.
+        """
+        for step in self._steps():
+            keys = keys[np.isin(keys - step, keys) & np.isin(keys + step, keys)]
+        return keys
+
+    def grown(self, keys: Indices) -> Indices:
+        """The cells and all their neighbours, also those across an edge or a corner; shape (M,) → (k,)."""
+        for step in self._steps():
+            keys = np.unique(np.concatenate((keys - step, keys, keys + step)))
+        return keys
+
+    def _steps(self) -> list[int]:
+        """From the key of a cell to that of the next one, along each axis."""
+        return [1 << (_BITS * axis) for axis in range(self.dimensions)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +112,13 @@ def voxel_table(keys: Indices, measures: Array, numbers: Indices) -> VoxelTable:
         numbers: Which sample each is; shape (N,).
     """
     return _reduced(keys, np.ones(len(keys), dtype=np.int64), measures, numbers)
+
+
+def coarser(grid: Grid, table: VoxelTable) -> tuple[Grid, VoxelTable]:
+    """The same samples in cells of twice the size; the grid's origin is no centre of one of these any more."""
+    fields = sum(((1 << _BITS - 1) - 1) << (_BITS * axis) for axis in range(grid.dimensions))
+    halved = _reduced((table.keys >> 1) & fields, table.counts, table.best, table.first)
+    return replace(grid, size=2.0 * grid.size), halved
 
 
 def merged(tables: Sequence[VoxelTable]) -> VoxelTable:

@@ -165,6 +165,9 @@ def _grid(motion: Motion, wish: Wish) -> Grid:
     if size is None:
         longest = float(np.ptp(places, axis=0).max(initial=0.0))
         size = _rounded(longest / _CELLS[wish.kind]) if longest > 1e-9 else 1e-3
+    if dimensions and size > motion.farthest:
+        allowed = f"at most {motion.farthest:.3g} m, which is how far this chain reaches"
+        raise InvalidField("voxel_size", f"a voxel of {size:.3g} m is larger than the arm: {allowed}, can be taken")
     least = (motion.farthest + float(np.linalg.norm(origin))) / (MOST_ALONG_AXIS - 2)
     if size <= least:
         raise InvalidField("voxel_size", f"{size:.3g} m is too small for this chain: more than {least:.3g} m is needed")

@@ -43,8 +43,8 @@ class WorkspaceRequest(ChainOptions):
         default=None,
         gt=0,
         le=1e6,
-        description="Edge of a voxel, [m]; if left out a 40th of the longest side of the workspace, with `dexterity` "
-        "a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
+        description="Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of "
+        "the workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
     task: list[Direction] | None = Field(
         default=None,
@@ -107,13 +107,22 @@ class VoxelsInfo(Answer):
         description="Unit vectors along the edges, in the base frame, no unit; the first `dimensions` of them count."
     )
     count: int = Field(description="How many voxels; no unit.")
-    inner_count: int = Field(description="Those of them that have a neighbour on every side; no unit.")
+    inner_count: int = Field(
+        description="Those of them that have a neighbour on every side, also across edges and corners; no unit."
+    )
     volume: float = Field(
-        description="Of all of them, [m³], in a plane [m²], on a line [m]: a little more than that of the workspace, "
-        "because those on its border count whole. 0 where the tip does not move."
+        description="Of all of them, [m³], in a plane [m²], on a line [m]. Those on the workspace's border count "
+        "whole, those that no sample has met not at all. 0 where the tip does not move."
     )
     inner_volume: float = Field(
-        description="Of the inner ones, [m³, m² or m]: with enough samples a little less than the workspace's."
+        description="Of the inner ones, [m³, m² or m]: less than the workspace's where that leaves out nothing thinner "
+        "than two voxels."
+    )
+    volume_bounds: list[float] = Field(
+        description="Between what two values the workspace's volume lies, [m³, m² or m]: that of the inner voxels, and "
+        "that of all that it meets, where too few samples met them in voxels of twice the size, and so on. The lower "
+        "one holds if the workspace leaves out nothing thinner than two voxels; the upper one allows for voxels that "
+        "no sample has met, as many as those met once or twice let expect, and is at most a ball about the base."
     )
     late_share: float | None = Field(
         description="Share of the voxels that only the last tenth of the samples found, no unit: near 0, more samples "
@@ -155,7 +164,17 @@ class DexterityInfo(Answer):
     reached_count: int = Field(description="Voxels at whose centre any is reached; no unit.")
     full_count: int = Field(description="Voxels at whose centre all are reached; no unit.")
     full_volume: float = Field(
-        description="Volume of these, [m³], in a plane [m²]: an estimate of the secondary workspace WS₂."
+        description="Volume of these, [m³], in a plane [m²]: an estimate of the secondary workspace WS₂; 0 where "
+        "`excluded` says that it has none."
+    )
+    full_volume_bounds: list[float] = Field(
+        description="Between what two values that volume lies, [m³ or m²], where neither WS₂ nor what it leaves out is "
+        "thinner than a voxel: that of the voxels all of whose neighbours are full too, and that of the full ones with "
+        "all their neighbours, or that of the whole workspace."
+    )
+    excluded: str | None = Field(
+        description="Why the chain can take all these orientations in no region, but at single places at most: its tip "
+        "has too few independent velocities. Null where nothing excludes it. The counts are those of coincidences then."
     )
 
 

@@ -119,7 +119,42 @@ def test_the_dexterity_of_three_planar_links(client: TestClient) -> None:
     assert (voxels[inside, 5] == 1.0).all()
     assert (voxels[~inside, 5] < 1.0).all()
     assert dexterity["full_count"] == inside.sum()
+    assert dexterity["excluded"] is None
+    lower, upper = dexterity["full_volume_bounds"]
+    assert lower <= math.pi * (0.2**2 + 0.6**2 - 0.4**2) <= upper
     assert dexterity["mean_share"] == pytest.approx(voxels[:, 5].mean())
+
+
+def test_two_planar_links_cannot_be_dexterous(client: TestClient) -> None:
+    """What a lattice and some angles have in common is no volume."""
+    summary = client.get(finished(client, {"kind": "dexterity", "voxel_size": 0.1}, "planar_2r")).json()
+    WorkspaceAnswer.model_validate(summary)
+    dexterity = summary["dexterity"]
+    assert dexterity["reached_count"] > 0
+    assert (dexterity["full_volume"], dexterity["full_volume_bounds"]) == (0.0, [0.0, 0.0])
+    assert "2 to move it and 1 to turn it, and the chain has 2" in dexterity["excluded"]
+    assert dexterity["excluded"] in summary["notes"]
+
+
+@pytest.mark.parametrize("voxel_size", [None, 0.05])
+def test_the_dexterous_volume_of_a_scara_is_between_its_bounds(client: TestClient, voxel_size: float | None) -> None:
+    """Its last joint turns all the way, so that it is all that its two links sweep, times the slide."""
+    call = {"kind": "dexterity", "orientations": 8} | ({} if voxel_size is None else {"voxel_size": voxel_size})
+    summary = client.get(finished(client, call, "scara")).json()
+    first, second = (0.5 * (upper - lower) for lower, upper in summary["joint_ranges"][:2])
+    elbows = np.linspace(0.0, second, 100_001)
+    links = (0.325, 0.275)
+    radii = np.sqrt(links[0] ** 2 + links[1] ** 2 + 2.0 * links[0] * links[1] * np.cos(elbows))
+    leans = np.arctan2(links[1] * np.sin(elbows), links[0] + links[1] * np.cos(elbows))
+    # Bent to either side the first link's fan is turned by the lean: two arcs, which overlap unless they lean far.
+    arcs = np.minimum(2.0 * math.pi, 2.0 * np.minimum(first + leans, 2.0 * first))
+    exact = float(-np.trapezoid(arcs * radii, radii)) * (summary["joint_ranges"][2][1] - summary["joint_ranges"][2][0])
+    assert summary["dexterity"]["excluded"] is None
+    lower, upper = summary["dexterity"]["full_volume_bounds"]
+    assert lower <= exact <= upper
+    assert lower <= summary["dexterity"]["full_volume"] <= upper
+    lower, upper = summary["voxels"]["volume_bounds"]
+    assert lower <= exact <= upper
 
 
 def test_ranges_hold_joints_where_they_are_wanted(client: TestClient) -> None:
@@ -214,6 +249,7 @@ def test_what_stands_beside_a_picture(client: TestClient, call: dict[str, Any], 
         ({"voxel_size": 0.0}, 422, "#/voxel_size"),
         ({"voxel_size": -0.1}, 422, "#/voxel_size"),
         ({"voxel_size": 1e300}, 422, "#/voxel_size"),
+        ({"voxel_size": 3.0}, 422, "#/voxel_size"),
         ({"voxel_size": 1e-300}, 422, "#/voxel_size"),
         ({"task": []}, 422, "#/task"),
         ({"task": ["w"]}, 422, "#/task/0"),

@@ -1,5 +1,6 @@
 """Workspaces by samples against exact ones, against differences of independent poses, and part by part."""
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -9,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from app.kinematics import survey as survey_module
 from app.kinematics import voxels as voxels_module
-from app.kinematics.dexterity import Over, orientations, rotation_spiral, shares, sphere_spiral
+from app.kinematics.dexterity import Over, Spread, excluded, orientations, rotation_spiral, shares, sphere_spiral
 from app.kinematics.sampling import Ranges, Sampling, joint_ranges
 from app.kinematics.survey import Survey, Workspace
 from app.kinematics.tip_motion import plane_axes
@@ -109,7 +110,7 @@ def test_the_volume_of_a_ball_with_a_hole() -> None:
     work, found = whole(machine, kind="grid", samples=400_000, voxel_size=0.08)
     exact, cell = 4.0 / 3.0 * math.pi * (1.0 - 0.4**3), 0.08**3
     assert found.inner * cell < exact < len(found.voxels) * cell
-    assert 0.5 * (found.inner + len(found.voxels)) * cell == pytest.approx(exact, rel=0.03)
+    assert 0.5 * (found.inner + len(found.voxels)) * cell == pytest.approx(exact, rel=0.07)
     assert found.reach == pytest.approx((0.4, 1.0), abs=1e-4)
     assert found.bounds is not None
     assert found.bounds == pytest.approx(np.array([[-1.0] * 3, [1.0] * 3]), abs=0.01)
@@ -117,6 +118,79 @@ def test_the_volume_of_a_ball_with_a_hole() -> None:
     diagonal = 0.5 * math.sqrt(3.0) * 0.08
     assert (radii > 0.4 - diagonal).all()
     assert (radii < 1.0 + diagonal).all()
+
+
+def scara(lengths: tuple[float, float], stroke: float) -> Robot:
+    turns = [
+        DhJoint(name, "revolute", a, alpha, 0.0, 0.0)
+        for name, a, alpha in zip("ab", lengths, (0.0, math.pi), strict=True)
+    ]
+    slide = DhJoint("slide", "prismatic", 0.0, 0.0, 0.0, 0.0, 0.05, 0.05 + stroke)
+    return Robot(
+        reread(describe_dh("scara", DhTable("standard", (*turns, slide, DhJoint("c", "revolute", 0.0, 0.0, 0.0, 0.0)))))
+    )
+
+
+def ball_arm(lengths: tuple[float, float], hand: float) -> Robot:
+    """Shoulder and elbow, and a wrist whose three axes meet a hand's length before the tip."""
+    half = math.pi / 2
+    rows_ = [(0.0, half, 0.0, 0.0), (lengths[0], 0.0, 0.0, 0.0), (0.0, half, 0.0, half), (0.0, -half, lengths[1], 0.0)]
+    table = rows("standard", [*rows_, (0.0, half, 0.0, 0.0), (0.0, 0.0, hand, 0.0)], "RRRRRR")
+    return Robot(reread(describe_dh("arm", table)))
+
+
+def disc(near: float, far: float) -> float:
+    return math.pi * (far**2 - near**2)
+
+
+def shell(near: float, far: float) -> float:
+    return 4.0 / 3.0 * math.pi * (far**3 - near**3)
+
+
+EXACT = [
+    *((planar([a, b]), disc(abs(a - b), a + b)) for a, b in ((1.0, 0.7), (1.0, 0.95), (0.3, 0.1))),
+    (planar([0.5, 0.4, 0.3]), disc(0.0, 1.2)),
+    (planar([1.0, 0.2, 0.3]), disc(0.5, 1.5)),
+    *(
+        (scara((a, b), stroke), disc(a - b, a + b) * stroke)
+        for a, b, stroke in ((0.325, 0.275, 0.2), (0.4, 0.2, 0.5), (0.3, 0.3, 0.1))
+    ),
+    *(
+        (ball_arm((a, b), hand), shell(max(0.0, abs(a - b) - hand), a + b + hand))
+        for a, b, hand in ((0.5, 0.4, 0.0), (0.5, 0.4, 0.1), (0.7, 0.3, 0.1))
+    ),
+]
+
+
+@pytest.mark.parametrize(("machine", "exact"), EXACT, ids=range(len(EXACT)))
+@pytest.mark.parametrize("samples", [300, 20_000, 100_000])
+@pytest.mark.parametrize("sequence", ["random", "low_discrepancy"])
+def test_the_exact_volume_is_between_its_bounds(machine: Robot, exact: float, samples: int, sequence: str) -> None:
+    """Also where the samples are far too few for the voxels."""
+    for voxel_size in (None, 0.02, 0.05, 0.1, 0.2):
+        _, found = whole(machine, kind="grid", samples=samples, voxel_size=voxel_size, sequence=sequence)
+        lower, upper = found.volume
+        assert lower <= exact <= upper, voxel_size
+        if samples == 100_000 and voxel_size is None and found.voxels.keys[-1] >= 1 << 42:
+            assert upper - lower < 0.8 * exact
+
+
+def test_a_few_samples_bound_nothing() -> None:
+    for samples in (1, 2, 3):
+        lower, upper = whole(planar([1.0, 0.7]), kind="grid", samples=samples)[1].volume
+        assert (lower, upper) == pytest.approx((0.0, math.pi * 1.7**2))
+
+
+@pytest.mark.parametrize(
+    "machine", [planar([1.0, 0.7]), scara((0.3, 0.2), 0.1), robot("panda")], ids=["2R", "SCARA", "7R"]
+)
+@pytest.mark.parametrize("kind", ["grid", "dexterity"])
+def test_a_voxel_larger_than_the_arm_is_refused(machine: Robot, kind: str) -> None:
+    reach = plan(machine.chain(None, None), Wish())[0].extent
+    whole(machine, kind=kind, samples=100, voxel_size=reach)
+    with pytest.raises(InvalidField, match=rf"larger than the arm: at most {reach:.3g} m") as refused:
+        whole(machine, kind=kind, samples=100, voxel_size=1.01 * reach)
+    assert refused.value.field == "voxel_size"
 
 
 @pytest.mark.parametrize("name", catalogue.NAMES)
@@ -345,14 +419,16 @@ def test_a_table_is_what_counting_one_by_one_gives() -> None:
     centres = grid.centres(table.keys)
     inner = grid.inner(table.keys)
     assert len(table) == len(cells)
-    steps = [step for axis in np.eye(3, dtype=int) for step in (axis, -axis)]
+    steps = list(itertools.product((-1, 0, 1), repeat=3))
+    grown = set(map(tuple, np.round((grid.centres(grid.grown(table.keys)) - grid.origin) / grid.size).astype(int)))
+    assert grown == {tuple(np.array(index) + step) for index in cells for step in steps}
     for row, centre in enumerate(centres):
         index = tuple(np.round((centre - grid.origin) / grid.size).astype(int))
         assert centre == pytest.approx(grid.origin + np.array(index) * grid.size, abs=1e-12)
         held = cells[index]
         assert (table.counts[row], table.first[row]) == (len(held), min(held))
         assert table.best[row] == measures[held].max()
-        assert inner[row] == all(tuple(np.array(index) + step) in cells for step in steps)
+        assert (table.keys[row] in inner) == all(tuple(np.array(index) + step) in cells for step in steps)
     assert len(merged([NO_VOXELS, NO_VOXELS])) == 0
 
 
@@ -413,6 +489,57 @@ def test_the_share_of_orientations_of_an_arm_with_a_wrist(over: Over) -> None:
     assert len(centres) > 50
     assert 0.0 < expected.mean() < 1.0
     assert found == pytest.approx(expected, abs=1e-9)
+
+
+def generic(types: str) -> Robot:
+    """An arm without a special geometry."""
+    numbers = np.random.default_rng(len(types)).uniform(0.2, 1.2, (len(types), 4))
+    return Robot(reread(describe_dh("arm", rows("standard", [tuple(row) for row in numbers.tolist()], types))))
+
+
+@pytest.mark.parametrize(
+    ("machine", "spread", "missing"),
+    [
+        (planar([1.0, 0.7]), "turns", "3 independent velocities of the tip are needed for that, 2 to move it and 1 to"),
+        (planar([1.0, 0.7, 0.3]), "turns", None),
+        (scara((0.3, 0.2), 0.1), "turns", None),
+        (robot("planar_2r"), "turns", "and the chain has 2"),
+        (generic("RR"), "rotations", "5 independent velocities"),
+        (generic("RRRR"), "rotations", "6 independent velocities"),
+        (
+            generic("RPRRR"),
+            "rotations",
+            "`approach_directions` asks for the tip's z axis alone, for which they suffice",
+        ),
+        (generic("RPRRR"), "approach_directions", None),
+        (generic("RRRR"), "approach_directions", "5 independent velocities"),
+        (generic("PRPP"), "rotations", "6 independent velocities"),
+        (generic("PPP"), "fixed", None),
+        (generic("RRRRRR"), "rotations", None),
+        (ball_arm((0.5, 0.4), 0.1), "rotations", None),
+        (robot("panda"), "rotations", None),
+    ],
+    ids=str,
+)
+def test_what_excludes_dexterity_is_told(machine: Robot, spread: Spread, missing: str | None) -> None:
+    motion = plan(machine.chain(None, None), Wish())[1]
+    reason = excluded(motion, motion.dimensions, spread)
+    assert (reason is None) == (missing is None)
+    assert missing is None or missing in str(reason)
+
+
+def test_a_held_joint_is_none() -> None:
+    arm = planar([1.0, 0.7, 0.3])
+    motion = plan(arm.chain(None, None), Wish(ranges={"joint_2": (0.4, 0.4)}))[1]
+    assert "and the chain has 2" in str(excluded(motion, motion.dimensions, "turns"))
+
+
+def test_in_a_slice_fewer_velocities_are_needed() -> None:
+    arm = generic("RRRRR")
+    plane = Plane(np.zeros(3), np.array([0.0, 0.0, 1.0]), 0.1)
+    work, motion = plan(arm.chain(None, None), Wish(plane=plane))
+    assert excluded(motion, work.grid.dimensions, "rotations") is None
+    assert excluded(motion, motion.dimensions, "rotations") is not None
 
 
 def test_orientations_are_spread_evenly() -> None:
