@@ -154,7 +154,7 @@ def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
 
 
 def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
-    description = read_urdf(call.urdf)
+    description = read_urdf(call.urdf, call.strict)
     return _table_answer(Robot(description), call, description.warnings)
 
 

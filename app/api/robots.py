@@ -265,6 +265,7 @@ class Keep:
                 default_chain=self.form.ends(),
                 meshes=content.meshes,
                 urdf_folder=content.urdf_folder,
+                strict=self.form.strict,
             )
             return self._kept(desk.library, upload)
 
@@ -284,7 +285,7 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
         model = robot.dh.model_dump_json(exclude_none=True, indent=2).encode() + b"\n"
         return RobotUpload(name, "dh", model, robot.description, robot.default_chain)
     urdf = (robot.urdf or "").encode("utf-8", "surrogatepass")
-    return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain)
+    return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain, strict=robot.strict)
 
 
 def _listed(desk: Desk, _: Inquiry) -> Response:

@@ -80,24 +80,32 @@ def replacing(request: Callable[P, RobotReplacement]) -> Callable[Concatenate[st
 
 
 def add_archive(
-    name: str, archive: bytes | str | PathLike[str], description: str = "", default_chain: ChainEnds | None = None
+    name: str,
+    archive: bytes | str | PathLike[str],
+    description: str = "",
+    default_chain: ChainEnds | None = None,
+    strict: bool = False,
 ) -> Call[RobotInfo]:
     """Add a robot with its meshes: a zip of one URDF and the files that it names."""
-    fields = _archive_fields(description, default_chain, name=name)
+    fields = _archive_fields(description, default_chain, strict, name=name)
     return Call("POST", "v1/robots", reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
 
 
 def replace_archive(
-    robot: str, archive: bytes | str | PathLike[str], description: str = "", default_chain: ChainEnds | None = None
+    robot: str,
+    archive: bytes | str | PathLike[str],
+    description: str = "",
+    default_chain: ChainEnds | None = None,
+    strict: bool = False,
 ) -> Call[RobotInfo]:
     """Replace an uploaded robot by a zip of one URDF and the files that it names."""
-    fields, path = _archive_fields(description, default_chain), f"v1/robots/{segment(robot)}"
+    fields, path = _archive_fields(description, default_chain, strict), f"v1/robots/{segment(robot)}"
     return Call("PUT", path, reader(RobotInfo), form=fields, files={"archive": content_of(archive)})
 
 
-def _archive_fields(description: str, chain: ChainEnds | None, **further: str) -> dict[str, str]:
+def _archive_fields(description: str, chain: ChainEnds | None, strict: bool, **further: str) -> dict[str, str]:
     ends = {} if chain is None else {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
-    return {**further, "description": description, **ends}
+    return {**further, "description": description, **ends, **({"strict": "true"} if strict else {})}
 
 
 def content_of(file: bytes | str | PathLike[str]) -> bytes:

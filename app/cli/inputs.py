@@ -7,7 +7,7 @@ import re
 import sys
 import tomllib
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,7 +28,11 @@ _TOLD = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
 
 @contextmanager
 def robot_named(
-    client: "Client", argument: str, arguments: Mapping[str, str], packages: Mapping[str, Path]
+    client: "Client",
+    argument: str,
+    arguments: Mapping[str, str],
+    packages: Mapping[str, Path],
+    strict: bool = False,
 ) -> Iterator[str]:
     """The name of a robot at the service: its own, or one that a file goes by until this is over.
 
@@ -37,6 +41,7 @@ def robot_named(
         argument: A name, or a file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
         arguments: For xacro.
         packages: For xacro.
+        strict: Whether faults of a URDF that kinematics does not feel are refused too.
     """
     file = Path(argument)
     if not is_file(file):
@@ -45,9 +50,9 @@ def robot_named(
         return
     name = f"{name_of(file)[:40]}-{uuid.uuid4().hex[:8]}"
     if file.suffix.lower() == ".zip":
-        client.add_archive(name, file)
+        client.add_archive(name, file, strict=strict)
     else:
-        client.add_robot(name=name, **description_from(file, arguments, packages))
+        client.add_robot(name=name, **description_from(file, arguments, packages, strict))
     try:
         yield name
     finally:
@@ -70,11 +75,13 @@ def name_of(file: Path) -> str:
     return re.sub(r"[^A-Za-z0-9_-]", "_", stem).lstrip("_-")[:64] or "robot"
 
 
-def description_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> dict[str, Any]:
+def description_from(
+    file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool = False
+) -> dict[str, Any]:
     """What the API takes of a robot without meshes: `dh` or `urdf`; for the arguments see `robot_named`."""
     if file.suffix.lower() in _TABLES:
         return {"dh": table_from(file)}
-    return {"urdf": urdf_from(file, arguments, packages)}
+    return {"urdf": urdf_from(file, arguments, packages), **({"strict": True} if strict else {})}
 
 
 def is_file(path: Path) -> bool:
@@ -157,7 +164,7 @@ def fields_of(text: str | None) -> dict[str, Any]:
     return content
 
 
-def pairs_of(given: list[str], field: str, value: Callable[[str], Any] = str) -> dict[str, Any]:
+def pairs_of(given: list[str], field: str) -> dict[str, str]:
     """`NAME=VALUE` arguments.
 
     Raises:
@@ -168,5 +175,18 @@ def pairs_of(given: list[str], field: str, value: Callable[[str], Any] = str) ->
         name, equals, rest = text.partition("=")
         if not (name and equals):
             raise InvalidField(field, f"{text!r} is not NAME=VALUE")
-        found[name] = value(rest)
+        found[name] = rest
     return found
+
+
+def packages_of(given: list[str]) -> dict[str, Path]:
+    """`NAME=FOLDER` arguments.
+
+    Raises:
+        InvalidField: One is not.
+    """
+    folders = pairs_of(given, "package")
+    for name, folder in folders.items():
+        if not (folder and Path(folder).is_dir()):
+            raise InvalidField("package", f"{f'{name}={folder}'!r} names no folder: it must be NAME=FOLDER")
+    return {name: Path(folder) for name, folder in folders.items()}

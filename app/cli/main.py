@@ -55,11 +55,14 @@ def options(
     ] = None,
     arg: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=VALUE.")] = None,
     package: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=FOLDER of $(find NAME).")] = None,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Refuse a URDF for faults that kinematics does not feel, too.")
+    ] = False,
 ) -> None:
     """What all commands share; before the command's name."""
     if output is not None:
         check_place(output)
-    context.obj = Session(server, Output(form, output), arg or (), package or ())
+    context.obj = Session(server, Output(form, output), arg or (), package or (), strict)
 
 
 @cli.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})

@@ -76,11 +76,13 @@ def add(
     about: dict[str, Any] = {"description": description, "default_chain": ends}
     with shared.client() as client:
         if file.suffix.lower() == ".zip":
-            info = (client.replace_archive if replace else client.add_archive)(name, file, **about)
+            info = (client.replace_archive if replace else client.add_archive)(
+                name, file, **about, strict=shared.strict
+            )
         else:
             if ends is None:
                 del about["default_chain"]
-            body = {**about, **description_from(file, shared.arguments, shared.packages)}
+            body = {**about, **description_from(file, shared.arguments, shared.packages, shared.strict)}
             info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
     shared.write(info, _joints(info))
 

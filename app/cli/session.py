@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from app.cli.completion import frames_beginning_with, robots_beginning_with
-from app.cli.inputs import pairs_of, robot_named
+from app.cli.inputs import packages_of, pairs_of, robot_named
 from app.cli.outputs import Output, Rows
 from app.model.errors import InvalidField
 
@@ -65,10 +65,18 @@ class Session:
         output: Where the answer goes.
         arguments: For xacro, `NAME=VALUE`.
         packages: For xacro, `NAME=FOLDER`.
+        strict: Whether faults of a URDF that kinematics does not feel are refused too.
     """
 
-    def __init__(self, server: str | None, output: Output, arguments: Sequence[str], packages: Sequence[str]) -> None:
-        self.server, self.output = server, output
+    def __init__(
+        self,
+        server: str | None,
+        output: Output,
+        arguments: Sequence[str],
+        packages: Sequence[str],
+        strict: bool = False,
+    ) -> None:
+        self.server, self.output, self.strict = server, output, strict
         self._given_arguments, self._given_packages = arguments, packages
 
     @property
@@ -79,7 +87,7 @@ class Session:
     @property
     def packages(self) -> dict[str, Path]:
         """For xacro: folders by name."""
-        return pairs_of(list(self._given_packages), "package", Path)
+        return packages_of(list(self._given_packages))
 
     @contextmanager
     def client(self) -> Iterator["Client"]:
@@ -104,7 +112,7 @@ class Session:
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
         """The service, and the name that a robot has there."""
         arguments, packages = self.arguments, self.packages
-        with self.client() as client, robot_named(client, argument, arguments, packages) as name:
+        with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
             yield client, name
 
     def write(self, answer: "BaseModel", rows: Rows) -> None:

@@ -8,6 +8,8 @@ from types import ModuleType
 from xml.etree import ElementTree
 
 from app.model.errors import InvalidUrdf
+from app.model.unexpanded import without_links
+from app.model.xml import read_xml
 
 _FINDER = "ament_index_python.packages"
 
@@ -22,7 +24,7 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
             installed.
 
     Raises:
-        InvalidUrdf: It cannot be expanded.
+        InvalidUrdf: It cannot be expanded, or to no link.
     """
     # Loading it takes a tenth of a second, which few calls need.
     import xacro  # noqa: PLC0415
@@ -32,6 +34,8 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
         document = xacro.process_file(str(file), mappings=dict(arguments))
     except Exception as error:  # xacro evaluates expressions: they raise what they like
         raise InvalidUrdf(f"xacro cannot expand it: {_sentence(error)}", element=file.name) from error
+    if not any(child.nodeName == "link" for child in document.documentElement.childNodes):
+        raise InvalidUrdf(without_links(read_xml(file.read_text(encoding="utf-8"))), element=file.name)
     return str(document.toxml())
 
 

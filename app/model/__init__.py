@@ -4,7 +4,7 @@
 - `arrays`: array types; `compilation`: the decorators for compiled functions.
 - `poses`: SO(3) and SE(3) as matrices; `notations`: in every notation.
 - `dh`: Denavit-Hartenberg tables and their product of transforms.
-- `urdf`: untrusted XML → checked description → XML of our own.
+- `urdf`: untrusted XML → checked description → XML of our own; `unexpanded`: what is left of a xacro in it.
 - `chain`: base → tip as flat arrays for the kernels.
 - `convert`: DH table → URDF; standard ↔ modified.
 - `dh_from_chain`: chain → DH table, by the geometry of its axes.

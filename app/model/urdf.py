@@ -1,13 +1,15 @@
 """URDF, both ways: untrusted XML → checked `Description`; `Description` → XML of our own.
 
-The reader is strict where a robot would come out wrong (each refusal names the element and the line) and tolerant
-where a description is merely odd (a warning each). Pinocchio never sees the text that came in: it gets what
-`write_urdf` writes from the description.
+The reader refuses what would come out as another robot (each refusal names the element and the line). It warns of what
+is merely odd, and of faults that kinematics does not feel: in shapes, in masses, in the limits of a fixed joint.
+Pinocchio never sees the text that came in: it gets what `write_urdf` writes from the description.
 """
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from typing import Literal, cast
 from xml.sax.saxutils import quoteattr
 
@@ -28,7 +30,8 @@ from app.model.description import (
 )
 from app.model.errors import InvalidUrdf, quoted
 from app.model.tree import check_tree
-from app.model.xml import Element, read_xml
+from app.model.unexpanded import left_of_xacro, without_links
+from app.model.xml import Element, read_xml, with_declaration_first
 
 MAX_LINKS = 512
 MAX_SHAPES = 512
@@ -70,11 +73,12 @@ _SHAPE_SIZES = {
 }
 
 
-def read_urdf(text: str) -> Description:
+def read_urdf(text: str, strict: bool = False) -> Description:
     """Read and check a description.
 
     Args:
         text: The URDF, xacro already expanded.
+        strict: Whether faults that kinematics does not feel are refused too, instead of warned of.
 
     Returns:
         The robot, with what is odd about it in `warnings`.
@@ -82,26 +86,39 @@ def read_urdf(text: str) -> Description:
     Raises:
         InvalidUrdf: It is not well-formed XML, not a robot, or beyond a limit.
     """
+    warnings = []
+    if not strict and (put_right := with_declaration_first(text)) != text.removeprefix("\ufeff"):
+        warnings.append("line 1: nothing may stand before the XML declaration: it is ignored")
+        text = put_right
     root = read_xml(text)
     if root.tag != "robot":
         raise InvalidUrdf(f"the root element is {quoted(root.tag)} where a URDF has 'robot'", None, root.line)
-    return _Reader().robot(root)
+    unexpanded = left_of_xacro(root, _SILENT)
+    if unexpanded:
+        warnings.append(unexpanded)
+    try:
+        return _Reader(strict, warnings).robot(root)
+    except InvalidUrdf as error:
+        if unexpanded is None:
+            raise
+        raise InvalidUrdf(f"{error.reason}; {unexpanded}", error.element, error.line) from error
 
 
 class _Reader:
     """One pass over one document, collecting warnings."""
 
-    def __init__(self) -> None:
-        self._warnings: list[str] = []
+    def __init__(self, strict: bool, warnings: list[str]) -> None:
+        self._strict = strict
+        self._warnings = warnings
         self._lines: dict[str, int] = {}
         self._shape_count = 0
 
     def robot(self, root: Element) -> Description:
-        self._check_known(root, None)
         links = [element for element in root.children if element.tag == "link"]
         joints = [element for element in root.children if element.tag == "joint"]
         if not links:
-            raise InvalidUrdf("the robot has no link", None, root.line)
+            raise InvalidUrdf(without_links(root), None, root.line)
+        self._check_known(root, None)
         if len(links) > MAX_LINKS:
             raise InvalidUrdf(f"the robot has {len(links)} links; allowed are {MAX_LINKS}", None, root.line)
         description = Description(
@@ -113,6 +130,16 @@ class _Reader:
         self._warn_of_meshes(description)
         self._warn_of_massless(description)
         return Description(description.name, description.links, description.joints, tuple(self._warnings))
+
+    @contextmanager
+    def _harmless(self, consequence: str) -> Iterator[None]:
+        """What is refused inside is not felt by kinematics: unless strict, a warning with what follows from it."""
+        try:
+            yield
+        except InvalidUrdf as error:
+            if self._strict:
+                raise
+            self._warnings.append(f"{error.detail}: {consequence}")
 
     def _warn_of_meshes(self, description: Description) -> None:
         for mesh in description.meshes:
@@ -135,20 +162,23 @@ class _Reader:
         name = self._name(element)
         where = f"link {quoted(name)}"
         self._check_known(element, where)
-        inertial = _only(element, "inertial", where)
+        inertial = None
+        if (found := self._only(element, "inertial", where, is_felt=False)) is not None:
+            with self._harmless("the inertial is ignored"):
+                inertial = self._inertial(found, where)
         shapes = [child for child in element.children if child.tag in {"visual", "collision"}]
         self._shape_count += len(shapes)
         if self._shape_count > MAX_SHAPES:
             raise InvalidUrdf(f"more than {MAX_SHAPES} geometries", where, element.line)
-        return Link(
-            name,
-            self._inertial(inertial, where) if inertial is not None else None,
-            tuple(self._shape(shape, where) for shape in shapes),
-        )
+        drawn = []
+        for shape in shapes:
+            with self._harmless("it is not drawn"):
+                drawn.append(self._shape(shape, where))
+        return Link(name, inertial, tuple(drawn))
 
     def _inertial(self, element: Element, where: str) -> Inertial | None:
         self._check_known(element, where)
-        mass_element, inertia_element = _only(element, "mass", where), _only(element, "inertia", where)
+        mass_element, inertia_element = self._only(element, "mass", where), self._only(element, "inertia", where)
         if mass_element is None or inertia_element is None:
             missing = "mass" if mass_element is None else "inertia"
             self._warnings.append(f"line {element.line}: {where}: inertial without {missing} is ignored")
@@ -178,10 +208,7 @@ class _Reader:
             self._warnings.append(f"line {line}: {where}: inertia violates the triangle inequality, no body has it")
 
     def _shape(self, element: Element, where: str) -> Shape:
-        geometry = _only(element, "geometry", where)
-        if geometry is None or len(geometry.children) != 1:
-            raise InvalidUrdf(f"{element.tag} must have one geometry with one shape", where, element.line)
-        shape = geometry.children[0]
+        shape = self._geometry(element, where)
         role: Literal["visual", "collision"] = "visual" if element.tag == "visual" else "collision"
         self._check_known(element, where)
         origin = self._origin(element, where)
@@ -189,8 +216,7 @@ class _Reader:
             filename = shape.attributes.get("filename", "")
             if not filename or not filename.isprintable():
                 raise InvalidUrdf("mesh must have a filename of printable characters", where, shape.line)
-            scale = _numbers(shape, "scale", 3, where) if "scale" in shape.attributes else (1.0, 1.0, 1.0)
-            return Shape(role, origin, "mesh", scale, filename)
+            return Shape(role, origin, "mesh", self._scale(shape, where), filename)
         if shape.tag not in _SHAPE_SIZES:
             raise InvalidUrdf(
                 f"geometry {quoted(shape.tag)} is not known: box, cylinder, capsule, sphere or mesh",
@@ -204,6 +230,27 @@ class _Reader:
             raise InvalidUrdf(f"{shape.tag} has a negative {' or '.join(keys)}", where, shape.line)
         return Shape(role, origin, shape.tag, size)  # type: ignore[arg-type]
 
+    def _geometry(self, element: Element, where: str) -> Element:
+        """The element of a shape: the only one in its geometry, or else the first that is one."""
+        geometry = self._only(element, "geometry", where, is_felt=False)
+        found = [] if geometry is None else geometry.children
+        if len(found) == 1:
+            return found[0]
+        error = InvalidUrdf(f"{element.tag} must have one geometry with one shape", where, element.line)
+        shapes = [shape for shape in found if shape.tag == "mesh" or shape.tag in _SHAPE_SIZES]
+        if not shapes:
+            raise error
+        with self._harmless(f"of its {len(found)} elements {quoted(shapes[0].tag)} counts"):
+            raise error
+        return shapes[0]
+
+    def _scale(self, mesh: Element, where: str) -> Triple:
+        words = mesh.attributes.get("scale", "1 1 1").split()
+        if len(words) > 3:
+            with self._harmless("the first three count"):
+                _triple(mesh, "scale", where)
+        return _triple(Element("mesh", {"scale": " ".join(words[:3])}, mesh.line), "scale", where)
+
     # Joints
 
     def _joint(self, element: Element) -> Joint:
@@ -216,25 +263,21 @@ class _Reader:
             raise InvalidUrdf(f"{given}; allowed are {', '.join(_JOINT_TYPES)}", where, element.line)
         if type_ in {"floating", "planar"}:
             self._warnings.append(f"line {element.line}: {where}: no chain may lead across a {type_} joint")
-        return Joint(
-            name,
-            cast(JointType, type_),
-            self._end(element, "parent", where),
-            self._end(element, "child", where),
-            self._origin(element, where),
-            self._axis(element, type_, where),
-            self._limits(element, type_, where),
-            self._mimic(element, type_, where),
-        )
+        ends = self._end(element, "parent", where), self._end(element, "child", where)
+        joint = Joint(name, cast(JointType, type_), *ends, self._origin(element, where))
+        with self._harmless("a fixed joint does not move") if type_ == "fixed" else nullcontext():
+            axis, limits = self._axis(element, type_, where), self._limits(element, type_, where)
+            return replace(joint, axis=axis, limits=limits, mimic=self._mimic(element, type_, where))
+        return joint
 
     def _end(self, element: Element, tag: str, where: str) -> str:
-        end = _only(element, tag, where)
+        end = self._only(element, tag, where)
         if end is None or not end.attributes.get("link"):
             raise InvalidUrdf(f"must have a {tag} with a link", where, element.line)
         return end.attributes["link"]
 
     def _axis(self, element: Element, type_: str, where: str) -> Triple:
-        axis = _only(element, "axis", where)
+        axis = self._only(element, "axis", where)
         if type_ in {"fixed", "floating"}:
             return (1.0, 0.0, 0.0)
         if axis is None:
@@ -252,7 +295,7 @@ class _Reader:
         return (x / length, y / length, z / length)
 
     def _limits(self, element: Element, type_: str, where: str) -> Limits:
-        limit = _only(element, "limit", where)
+        limit = self._only(element, "limit", where)
         bounded = type_ in {"revolute", "prismatic"}
         if limit is None:
             if bounded:
@@ -292,7 +335,7 @@ class _Reader:
         return value or None
 
     def _mimic(self, element: Element, type_: str, where: str) -> Mimic | None:
-        mimic = _only(element, "mimic", where)
+        mimic = self._only(element, "mimic", where)
         if mimic is None:
             return None
         if type_ not in MOVABLE:
@@ -312,6 +355,17 @@ class _Reader:
 
     # What both have
 
+    def _only(self, element: Element, tag: str, where: str, is_felt: bool = True) -> Element | None:
+        """The child of that tag; of several the first, if they are the same or kinematics does not feel which."""
+        found = [child for child in element.children if child.tag == tag]
+        if len(found) > 1:
+            error = InvalidUrdf(f"{len(found)} elements {quoted(tag)} where one is allowed", where, found[1].line)
+            if is_felt and any(child != found[0] for child in found):
+                raise error
+            with self._harmless("the first counts"):
+                raise error
+        return found[0] if found else None
+
     def _name(self, element: Element) -> str:
         name = element.attributes.get("name", "")
         if not name.strip():
@@ -330,7 +384,7 @@ class _Reader:
         return name
 
     def _origin(self, element: Element, where: str) -> Origin:
-        origin = _only(element, "origin", where)
+        origin = self._only(element, "origin", where)
         if origin is None:
             return Origin()
         self._check_known(origin, where)
@@ -353,14 +407,6 @@ class _Reader:
                 )
             if child.tag not in _KNOWN_ELEMENTS.get(element.tag, ()):
                 self._warnings.append(f"line {child.line}: {inside}unknown element {quoted(child.tag)} is ignored")
-
-
-def _only(element: Element, tag: str, where: str) -> Element | None:
-    """The child of that tag, where there is none or one."""
-    found = [child for child in element.children if child.tag == tag]
-    if len(found) > 1:
-        raise InvalidUrdf(f"{len(found)} elements {quoted(tag)} where one is allowed", where, found[1].line)
-    return found[0] if found else None
 
 
 def _number(element: Element, key: str, where: str, most: float = MAX_MAGNITUDE) -> float:

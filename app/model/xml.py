@@ -20,6 +20,7 @@ MAX_ATTRIBUTES = 64
 MAX_VALUE_LENGTH = 4096
 
 _DECLARED_ENCODING = re.compile(r"<\?xml[^>]*?\bencoding\s*=\s*[\"']([^\"']*)[\"']")
+_LATE_DECLARATION = re.compile(r"((?>[ \t\r\n\ufeff]|<!--.*?-->)++)(<\?xml\s.*?\?>)", re.DOTALL)
 _KNOWN_ENCODINGS = frozenset({"utf-8", "utf8", "us-ascii", "ascii"})
 
 
@@ -29,8 +30,15 @@ class Element:
 
     tag: str
     attributes: dict[str, str]
-    line: int
+    line: int = field(compare=False)
     children: list["Element"] = field(default_factory=list)
+
+
+def with_declaration_first(text: str) -> str:
+    """A document in which only white space and comments stand before the XML declaration, put right; lines stay."""
+    text = text.removeprefix("\ufeff")
+    late = _LATE_DECLARATION.match(text)
+    return text if late is None else late[2] + late[1].replace("\ufeff", "") + text[late.end() :]
 
 
 def read_xml(text: str) -> Element:

@@ -101,6 +101,15 @@ class Answer(Shown):
 
 FrameName = Annotated[str, Field(min_length=1, max_length=128, description="Name of a frame: each link has one.")]
 
+Strict = Annotated[
+    bool,
+    Field(
+        description="Whether a URDF is refused for faults that kinematics does not feel (in shapes, in masses, of a "
+        "fixed joint, before the XML declaration, elements repeated word for word), instead of accepted with a warning "
+        "for each."
+    ),
+]
+
 RobotName = Annotated[
     str,
     Field(

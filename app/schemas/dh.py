@@ -9,7 +9,7 @@ from app.model.arrays import Array
 from app.model.description import Mimic
 from app.model.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
 from app.model.errors import InvalidPose
-from app.schemas.common import Answer, ChainOptions, Payload, RobotName
+from app.schemas.common import Answer, ChainOptions, Payload, RobotName, Strict
 from app.schemas.pose import Pose
 
 JointName = Annotated[str, Field(min_length=1, max_length=128, pattern=r"^[^\x00-\x1f\x7f-\x9f]+$")]
@@ -143,6 +143,7 @@ class FromUrdfRequest(FromUrdfOptions):
     """A description with the chain to be written as a table."""
 
     urdf: str = Field(description="The URDF as text, xacro expanded.")
+    strict: Strict = False
 
 
 class ConvertRequest(Payload):

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from app.schemas.common import Answer, ChainEnds, FrameName, Payload, RobotName
+from app.schemas.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict
 from app.schemas.dh import DhTablePayload
 from app.schemas.pose import Pose
 
@@ -39,6 +39,7 @@ class RobotReplacement(Payload):
     urdf: str | None = Field(default=None, description="The URDF as text, xacro expanded.")
     dh: DhTablePayload | None = Field(default=None, description="The robot as a Denavit-Hartenberg table.")
     description: Text = Field(default="", description="One sentence for people.")
+    strict: Strict = False
     default_chain: ChainEnds | None = Field(
         default=None,
         description="Chain of calls that name none; root link → leaf with the longest movable chain if left out.",
@@ -61,6 +62,7 @@ class ArchiveReplacement(Payload):
     """The text fields that come with an archive."""
 
     description: Text = Field(default="", description="One sentence for people.")
+    strict: Annotated[Strict, Field(strict=False)] = False
     base_frame: FrameName | None = Field(default=None, description="Of the default chain, together with `tip_frame`.")
     tip_frame: FrameName | None = Field(default=None, description="Of the default chain, together with `base_frame`.")
 

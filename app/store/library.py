@@ -57,6 +57,7 @@ class RobotUpload:
         default_chain: Chain of calls that name none.
         meshes: What mesh files hold, by relative path.
         urdf_folder: Where the URDF stood among them.
+        strict: Whether a URDF with harmless faults is refused; asked when it comes, and not kept.
     """
 
     name: str
@@ -66,6 +67,7 @@ class RobotUpload:
     default_chain: ChainEnds | None = None
     meshes: Mapping[str, Content] = field(default_factory=dict)
     urdf_folder: str = ""
+    strict: bool = False
 
 
 class Library:
@@ -286,7 +288,7 @@ def _robot_file(upload: RobotUpload) -> tuple[RobotFile, str]:
 
     Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names.
     """
-    description, _, _ = describe(upload.name, upload.format, upload.model)
+    description, _, _ = describe(upload.name, upload.format, upload.model, upload.strict)
     ends = upload.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
     base_frame, tip_frame = robot.default_chain

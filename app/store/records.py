@@ -143,10 +143,10 @@ def load(record: Record) -> LoadedRobot:
     return LoadedRobot(record, robot, urdf, table, meshes)
 
 
-def describe(name: str, format_: str, content: bytes) -> tuple[Description, str, DhTable | None]:
+def describe(name: str, format_: str, content: bytes, strict: bool = False) -> tuple[Description, str, DhTable | None]:
     """The description that a model file holds, as text too, and the table where it is one.
 
-    A table is written as URDF and read like any other: one path for all robots.
+    A table is written as URDF and read like any other: one path for all robots. `strict` is that of `read_urdf`.
 
     Raises:
         InvalidInput: The file does not describe a robot.
@@ -157,7 +157,7 @@ def describe(name: str, format_: str, content: bytes) -> tuple[Description, str,
         except UnicodeDecodeError as error:
             line = content.count(b"\n", 0, error.start) + 1
             raise InvalidUrdf("the text is not UTF-8", None, line) from error
-        return read_urdf(text), text, None
+        return read_urdf(text, strict), text, None
     try:
         table = DhTablePayload.model_validate_json(content).table()
     except ValidationError as error:

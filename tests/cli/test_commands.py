@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 
 from tests.cli.conftest import Shell
+from tests.corpus.urdf import ARM
+from tests.corpus.zips import zipped
 from tests.oracles import catalogue, dh_columns
 from tests.test_serve import free_port, get
 
@@ -153,6 +155,32 @@ def test_what_is_wrong_with_xacro_is_said_once_and_on_a_line(
     assert err.count(sentence) == err.count("\n") == 1
 
 
+@pytest.mark.parametrize("prefix", ["", "xacro:"])
+def test_a_xacro_of_macros_alone_says_so(shell: Shell, tmp_path: Path, prefix: str) -> None:
+    macros = "".join(
+        f'<xacro:macro name="{prefix}{name}"><link name="base"/></xacro:macro>' for name in ("arm", "hand")
+    )
+    file = tmp_path / "macros.xacro"
+    file.write_text(f'<robot name="a" xmlns:xacro="http://www.ros.org/wiki/xacro">{macros}</robot>')
+    err = shell("fk", file, "-q", "0", code=2)[1]
+    assert f"defines only the macros '{prefix}arm', '{prefix}hand'; expand one that calls them" in err
+    around = tmp_path / "around.xacro"
+    around.write_text(file.read_text().replace(macros, '<xacro:include filename="macros.xacro"/>'))
+    assert "around.xacro: the robot has no link" in shell("fk", around, "-q", "0", code=2)[1]
+
+
+def test_a_faulty_file_is_taken_unless_strict(shell: Shell, tmp_path: Path) -> None:
+    file = tmp_path / "arm.urdf"
+    file.write_text('\n<?xml version="1.0"?>' + ARM)
+    archive = tmp_path / "arm.zip"
+    archive.write_bytes(zipped({"arm.urdf": file.read_text()}))
+    for given in (file, archive):
+        for command in (["fk", given, "-q", "0.5"], ["dh", "from-urdf", given], ["add", given]):
+            shell(*command)
+            assert "not well-formed XML" in shell("--strict", *command, code=2)[1]
+    assert "before the XML declaration" in shell("add", file)[0]
+
+
 def test_configurations_in_and_out(shell: Shell, tmp_path: Path) -> None:
     rows = np.array([[0.1, 0.2], [0.3, 0.4], [-0.5, 0.6]])
     np.save(tmp_path / "q.npy", rows)
@@ -203,6 +231,8 @@ def test_what_cannot_be_reached_ends_with_one(shell: Shell) -> None:
         (["--format", "npy", "robots"], "these columns hold others: name"),
         (["trajectory", "planar_2r", *MOTION, "--plot", "motion.gif"], "must end in .svg or .png"),
         (["--arg", "length", "fk", "arm.xacro", "-q", "1"], "is not NAME=VALUE"),
+        (["--package", "my_arm=", "fk", "arm.xacro", "-q", "1"], "'my_arm=' names no folder: it must be NAME=FOLDER"),
+        (["--package", "my_arm=no/where", "fk", "arm.xacro", "-q", "1"], "'my_arm=no/where' names no folder"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
