@@ -14,10 +14,13 @@ from app.api.payloads import BoundedRequest, json_response, read_query
 from app.api.remote import Remote, json_handler
 from app.api.routes import DocumentedRoute, Handler
 from app.kinematics.certify import certify_conversion, certify_table
+from app.model.appearance import INVENTED_MASSES
 from app.model.convert import BASE_FRAME, TOOL_FRAME, converted, describe_dh
+from app.model.description import MOVABLE, Description
 from app.model.dh_from_chain import dh_from_chain
+from app.model.errors import listed
 from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
+from app.model.urdf import UNLIMITED, read_urdf, write_urdf
 from app.schemas.common import FrameName
 from app.schemas.dh import (
     EXAMPLE_TABLE,
@@ -41,10 +44,11 @@ def dh_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
     """The conversions, none on the event loop: building a robot takes milliseconds."""
 
     def table_to_urdf(call: ToUrdfRequest) -> ToUrdfAnswer:
-        """Writes a table as URDF, to 17 significant digits, with simple bodies to look at and plausible inertias.
+        """Writes a table as URDF, to 17 significant digits, with simple bodies to look at.
 
         Both conventions, revolute and prismatic joints, base, tool, offsets and limits. What is sent has been read
-        again and recomputed through Pinocchio.
+        again and recomputed through Pinocchio. Masses are invented, and a velocity or effort that is not given is
+        written as one that no joint reaches; `notes` say so.
         """
         raise NotImplementedError
 
@@ -149,8 +153,23 @@ def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
         "urdf": urdf,
         "joint_names": table.variables,
         "certificate": asdict(certificate),
+        "notes": _notes(described),
         "warnings": described.warnings,
     }
+
+
+def _notes(described: Description) -> list[str]:
+    """What a description says that its table did not."""
+    notes = [INVENTED_MASSES]
+    for key in ("velocity", "effort"):
+        names = tuple(
+            joint.name for joint in described.joints if joint.type in MOVABLE and not getattr(joint.limits, key)
+        )
+        if names:
+            notes.append(
+                f"no {key} limit is given for {listed(names)}: URDF wants one, and {UNLIMITED:g} stands for none"
+            )
+    return notes
 
 
 def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from app.api.lesson import Lesson
 from app.kinematics.bodies import Load
 from app.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanism, mechanism
 from app.kinematics.wrenches import WrenchFrame
+from app.model.appearance import INVENTED_MASSES
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import InvalidField, UnknownFrame, counted, listed
@@ -18,10 +19,7 @@ from app.schemas.dynamics import DynamicsRequest
 from app.schemas.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from app.store.records import LoadedRobot
 
-DRAWN_MASSES = (
-    "a DH table says nothing of masses: the links weigh what the bodies drawn for it would in aluminium, which are "
-    "placeholders; for real numbers upload a URDF with `inertial` elements"
-)
+DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a URDF with `inertial` elements"
 
 _QUICK_BODIES = 8
 

@@ -1,4 +1,4 @@
-"""What the links of a table look like and weigh: simple solids along its lengths, made of aluminium.
+"""What the links of a table look like and weigh: simple solids along its lengths, each of some kilograms a metre.
 
 A table says nothing about bodies. So that its robot can be looked at and moved by a simulator, each link gets thin
 cylinders along its d (the joint's axis) and its a (the common normal), a thicker short one where a joint turns and a
@@ -18,8 +18,12 @@ from app.model.description import Inertial, Origin, Shape, Triple
 from app.model.dh import DhJoint, DhTable
 from app.model.origins import origin_of
 
-DENSITY = 2700.0
-"""Of aluminium, [kg/m³]."""
+MASS_PER_LENGTH = 3.0
+"""Of a solid, [kg/m]: about that of an aluminium tube 80 mm wide with a wall of 5 mm."""
+INVENTED_MASSES = (
+    f"a DH table says nothing of masses: those of the links are invented, {MASS_PER_LENGTH:g} kg for each metre of the "
+    "simple bodies drawn for it"
+)
 
 _THICKNESS = 0.12
 """Radius of a thin cylinder, in typical lengths of the table."""
@@ -55,11 +59,8 @@ class Solid:
 
     @property
     def mass(self) -> float:
-        """Of aluminium, [kg]."""
-        if self.kind == "box":
-            return DENSITY * math.prod(self.size)
-        radius, length = self.size
-        return DENSITY * math.pi * radius**2 * length
+        """By its length along z, [kg]."""
+        return MASS_PER_LENGTH * self.size[-1]
 
     def inertia(self) -> Array:
         """About its centre, in the link's axes; shape (3, 3), [kg m²]."""

@@ -39,6 +39,8 @@ MAX_MAGNITUDE = 1e6
 """Largest length [m], angle [rad], multiplier: beyond it a double no longer resolves a nanometre."""
 
 
+UNLIMITED = 1e16
+"""A velocity or effort that stands for none given, in what is written and in many files: URDF has no word for it."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _ELSEWHERE = re.compile(r"^[/\\]|^(?!package:|model:)\w+:|(^|[/\\])\.\.([/\\]|$)")
 """In a mesh's name: an absolute path, a drive, an address, or a way out of its folder."""
@@ -332,7 +334,7 @@ class _Reader:
             raise InvalidUrdf(f"limit: {key} {value:g} is negative", where, limit.line)
         if value == 0 and type_ in MOVABLE:
             self._warnings.append(f"line {limit.line}: {where}: limit of zero {key} is taken as not given")
-        return value or None
+        return value if 0.0 < value < UNLIMITED else None
 
     def _mimic(self, element: Element, type_: str, where: str) -> Mimic | None:
         mimic = self._only(element, "mimic", where)
@@ -495,11 +497,12 @@ def _joint_body(joint: Joint) -> list[str]:
     lines += _element("parent", {"link": joint.parent}) + _element("child", {"link": joint.child})
     if joint.type not in {"fixed", "floating"}:
         lines += _element("axis", {"xyz": _text(joint.axis)})
-    if joint.type in MOVABLE:
-        # URDF wants effort and velocity wherever it wants a limit; zero stands for "not given", as the reader has it.
-        given = {"velocity": joint.limits.velocity or 0.0, "effort": joint.limits.effort or 0.0}
-        if joint.limits.lower is not None and joint.limits.upper is not None:
-            given = {"lower": joint.limits.lower, "upper": joint.limits.upper, **given}
+    limits = joint.limits
+    if joint.type in MOVABLE and limits != Limits():
+        # Other readers refuse a limit without velocity and effort, and do not move a joint whose limit is zero.
+        given = {"velocity": limits.velocity or UNLIMITED, "effort": limits.effort or UNLIMITED}
+        if limits.lower is not None and limits.upper is not None:
+            given = {"lower": limits.lower, "upper": limits.upper, **given}
         lines += _element("limit", {key: repr(value) for key, value in given.items()})
     if joint.mimic is not None:
         mimic = {

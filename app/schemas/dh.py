@@ -173,6 +173,7 @@ class ToUrdfAnswer(Answer):
     urdf: str = Field(description="Links `base`, `frame_0`, `link_1`, …, `tool`; each DH frame is a link `frame_i`.")
     joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
     certificate: TableCertificate = Field(description="The table's own product against the URDF through Pinocchio.")
+    notes: list[str] = Field(description="What the URDF says that no table can: masses, and limits not given.")
     warnings: list[str] = Field(description="What the table leaves open, and how it was taken.")
 
 

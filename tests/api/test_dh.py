@@ -78,6 +78,44 @@ def test_to_urdf_from_urdf_and_back(client: TestClient, convention: str, seed: i
         assert converted["dh"]["convention"] == wanted
 
 
+BOUNDS: dict[str, dict[str, float]] = {
+    "none": {},
+    "velocity": {"velocity": 2.0},
+    "effort": {"effort": 30.0},
+    "both": {"velocity": 2.0, "effort": 30.0},
+    "zero": {"velocity": 0.0, "effort": 0.0},
+}
+
+
+@pytest.mark.parametrize("bounds", BOUNDS.values(), ids=BOUNDS)
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_no_limit_is_written_as_one_that_forbids_to_move(
+    client: TestClient, kind: str, bounds: dict[str, float]
+) -> None:
+    """Other readers want both attributes, and take zero at its word; ours gives again what was given."""
+    row = {"name": "only", "type": kind, "a": 0.3, "alpha": 0.1, "d": 0.2, "theta": 0.4, "lower": -1, "upper": 1}
+    written = good(client, "to-urdf", name="arm", dh={"convention": "standard", "joints": [{**row, **bounds}]})
+    given = {key: value for key, value in bounds.items() if value}
+    model = pin.buildModelFromXML(written["urdf"])
+    (limit,) = [
+        joint.limit for joint in yourdfpy.URDF.load(BytesIO(written["urdf"].encode())).robot.joints if joint.limit
+    ]
+    for key, other in (("velocity", model.velocityLimit[0]), ("effort", model.effortLimit[0])):
+        assert getattr(limit, key) == other == given.get(key, 1e16)
+    (found,) = good(client, "from-urdf", urdf=written["urdf"])["dh"]["joints"]
+    assert {key: found[key] for key in ("velocity", "effort") if key in found} == given
+    told = [note for note in written["notes"] if "1e+16" in note]
+    assert len(told) == 2 - len(given)
+    assert all("'only'" in note for note in told)
+
+
+def test_to_urdf_says_that_its_masses_are_invented(client: TestClient) -> None:
+    joint = {"a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0, "type": "revolute"}
+    written = good(client, "to-urdf", name="two", dh={"convention": "modified", "joints": [joint, {**joint, "a": 0.7}]})
+    assert any("masses" in note and "3 kg" in note for note in written["notes"])
+    assert not any("0.0" in line for line in written["urdf"].splitlines() if "<limit" in line)
+
+
 def test_an_answer_is_a_request_and_loses_nothing(client: TestClient) -> None:
     """Base and tool as matrices come back to the last bit, whatever the orientation."""
     for seed in range(20):

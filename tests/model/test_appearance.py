@@ -10,7 +10,7 @@ import pinocchio as pin
 import pytest
 import trimesh
 
-from app.model.appearance import DENSITY
+from app.model.appearance import MASS_PER_LENGTH
 from app.model.arrays import Array
 from app.model.convert import describe_dh
 from app.model.description import Inertial, Link
@@ -147,12 +147,18 @@ def test_inertias_by_the_meshes_of_the_same_bodies(name: str) -> None:
         if link.name not in inertials:
             continue
         inertial = inertials[link.name]
-        meshes = [mesh(shape.kind, shape.size, shape.origin.xyz, shape.origin.rpy) for shape in link.shapes]
-        body: Any = trimesh.util.concatenate(meshes)
-        body.density = DENSITY
-        assert inertial.mass == pytest.approx(body.mass, rel=1e-3), link.name
-        assert np.abs(np.array(inertial.origin.xyz) - body.center_mass).max() < 1e-3 * body.scale
-        assert np.abs(tensor(inertial) - body.moment_inertia).max() < 2e-3 * np.abs(body.moment_inertia).max()
+        bodies: list[Any] = [mesh(shape.kind, shape.size, shape.origin.xyz, shape.origin.rpy) for shape in link.shapes]
+        for body, shape in zip(bodies, link.shapes, strict=True):
+            body.density = MASS_PER_LENGTH * shape.size[-1] / body.volume
+        mass = sum(body.mass for body in bodies)
+        centre = sum(body.mass * body.center_mass for body in bodies) / mass
+        moments = sum(
+            body.moment_inertia_frame(dh_columns.placement({"position": centre.tolist(), "rpy": [0, 0, 0]}))
+            for body in bodies
+        )
+        assert inertial.mass == pytest.approx(mass, rel=1e-3), link.name
+        assert np.abs(np.array(inertial.origin.xyz) - centre).max() < 1e-3 * max(body.scale for body in bodies)
+        assert np.abs(tensor(inertial) - moments).max() < 2e-3 * np.abs(moments).max()
 
 
 def mesh(kind: str, size: tuple[float, ...], xyz: tuple[float, ...], rpy: tuple[float, ...]) -> Any:
@@ -160,6 +166,17 @@ def mesh(kind: str, size: tuple[float, ...], xyz: tuple[float, ...], rpy: tuple[
     if kind == "box":
         return trimesh.creation.box(size, T)
     return trimesh.creation.cylinder(size[0], size[1], sections=128, transform=T)
+
+
+@pytest.mark.parametrize("length", [0.1, 0.4, 1.0, 1.5])
+@both_conventions
+def test_a_link_weighs_what_one_of_its_length_may(convention: Convention, length: float) -> None:
+    """A link of a metre some kilograms, whatever else it is made of."""
+    arm = describe_dh(
+        "arm", rows(convention, [(length, 0, 0, 0), (0.7 * length, 0, 0, 0), (0, 0, 0.5 * length, 0)], "RRR")
+    )
+    for link in arm.links:
+        assert link.inertial is None or 1.0 * length < link.inertial.mass < 5.0 * length
 
 
 def test_a_simulator_can_move_it() -> None:
