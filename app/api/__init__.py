@@ -8,7 +8,8 @@
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
 - `tally`: what an answer says of itself to the metrics.
 - `elsewhere`: the crew for code that is no coroutine.
-- `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources.
+- `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources; `skeleton`: what is drawn of a robot
+  that shows nothing.
 - `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to
   a robot; `loads` and `velocity_call` read what several of their fields share.
 - `trajectory`: motions; `trajectory_request` and `trajectory_limits` read what is asked, `trajectory_samples` and

@@ -18,6 +18,7 @@ from app.api.payloads import JSON, BoundedRequest, json_response, read_json
 from app.api.problems import UnsupportedMediaType
 from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
+from app.api.skeleton import skeleton_of
 from app.model.chain import Chain
 from app.model.description import Joint
 from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
@@ -322,6 +323,7 @@ def info(loaded: LoadedRobot) -> RobotInfo:
         frames=list(description.frames),
         leaf_tips=list(description.leaves),
         meshes=[MeshInfo(reference=reference, path=path) for reference, path in loaded.meshes.items()],
+        skeleton=skeleton_of(loaded),
         licence=record.file.licence,
         provenance=record.file.source,
         warnings=list(loaded.warnings),

@@ -7,7 +7,7 @@ that a body can have: positive definite, and within the triangle inequality.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,6 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.chain import rotation_to_axis
 from app.model.description import Inertial, Origin, Shape, Triple
-from app.model.dh import DhJoint, DhTable
 from app.model.origins import origin_of
 
 MASS_PER_LENGTH = 3.0
@@ -25,8 +24,7 @@ INVENTED_MASSES = (
     "simple bodies drawn for it"
 )
 
-_THICKNESS = 0.12
-"""Radius of a thin cylinder, in typical lengths of the table."""
+_Z: Triple = (0.0, 0.0, 1.0)
 _SMALLEST_RADIUS = 1e-4
 """Of a thin cylinder, [m]: nothing is without mass."""
 _SLENDEREST = 1e-3
@@ -82,16 +80,17 @@ class Solid:
 
 
 class Stock:
-    """The solids that a table's links are made of, all of one thickness.
+    """The solids that an arm's links are made of, all of one thickness.
 
     Args:
-        table: Its lengths set the thickness.
+        lengths: Those between its joints, [m]; they set the thickness.
+        thickness: Radius of a thin cylinder, in typical lengths.
     """
 
-    def __init__(self, table: DhTable) -> None:
-        lengths = [abs(length) for row in table.joints for length in (row.a, row.d) if length]
-        typical = float(np.median(lengths)) if lengths else _DEFAULT_LENGTH
-        self.radius = max(_THICKNESS * typical, _SMALLEST_RADIUS)
+    def __init__(self, lengths: Iterable[float], thickness: float = 0.12) -> None:
+        some = [abs(length) for length in lengths if length]
+        typical = float(np.median(some)) if some else _DEFAULT_LENGTH
+        self.radius = max(thickness * typical, _SMALLEST_RADIUS)
 
     def rod(self, start: Sequence[float] | Array, end: Sequence[float] | Array) -> list[Solid]:
         """A thin cylinder between two points of a link; none where they are one. A long one is no wire."""
@@ -103,19 +102,24 @@ class Stock:
         radius = max(self.radius, _SLENDEREST * length)
         return [Solid("cylinder", (radius, length), np.asarray(start) + way / 2, rotation_to_axis((x, y, z)))]
 
-    def hub(self, z: float) -> Solid:
-        """The body of a turning joint, about the link's z axis at a height."""
-        return Solid("cylinder", (2.2 * self.radius, 5.0 * self.radius), np.array([0.0, 0.0, z]), np.eye(3))
+    def hub(self, z: float = 0.0, axis: Triple = _Z) -> Solid:
+        """The body of a turning joint, on its axis at a height."""
+        return Solid("cylinder", (2.2 * self.radius, 5.0 * self.radius), z * np.array(axis), _along(axis))
 
-    def travel(self, row: DhJoint) -> tuple[float, float]:
+    def travel(self, lower: float, upper: float) -> tuple[float, float]:
         """Lower and upper end of what is shown of a sliding joint's way: not all of one that has no end."""
         most = _LONGEST_WAY * self.radius
-        lower, upper = row.limits
         return max(lower, -most), min(upper, most)
 
-    def carriage(self) -> Solid:
-        """The body of a sliding joint, at the link's origin."""
-        return Solid("box", (4.0 * self.radius,) * 2 + (5.0 * self.radius,), np.zeros(3), np.eye(3))
+    def slide(self, lower: float, upper: float, axis: Triple = _Z) -> list[Solid]:
+        """The body of a sliding joint at the link's origin, and its rod, which reaches the begin of any travel."""
+        box = Solid("box", (4.0 * self.radius,) * 2 + (5.0 * self.radius,), np.zeros(3), _along(axis))
+        lower, upper = self.travel(lower, upper)
+        return [box, *self.rod(min(-upper, 0.0) * np.array(axis), max(-lower, 0.0) * np.array(axis))]
+
+
+def _along(axis: Triple) -> Array:
+    return np.eye(3) if axis == _Z else rotation_to_axis(axis)
 
 
 def inertial_of(solids: Sequence[Solid]) -> Inertial:

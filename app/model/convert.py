@@ -124,12 +124,12 @@ def _limits_of_leader(rows: Sequence[DhJoint]) -> Limits:
 
 def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
     """The links with their bodies: the chain from base to tool first, then what is fixed beside it."""
-    stock = Stock(table)
+    stock = Stock(length for row in table.joints for length in (row.a, row.d))
     bodies = _bodies(table, stock)
     n = len(table.joints)
     chain = ["frame_0", *(f"link_{i}" for i in range(1, n + 1)), f"frame_{n}", TOOL_FRAME]
     beside = [f"frame_{i}" for i in range(1, n)]
-    rotors = {f"leader_{k}": [stock.hub(0.0)] for k in range(1, leaders + 1)}
+    rotors = {f"leader_{k}": [stock.hub()] for k in range(1, leaders + 1)}
     moving = {f"link_{i}" for i in range(1, n + 1)}
     links = [_link(name, bodies.get(name, []), name in moving) for name in (BASE_FRAME, *chain, *beside)]
     return (*links, *(Link(name, inertial_of(solids)) for name, solids in rotors.items()))
@@ -152,10 +152,8 @@ def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
         bodies[parent] += stock.rod(origin, elbow)
         own = stock.rod(origin, (row.a, 0.0, 0.0)) if standard else []
         if slides:
-            lower, upper = stock.travel(row)
             bodies[parent] += stock.rod(foot[:3, 3], foot[:3, 3] + row.d * foot[:3, 2])
-            # The rod slides with the carriage, and reaches it also where the travel begins further on.
-            own += [stock.carriage(), *stock.rod((0.0, 0.0, min(-upper, 0.0)), (0.0, 0.0, max(-lower, 0.0)))]
+            own += stock.slide(*row.limits)
         else:
             own += [stock.hub(-row.d), *stock.rod((0.0, 0.0, -row.d), origin)]
         parent, pending = f"link_{i}", _around_motion(row, table.convention)[1]

@@ -4,7 +4,8 @@
 - `pose`: poses in every notation; `pose_arrays`: the same as arrays.
 - `dh`: Denavit-Hartenberg tables.
 - `compare`: requests and answers of comparisons of such tables with chains.
-- `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder.
+- `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder; `shapes`: what is
+  drawn of links that show nothing.
 - `kinematics`: requests and answers of forward kinematics and the Jacobian.
 - `ik`: requests and answers of inverse kinematics.
 - `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: the other questions to a robot.

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from app.schemas.common import Answer, ChainEnds, FrameName, Payload, RobotName, Strict
 from app.schemas.dh import DhTablePayload
 from app.schemas.pose import Pose
+from app.schemas.shapes import LinkShape
 
 Text = Annotated[str, Field(max_length=2000)]
 
@@ -153,6 +154,10 @@ class RobotInfo(RobotSummary):
     frames: list[str] = Field(description="Their names: those that calls may name.")
     leaf_tips: list[str] = Field(description="Links without children.")
     meshes: list[MeshInfo]
+    skeleton: list[LinkShape] = Field(
+        description="Shapes to draw of links without a visual, or whose meshes are missing: rods between the joints, "
+        "and bodies of these. They weigh nothing and touch nothing; a DH table has visuals of its own."
+    )
     licence: str | None = Field(description="Of its description; null where none is known.")
     provenance: str | None = Field(description="Where the description comes from.")
     warnings: list[str] = Field(description="What is odd about the description, though accepted.")

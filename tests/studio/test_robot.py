@@ -29,6 +29,8 @@ FRAMES = """(count) => {
   const drawn = all.map((i) => view.scene.getObjectByName(`DH frame ${i}`).matrixWorld.elements);
   return [drawn, all.map((i) => store.value.model.link(`frame_${i}`).matrixWorld.elements)];
 }"""
+PLACES = """(link) => studio.store.value.model.link(link).children
+    .filter(({type}) => type === "Mesh").map(({position}) => position.toArray())"""
 DROP = """([name, bytes]) => {
   const transfer = new DataTransfer();
   transfer.items.add(new File([new Uint8Array(bytes)], name));
@@ -91,7 +93,7 @@ def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
     studio.run(DROP, ["my arm.zip", list(archive())])
     studio.wait_for_robot("my_arm")
     assert studio.run("studio.store.value.model.meshes") == {"wanted": 1, "shown": 1, "failed": []}
-    assert studio.run("studio.view.countMeshes()") == 1
+    assert studio.run("studio.view.countMeshes()") == 2  # the hand has none: it is drawn as the body of its joint
     assert get(f"{studio.url}/v1/robots/my_arm")[1]["source"] == "uploaded"
     studio.button("Remove").click()
     studio.wait_for_robot("panda")
@@ -292,3 +294,16 @@ def test_a_table_of_the_course_is_started_from(studio: Studio) -> None:
         found.append(tables.index(rows))
         assert studio.page.locator("table.dh tbody tr:has(> th)").count() == len(rows)
     assert len(set(found)) == len(titles) == 9
+
+
+@pytest.mark.parametrize("name", ["panda", "ur5"])
+def test_a_robot_without_meshes_is_drawn_as_its_joints(studio: Studio, name: str) -> None:
+    """In the place of each shape that the service offers one is drawn there, and moves with its link."""
+    urdf = catalogue.urdf_text(name)
+    assert get(f"{studio.url}/v1/robots", "POST", {"name": f"bare_{name}", "urdf": urdf})[0] == 201
+    studio.open("robot", robot=f"bare_{name}")
+    skeleton = get(f"{studio.url}/v1/robots/bare_{name}")[1]["skeleton"]
+    assert studio.run("studio.view.countMeshes()") == len(skeleton) > 8
+    for one in skeleton:
+        assert any(np.allclose(place, one["pose"]["position"]) for place in studio.run(PLACES, one["link"])), one
+    assert download(studio, "Download URDF") == urdf

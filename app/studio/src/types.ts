@@ -36,6 +36,13 @@ export interface JointInfo {
   mimic: { joint: string; multiplier: number; offset: number } | null;
 }
 
+/** To be drawn of a link that shows nothing itself. */
+export interface LinkShape {
+  link: string;
+  shape: { type: "box"; size: [number, number, number] } | { type: "cylinder"; radius: number; length: number };
+  pose: { position: [number, number, number]; quaternion_xyzw: [number, number, number, number] };
+}
+
 export interface RobotInfo extends RobotSummary {
   chains: Record<string, ChainEnds>;
   root: string;
@@ -45,6 +52,7 @@ export interface RobotInfo extends RobotSummary {
   links: string[];
   leaf_tips: string[];
   meshes: { reference: string; path: string | null }[];
+  skeleton: LinkShape[];
   licence: string | null;
   provenance: string | null;
   warnings: string[];

@@ -7,7 +7,7 @@ import { type Api, Latest, NOT_OF_THE_SERVICE, Problem } from "../api.ts";
 import type { Positions, State } from "../state.ts";
 import type { Store } from "../store.ts";
 import type { ChainEnds, DhTable, RobotInfo, ToUrdfAnswer } from "../types.ts";
-import { type MeshSource, meshSource, quiet } from "./meshes.ts";
+import { drawn, type MeshSource, meshSource, quiet } from "./meshes.ts";
 import { RobotModel } from "./model.ts";
 import { chainTable, draftTable, TABLE_CHAIN } from "./table.ts";
 
@@ -96,6 +96,7 @@ export class Loader {
       arrivals.push((model) => this.#arrive(model, reference, file, () => source(file!, quiet(material)), done));
     };
     const root: URDFRobot = loader.parse(urdf);
+    for (const { link, ...solid } of info?.skeleton ?? []) root.links[link]?.add(drawn(solid));
     root.traverse((node) => {
       if (node instanceof Mesh) quiet(node.material);
     });

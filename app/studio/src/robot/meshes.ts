@@ -1,8 +1,10 @@
 /** Mesh files of a robot, from the service; a file that several links show is fetched once. */
 
 import {
+  BoxGeometry,
   type Camera,
   Color,
+  CylinderGeometry,
   FileLoader,
   type Light,
   LoadingManager,
@@ -14,6 +16,8 @@ import {
 import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
+
+import type { LinkShape } from "../types.ts";
 
 export type MeshSource = (path: string, material: Material) => Promise<Object3D>;
 
@@ -78,6 +82,18 @@ function lightsAndCameras(scene: Object3D): Object3D[] {
     if ((node as Light).isLight || (node as Camera).isCamera) found.push(node);
   });
   return found;
+}
+
+/** A shape that the service offers for a link. */
+export function drawn({ shape, pose }: Omit<LinkShape, "link">): Mesh {
+  const geometry =
+    shape.type === "box"
+      ? new BoxGeometry(...shape.size)
+      : new CylinderGeometry(shape.radius, shape.radius, shape.length, 24).rotateX(Math.PI / 2);
+  const mesh = new Mesh(geometry, new MeshPhongMaterial());
+  mesh.position.set(...pose.position);
+  mesh.quaternion.set(...pose.quaternion_xyzw);
+  return mesh;
 }
 
 /** The material of a visual that names none: a quiet grey in the place of glaring white. */

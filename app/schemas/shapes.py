@@ -1,0 +1,31 @@
+"""Shapes to be drawn, on the wire."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from app.schemas.common import Answer
+from app.schemas.pose import Pose
+
+
+class BoxShape(Answer):
+    """A box about its centre."""
+
+    type: Literal["box"] = "box"
+    size: list[float] = Field(description="Along x, y and z, [m].")
+
+
+class CylinderShape(Answer):
+    """A cylinder along z about its centre."""
+
+    type: Literal["cylinder"] = "cylinder"
+    radius: float = Field(description="Of the cylinder, [m].")
+    length: float = Field(description="Along z, [m].")
+
+
+class LinkShape(Answer):
+    """A shape to be drawn of a link that shows nothing itself."""
+
+    link: str = Field(description="That it moves with.")
+    shape: BoxShape | CylinderShape = Field(discriminator="type")
+    pose: Pose = Field(description="Of the shape's centre in the link.")
