@@ -11,14 +11,14 @@ from app.schemas.pose import Pose
 class BoxShape(Answer):
     """A box about its centre."""
 
-    type: Literal["box"] = "box"
+    type: Literal["box"] = Field(default="box", description="Which shape it is.")
     size: list[float] = Field(description="Along x, y and z, [m].")
 
 
 class CylinderShape(Answer):
     """A cylinder along z about its centre."""
 
-    type: Literal["cylinder"] = "cylinder"
+    type: Literal["cylinder"] = Field(default="cylinder", description="Which shape it is.")
     radius: float = Field(description="Of the cylinder, [m].")
     length: float = Field(description="Along z, [m].")
 
@@ -27,5 +27,5 @@ class LinkShape(Answer):
     """A shape to be drawn of a link that shows nothing itself."""
 
     link: str = Field(description="That it moves with.")
-    shape: BoxShape | CylinderShape = Field(discriminator="type")
+    shape: BoxShape | CylinderShape = Field(discriminator="type", description="In axes of its own.")
     pose: Pose = Field(description="Of the shape's centre in the link.")
