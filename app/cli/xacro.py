@@ -35,7 +35,7 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
     except Exception as error:  # xacro evaluates expressions: they raise what they like
         raise InvalidUrdf(f"xacro cannot expand it: {_sentence(error)}", element=file.name) from error
     if not any(child.nodeName == "link" for child in document.documentElement.childNodes):
-        raise InvalidUrdf(without_links(read_xml(file.read_text(encoding="utf-8"))), element=file.name)
+        raise InvalidUrdf(without_links(read_xml(file.read_text("utf-8", "replace"))), element=file.name)
     return str(document.toxml())
 
 

@@ -112,7 +112,7 @@ class Stock:
         return max(lower, -most), min(upper, most)
 
     def slide(self, lower: float, upper: float, axis: Triple = _Z) -> list[Solid]:
-        """The body of a sliding joint at the link's origin, and its rod, which reaches the begin of any travel."""
+        """The body of a sliding joint at the link's origin, and its rod, which reaches where its travel begins."""
         box = Solid("box", (4.0 * self.radius,) * 2 + (5.0 * self.radius,), np.zeros(3), _along(axis))
         lower, upper = self.travel(lower, upper)
         return [box, *self.rod(min(-upper, 0.0) * np.array(axis), max(-lower, 0.0) * np.array(axis))]
