@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import threading
 from collections.abc import AsyncIterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
@@ -77,7 +78,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        library.prepare()
+        threading.Thread(target=library.prepare, name="sweep", daemon=True).start()
         runner.begin()
         starting = asyncio.create_task(_start(readiness, crew))
         async with metrics.publishing():

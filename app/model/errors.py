@@ -71,6 +71,11 @@ def counted(count: int, thing: str) -> str:
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
+def meshes_are(names: tuple[str, ...]) -> str:
+    """How a sentence about meshes begins: `mesh 'a.stl' is`, `2 meshes ('a.stl', 'b.stl') are`."""
+    return f"mesh {quoted(names[0])} is" if len(names) == 1 else f"{len(names)} meshes ({listed(names)}) are"
+
+
 def kind_of(error: type[Exception]) -> str:
     """The name of a class of errors on the wire: `UnknownFrame` → `unknown-frame`."""
     return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()

@@ -28,7 +28,7 @@ from app.model.description import (
     Shape,
     Triple,
 )
-from app.model.errors import InvalidUrdf, quoted
+from app.model.errors import InvalidUrdf, meshes_are, quoted
 from app.model.tree import check_tree
 from app.model.unexpanded import left_of_xacro, without_links
 from app.model.xml import Element, read_xml, with_declaration_first
@@ -144,9 +144,9 @@ class _Reader:
             self._warnings.append(f"{error.detail}: {consequence}")
 
     def _warn_of_meshes(self, description: Description) -> None:
-        for mesh in description.meshes:
-            if _ELSEWHERE.search(mesh):
-                self._warnings.append(f"mesh {quoted(mesh)} lies outside the description and is never opened")
+        if outside := tuple(mesh for mesh in description.meshes if _ELSEWHERE.search(mesh)):
+            told = "outside the description's folder: never opened there, and looked for in an archive alone"
+            self._warnings.append(f"{meshes_are(outside)} {told}")
 
     def _warn_of_massless(self, description: Description) -> None:
         moved = {joint.child for joint in description.joints if joint.type in MOVABLE}

@@ -2,6 +2,7 @@
 
 - `folders`: durable writing: what is acknowledged is on disk, what is not is invisible.
 - `archive`: a zip of one URDF and its meshes, unpacked with suspicion.
+- `meshes`: which file a mesh's name means.
 - `records`: a robot's folder, read: what it is, where its files are.
 - `library`: all robots by name; loaded once, and anew when their folder has changed.
 """

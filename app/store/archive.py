@@ -19,14 +19,15 @@ from typing import IO, BinaryIO
 from app.model.errors import InvalidArchive, TooLarge, quoted
 from app.model.xml import MAX_BYTES
 from app.store.folders import Stretch, nameless
+from app.store.meshes import KEPT_SUFFIXES
 
 MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
 MAX_PATH_BYTES = 200
 MAX_DIRECTORY = 1024 * 1024
 """Bytes of the list of entries at the end of a zip: 2,000 of them need a quarter of it."""
-MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae", ".mtl", ".png", ".jpg", ".jpeg"})
-"""Meshes, and the materials and pictures that they refer to."""
+MAX_FOLDERS = 16
+"""Folders on the way to an entry; those of packages that people share are some ten at most."""
 _CHUNK = 1024 * 1024
 _END_RECORD = struct.Struct("<4s4H2LH")
 
@@ -77,12 +78,13 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> Un
     descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
     if len(descriptions) != 1:
         raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
-    seen = {str(parent).lower() for entry in entries for parent in PurePosixPath(entry.filename).parents}
+    for entry in entries:
+        _check_entry(entry)
+    _check_names([entry.filename.lower() for entry in entries])
     meshes: dict[str, Stretch] = {}
     used = 0
     for entry in entries:
-        _check_entry(entry, seen)
-        if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in MESH_SUFFIXES:
+        if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in KEPT_SUFFIXES:
             continue
         size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
         meshes[entry.filename] = Stretch(store, used, size)
@@ -118,13 +120,15 @@ def _check_count(archive: zipfile.ZipFile) -> None:
         raise TooLarge("entries in the archive", count, MAX_ENTRIES)
 
 
-def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
+def _check_entry(entry: zipfile.ZipInfo) -> None:
     name = entry.filename
     parts = name.split("/")
     if name.startswith("/") or "\\" in name or ":" in name or any(part in {"", ".", ".."} for part in parts):
         raise InvalidArchive("its path must stay inside the archive", name)
     if len(name.encode()) > MAX_PATH_BYTES or not name.isprintable():
         raise InvalidArchive(f"its path must be at most {MAX_PATH_BYTES} bytes of printable characters", name)
+    if len(parts) > MAX_FOLDERS + 1:
+        raise InvalidArchive(f"it lies {len(parts) - 1} folders deep; allowed are {MAX_FOLDERS}", name)
     mode = entry.external_attr >> 16
     if stat.S_ISLNK(mode):
         raise InvalidArchive("links are not allowed", name)
@@ -134,9 +138,14 @@ def _check_entry(entry: zipfile.ZipInfo, seen: set[str]) -> None:
         raise InvalidArchive("its compression is not known: stored or deflated", name)
     if entry.flag_bits & 0x1:
         raise InvalidArchive("encrypted entries are not allowed", name)
-    if name.lower() in seen:
-        raise InvalidArchive("it stands in the archive twice, or as a folder too", name)
-    seen.add(name.lower())
+
+
+def _check_names(names: list[str]) -> None:
+    seen = {name[:end] for name in names for end, letter in enumerate(name) if letter == "/"}
+    for name in names:
+        if name in seen:
+            raise InvalidArchive("it stands in the archive twice, or as a folder too", name)
+        seen.add(name)
 
 
 def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:

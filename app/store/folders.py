@@ -2,7 +2,7 @@
 
 Everything is written beside, synced, and then made visible by one rename, so that a kill at any moment leaves the
 old state or the new. Writers of one root take turns by a file lock, which the system releases when a process dies;
-readers need none.
+readers need none. What takes long, to write much or to remove it, happens in a `staging` folder without that lock.
 """
 
 import errno
@@ -11,7 +11,7 @@ import os
 import shutil
 import uuid
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -112,22 +112,41 @@ def exclusive(root: Path) -> Iterator[None]:
             yield
 
 
-def sweep(folder: Path) -> None:
-    """Remove what interrupted writers have left in a folder; to be called while holding `exclusive`.
+@contextmanager
+def staging(root: Path) -> Iterator[Path]:
+    """A folder to write in, or to move there what is to go; it and what is in it are gone after the context.
 
-    Whoever writes does so first: a process that is killed again and again in the middle fills no disk.
+    First it removes what interrupted writers have left in `root`: a process that is killed again and again in the
+    middle fills no disk. `exclusive`, which must not be held before, is only held while that is moved into the folder.
+
+    Raises:
+        StorageFailed: See `writing`.
     """
-    for pattern in (_NEW + "*", _OLD + "*"):
-        for orphan in folder.glob(pattern):
-            _discard(orphan)
+    folder = root / f"{_NEW}{uuid.uuid4().hex}"
+    with ExitStack() as stack:
+        with exclusive(root):
+            folder.mkdir()
+            stack.callback(discard, folder)
+            # Locked as long as it is in use: see `_is_in_use`.
+            lock = stack.enter_context((folder / _LOCK).open("w"))
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            orphans = [orphan.rename(folder / orphan.name) for orphan in _orphans(root)]
+        for orphan in orphans:
+            discard(orphan)
+        yield folder
+
+
+def sweep(folder: Path) -> None:
+    """Remove what interrupted writers have left in a folder; to be called while holding `exclusive`."""
+    for orphan in _orphans(folder):
+        discard(orphan)
 
 
 def create_folder(root: Path, name: str, files: Mapping[str, Content]) -> None:
-    """Make `root/name` with these files (their content by relative path), all at once."""
-    with _staging(root) as staging:
-        _write_tree(staging, files)
-        staging.rename(root / name)
-        _sync(root)
+    """Make `root/name` with these files (their content by relative path), all at once, while holding `exclusive`."""
+    with _beside(root) as new:
+        write_tree(new, files)
+        move(new, root / name)
 
 
 def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = True) -> None:
@@ -139,29 +158,32 @@ def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = Tru
         content: What it is to hold.
         is_durable: Whether it is on disk when this returns; else that is left to the system.
     """
-    with _staging(folder) as staging:
-        _write_tree(staging, {name: content}, is_durable)
-        (staging / name).replace(folder / name)
+    with _beside(folder) as new:
+        write_tree(new, {name: content}, is_durable)
+        (new / name).replace(folder / name)
         if is_durable:
             _sync(folder)
 
 
 def remove_folder(root: Path, name: str) -> None:
     """Remove `root/name`, all at once."""
+    discard(set_aside(root, name))
+
+
+def set_aside(root: Path, name: str) -> Path:
+    """Make `root/name` invisible at once, which a full disk allows too; the path is there to be discarded."""
     old = root / f"{_OLD}{uuid.uuid4().hex}"
-    (root / name).rename(old)
-    _sync(root)
-    _discard(old)
+    move(root / name, old)
+    return old
 
 
-def remove_others(folder: Path, keep: set[str]) -> None:
-    """Remove what stands in a folder beside the names to keep."""
-    for path in folder.iterdir():
-        if path.name not in keep:
-            _discard(path)
+def move(source: Path, target: Path) -> None:
+    """Give a folder another name below the same root, on disk when this returns."""
+    source.rename(target)
+    _sync(target.parent)
 
 
-def _discard(path: Path) -> None:
+def discard(path: Path) -> None:
     """Remove a file, a link or a whole folder that nobody needs any more; what resists is left to the next sweep."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
@@ -170,32 +192,49 @@ def _discard(path: Path) -> None:
             path.unlink()
 
 
+def write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = True) -> None:
+    """Write files below a new folder, and where wanted sync them and the folders: when all are written, it is quicker.
+
+    Raises:
+        StorageFailed: See `writing`.
+    """
+    paths = [folder / name for name in files]
+    parents = sorted({folder, *(path.parent for path in paths)})
+    with writing():
+        for parent in parents:
+            parent.mkdir(parents=True, exist_ok=True)
+        for path, content in zip(paths, files.values(), strict=True):
+            with path.open("wb") as target:
+                target.writelines(pieces(content))
+        for path in (*paths, *parents) if is_durable else ():
+            _sync(path)
+
+
 @contextmanager
-def _staging(parent: Path) -> Iterator[Path]:
-    """A folder to write in that is gone afterwards, unless it was renamed."""
-    staging = parent / f"{_NEW}{uuid.uuid4().hex}"
+def _beside(parent: Path) -> Iterator[Path]:
+    """A name of a folder to write in that is gone afterwards, unless it was renamed."""
+    new = parent / f"{_NEW}{uuid.uuid4().hex}"
     try:
-        yield staging
+        yield new
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
+        discard(new)
 
 
-def _write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = True) -> None:
-    """Write files below a new folder; where wanted sync each of them, and every folder on the way."""
-    folder.mkdir()
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("wb") as target:
-            for piece in pieces(content):
-                target.write(piece)
-            if is_durable:
-                target.flush()
-                os.fsync(target.fileno())
-    if not is_durable:
-        return
-    for parent in (folder, *(path for path in folder.rglob("*") if path.is_dir())):
-        _sync(parent)
+def _orphans(folder: Path) -> list[Path]:
+    """What interrupted writers have left in a folder."""
+    return [*folder.glob(_OLD + "*"), *(new for new in folder.glob(_NEW + "*") if not _is_in_use(new))]
+
+
+def _is_in_use(new: Path) -> bool:
+    """Whether a process holds the lock in a folder of `staging`."""
+    try:
+        with (new / _LOCK).open() as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False
+    return False
 
 
 def _make(folder: Path) -> None:
@@ -206,9 +245,9 @@ def _make(folder: Path) -> None:
         _sync(folder.parent)
 
 
-def _sync(folder: Path) -> None:
-    """Make the names in a folder durable."""
-    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+def _sync(path: Path) -> None:
+    """Make the bytes of a file, or the names in a folder, durable."""
+    descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
     finally:

@@ -8,11 +8,13 @@ bound of memory.
 import difflib
 import hashlib
 import logging
+import os
 import re
 import threading
 import uuid
 from collections import OrderedDict
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -32,6 +34,7 @@ from app.schemas.common import ChainEnds
 from app.schemas.robots import RobotFile
 from app.store import folders
 from app.store.folders import Content
+from app.store.meshes import MeshFiles, flat
 from app.store.records import ROBOT_FILE, LoadedRobot, Record, describe, load, mesh_file, read_record
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -89,15 +92,18 @@ class Library:
         self._lock = threading.Lock()
 
     def prepare(self) -> None:
-        """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is."""
+        """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is.
+
+        That may be much: others write meanwhile.
+        """
         if not self.uploads.is_dir():
             return
         try:
-            with folders.exclusive(self.uploads):
-                folders.sweep(self.uploads)
-                for folder in self._folders():
-                    folders.sweep(folder)
-                    self._remove_stale_versions(folder)
+            with folders.staging(self.uploads) as aside:
+                for folder in filter(_may_be_swept, self._folders()):
+                    with folders.exclusive(self.uploads), suppress(FileNotFoundError):
+                        folders.sweep(folder)
+                        self._move_stale_versions(folder, aside)
         except StorageFailed as error:
             logger.warning("uploaded robots cannot be written: %s", error.reason)
 
@@ -182,16 +188,18 @@ class Library:
             if upload.model == self._catalogue[upload.name].model_path.read_bytes() and not upload.meshes:
                 return False
             raise RobotExists(upload.name)
-        file, version = _robot_file(upload)
-        with folders.exclusive(self.uploads):
-            folders.sweep(self.uploads)
-            folder = self.uploads / upload.name
-            if folder.exists():
-                if not _holds(folder, file):
-                    raise RobotExists(upload.name)
-                return False
-            contents = {f"{version}/{path}": content for path, content in _contents(upload).items()}
-            folders.create_folder(self.uploads, upload.name, {ROBOT_FILE: _as_bytes(file), **contents})
+        file, version, contents = _files(upload)
+        folder = self.uploads / upload.name
+        if _stands(folder, file):
+            return False
+        with folders.staging(self.uploads) as staging:
+            new = staging / upload.name
+            folders.write_tree(new / version, contents)
+            folders.write_tree(new, {ROBOT_FILE: _as_bytes(file)})
+            with folders.exclusive(self.uploads):
+                if _stands(folder, file):
+                    return False
+                folders.move(new, folder)
         return True
 
     def replace(self, upload: RobotUpload) -> None:
@@ -204,16 +212,20 @@ class Library:
             StorageFailed: It cannot be written.
         """
         folder = self._writable(upload.name)
-        file, version = _robot_file(upload)
-        with folders.exclusive(self.uploads):
-            self._writable(upload.name)
-            folders.sweep(folder)
-            folders.create_folder(folder, version, _contents(upload))
-            try:
-                folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
-            finally:
-                self._remove_stale_versions(folder)
-            folders.remove_others(folder, {ROBOT_FILE, version})
+        file, version, contents = _files(upload)
+        with folders.staging(self.uploads) as staging:
+            folders.write_tree(staging / version, contents)
+            with folders.exclusive(self.uploads):
+                self._writable(upload.name)
+                folders.sweep(folder)
+                folders.move(staging / version, folder / version)
+                try:
+                    folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+                finally:
+                    self._move_stale_versions(folder, staging)
+                for path in folder.iterdir():
+                    if path.name not in {ROBOT_FILE, version}:
+                        path.rename(staging / uuid.uuid4().hex)
 
     def remove(self, name: str) -> None:
         """Remove an uploaded robot.
@@ -226,8 +238,8 @@ class Library:
         self._writable(name)
         with folders.exclusive(self.uploads):
             self._writable(name)
-            folders.sweep(self.uploads)
-            folders.remove_folder(self.uploads, name)
+            gone = folders.set_aside(self.uploads, name)
+        folders.discard(gone)
         with self._lock:
             self._loaded.pop(name, None)
 
@@ -238,16 +250,16 @@ class Library:
         names = (path for path in self.uploads.iterdir() if _NAME.fullmatch(path.name))
         return sorted(path for path in names if path.name not in self._catalogue and path.is_dir())
 
-    def _remove_stale_versions(self, folder: Path) -> None:
-        """Remove versions that a killed replacement wrote, or did not come to remove."""
+    def _move_stale_versions(self, folder: Path, aside: Path) -> None:
+        """Move versions away that a killed replacement wrote, or did not come to remove."""
         try:
             record = read_record(folder, "uploaded")
         except (KinematicsError, OSError):
             return
         if record is not None:
-            names = {path.name for path in folder.iterdir()}
-            stale = {name for name in names if _VERSION.fullmatch(name)} - {record.model_path.parent.name}
-            folders.remove_others(folder, names - stale)
+            for path in folder.iterdir():
+                if _VERSION.fullmatch(path.name) and path != record.model_path.parent:
+                    path.rename(aside / uuid.uuid4().hex)
 
     def _writable(self, name: str) -> Path:
         """The folder of an uploaded robot; asked before the lock, which makes the root, and again while holding it."""
@@ -278,37 +290,44 @@ class Library:
                 self._loaded.popitem(last=False)
 
 
+def _may_be_swept(folder: Path) -> bool:
+    """Whether there is more in a robot's folder than one version and what a person has put there."""
+    with suppress(OSError):
+        names = os.listdir(folder)  # noqa: PTH208 - of each robot at each start
+        return any(name.startswith(".") for name in names) or sum(map(bool, map(_VERSION.fullmatch, names))) > 1
+    return False
+
+
 def _weight(loaded: LoadedRobot) -> int:
     """Estimated bytes in memory: chains, and about 37 MB of Pinocchio's work space at 100 joints."""
     return 2_000_000 + 37 * int(loaded.robot.model.nv) ** 3
 
 
-def _robot_file(upload: RobotUpload) -> tuple[RobotFile, str]:
+def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
     """The `robot.json` of an upload, after the robot has been built once, and the folder of its other files.
 
-    Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names.
+    Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names. Of
+    the meshes those are kept that the description uses, without the folders around them.
     """
     description, _, _ = describe(upload.name, upload.format, upload.model, upload.strict)
     ends = upload.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
     base_frame, tip_frame = robot.default_chain
     version = f"files-{uuid.uuid4().hex[:12]}"
+    used = MeshFiles(upload.meshes, upload.urdf_folder).used(description.meshes)
+    contents: dict[str, Content] = {_MODEL_NAMES[upload.format]: upload.model}
+    contents |= {f"meshes/{flat(path)}": upload.meshes[path] for path in sorted(used)}
     file = RobotFile(
         description=upload.description,
         format=upload.format,
         model=f"{version}/{_MODEL_NAMES[upload.format]}",
-        meshes=f"{version}/meshes" if upload.meshes else None,
+        meshes=f"{version}/meshes" if used else None,
         urdf_folder=upload.urdf_folder,
         digest=_digest(upload),
+        left_out=len(upload.meshes) - len(used),
         default_chain=ChainEnds(base_frame=base_frame, tip_frame=tip_frame),
     )
-    return file, version
-
-
-def _contents(upload: RobotUpload) -> dict[str, Content]:
-    """The files of a version's folder."""
-    meshes = {f"meshes/{path}": content for path, content in upload.meshes.items()}
-    return {_MODEL_NAMES[upload.format]: upload.model, **meshes}
+    return file, version, contents
 
 
 def _as_bytes(file: RobotFile) -> bytes:
@@ -327,13 +346,23 @@ def _digest(upload: RobotUpload) -> str:
     return digest.hexdigest()
 
 
+def _stands(folder: Path, wanted: RobotFile) -> bool:
+    """Whether the very robot is there already: the names of files apart, their digest included.
+
+    Raises:
+        RobotExists: Another one is.
+    """
+    if folder.exists() and not _holds(folder, wanted):
+        raise RobotExists(folder.name)
+    return folder.exists()
+
+
 def _holds(folder: Path, wanted: RobotFile) -> bool:
-    """Whether a folder holds the very robot: the names of files apart, their digest included."""
     try:
         record = read_record(folder, "uploaded")
     except (KinematicsError, OSError):
         return False
-    apart = {"model", "meshes"}
+    apart = {"model", "meshes", "left_out"}
     return (
         record is not None
         and record.file.digest is not None

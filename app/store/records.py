@@ -8,6 +8,7 @@ import importlib.metadata
 import os
 import stat
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path, PurePosixPath
 from typing import Literal, TypeAlias
 
@@ -16,21 +17,19 @@ from pydantic import ValidationError
 from app.model.convert import describe_dh
 from app.model.description import Description
 from app.model.dh import DhTable
-from app.model.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, quoted
+from app.model.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, counted, quoted
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
 from app.model.xml import MAX_BYTES
 from app.schemas.dh import DhTablePayload
 from app.schemas.robots import RobotFile
-from app.store.archive import MESH_SUFFIXES
+from app.store.meshes import KEPT_SUFFIXES, MeshFiles, ends, flat, mesh_warnings
 
 Source: TypeAlias = Literal["catalogue", "uploaded"]
 Stamp: TypeAlias = tuple[int, int, int]
 Signature: TypeAlias = tuple[Stamp | None, Stamp | None]
 
 ROBOT_FILE = "robot.json"
-_MOST_FOLDERS = 100
-"""Parts of a mesh's path that are looked for: more do not fit into an archive's path of 200 bytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,20 +68,26 @@ class LoadedRobot:
         robot: Ready for computation.
         urdf: The description as text: as uploaded, or as written from the DH table.
         table: The DH table, where the robot is one.
-        meshes: The mesh file of each mesh that the description names, where there is one, below `mesh_root`.
+        found: Of each mesh that the description names the files below `mesh_root` that it may mean.
     """
 
     record: Record
     robot: Robot
     urdf: str
     table: DhTable | None
-    meshes: dict[str, str | None]
+    found: dict[str, list[str]]
+
+    @property
+    def meshes(self) -> dict[str, str | None]:
+        """The mesh file of each mesh that the description names, below `mesh_root`; None where it is not clear."""
+        return {mesh: paths[0] if len(paths) == 1 else None for mesh, paths in self.found.items()}
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What is odd about the description, and which meshes are missing."""
-        missing = [mesh for mesh, path in self.meshes.items() if path is None]
-        return self.robot.description.warnings + tuple(f"mesh {quoted(mesh)} is missing" for mesh in missing)
+        """What is odd about the description, which meshes are missing, and what was not kept of an archive."""
+        left_out = self.record.file.left_out
+        unused = f"{counted(left_out, 'file')} of the archive, meshes or pictures that nothing names, were not kept"
+        return (*self.robot.description.warnings, *mesh_warnings(self.found), *([unused] if left_out else ()))
 
 
 def read_record(folder: Path, source: Source) -> Record | None:
@@ -139,8 +144,7 @@ def load(record: Record) -> LoadedRobot:
     description, urdf, table = describe(record.name, record.file.format, record.model_path.read_bytes())
     ends = record.file.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
-    meshes = {mesh: _mesh_path(record, mesh) for mesh in description.meshes}
-    return LoadedRobot(record, robot, urdf, table, meshes)
+    return LoadedRobot(record, robot, urdf, table, _found_meshes(record, description.meshes))
 
 
 def describe(name: str, format_: str, content: bytes, strict: bool = False) -> tuple[Description, str, DhTable | None]:
@@ -173,8 +177,10 @@ def describe(name: str, format_: str, content: bytes, strict: bool = False) -> t
 def mesh_file(loaded: LoadedRobot, path: str) -> Path | None:
     """The file of the robot at a path below its meshes: that of the list, or `name/folder/file` of a `package://`."""
     root = loaded.record.mesh_root
-    found = _mesh_path(loaded.record, f"package://{path}")
-    return _file_below(root, found) if root and found else None
+    if root is None:
+        return None
+    candidates = [*loaded.found.get(f"package://{path}", ()), *ends(path)]
+    return next(filter(None, (_file_below(root, candidate) for candidate in candidates)), None)
 
 
 def package_data() -> Path:
@@ -215,31 +221,35 @@ def _without_robot_file(folder: Path) -> RobotFile | None:
     return RobotFile(format="dh" if models[0].suffix == ".json" else "urdf", model=models[0].name, meshes=".")
 
 
-def _mesh_path(record: Record, reference: str) -> str | None:
-    """Where below the mesh root the file of a reference is.
+def _found_meshes(record: Record, references: tuple[str, ...]) -> dict[str, list[str]]:
+    """The files below the mesh root that each of the meshes may mean."""
+    root, urdf_folder = record.mesh_root, record.file.urdf_folder
+    if root is None:
+        return {reference: [] for reference in references}
+    if record.source == "uploaded":
+        files = MeshFiles(_files_below(root), urdf_folder)
+        return {mesh: [path for path in files.find(mesh) if _file_below(root, path)] for mesh in references}
+    # A package holds the meshes of many robots, all where their names say: only these are looked for.
+    found = {}
+    for mesh in references:
+        _, is_address, name = mesh.partition("://")
+        candidates = ends(name) if is_address else [os.path.normpath(PurePosixPath(urdf_folder) / mesh)]
+        found[mesh] = list(islice((path for path in candidates if _file_below(root, path)), 1))
+    return found
 
-    Nobody knows from which folder on a package was packed: of a `package://name/folder/file` the longest end that is
-    there counts. A relative path starts at the URDF's folder.
-    """
-    if record.mesh_root is None:
-        return None
-    scheme, separator, path = reference.partition("://")
-    if separator:
-        parts = path.split("/")[-_MOST_FOLDERS:] if scheme in {"package", "model"} else []
-        candidates = ["/".join(parts[start:]) for start in range(len(parts))]
-    else:
-        candidates = [os.path.normpath(PurePosixPath(record.file.urdf_folder) / reference)]
-    return next((path for path in candidates if _file_below(record.mesh_root, path)), None)
+
+def _files_below(root: Path) -> list[str]:
+    """The paths of all meshes, materials and pictures below a folder, as an archive has them."""
+    found = (os.path.relpath(os.path.join(folder, name), root) for folder, _, names in os.walk(root) for name in names)  # noqa: PTH118
+    return [path.replace(":", "/") for path in found if PurePosixPath(path).suffix.lower() in KEPT_SUFFIXES]
 
 
 def _file_below(root: Path, path: str) -> Path | None:
     """The mesh, material or picture at a path that stays below a folder, if there is one."""
-    if PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES:
+    if PurePosixPath(path).suffix.lower() not in KEPT_SUFFIXES:
         return None
     try:
-        if not (root / path).is_file():
-            return None
-        file = (root / path).resolve()
-        return file if file.is_relative_to(root.resolve()) else None
+        file = next((file for file in (root / path, root / flat(path)) if file.is_file()), root).resolve()
+        return file if file.is_relative_to(root.resolve()) and file.is_file() else None
     except (OSError, ValueError):  # a name that no file system takes
         return None

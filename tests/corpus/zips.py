@@ -176,6 +176,11 @@ def many(count: int) -> bytes:
     return zipped({"a.urdf": URDF, **{f"{i}.stl": b"" for i in range(count)}})
 
 
+def many_folders() -> bytes:
+    """A megabyte of empty files, each at the end of 95 folders of its own."""
+    return zipped({"a.urdf": URDF, **{f"{number}/" + "m/" * 94 + "b.stl": b"" for number in range(1999)}})
+
+
 def long_directory() -> bytes:
     """A list of entries that is longer than that of any robot: each entry has a comment of 60,000 bytes."""
     buffer = BytesIO()
@@ -280,6 +285,7 @@ BAD_PATHS = (
             ("of 300 characters", "x" * 300 + ".stl", "characters"),
             ("of 304 bytes", "ä" * 150 + ".stl", "bytes"),
             ("of many folders", "m/" * 110 + "b.stl", "characters"),
+            ("of 17 folders", "m/" * 17 + "b.stl", "17 folders"),
             ("with a newline", "b\n.stl", "printable"),
             ("with an escape sequence", "\x1b[31mb.stl", "printable"),
             ("with a mark that turns text round", "b\u202elts.exe.stl", "printable"),
@@ -326,6 +332,7 @@ BOMBS = (
     RefusedZip("300 MB that say that they are one byte", lying_bomb, "unpacked"),
     RefusedZip("a description of 3 MB", partial(without_urdf_of_size, 3_000_000), "2097152", 413),
     RefusedZip("2,001 meshes", partial(many, 2001), "2000", 413),
+    RefusedZip("1,999 meshes below 95 folders each", many_folders, "95 folders"),
     RefusedZip("2,501 entries that say they are two", partial(counting_wrong, 2), "2000", 413),
     RefusedZip("a list of entries of a megabyte", long_directory, "list of entries", 413),
     RefusedZip("an entry on another", overlapping, "overlap"),
@@ -342,6 +349,7 @@ ODD_ZIPS: tuple[OddZip, ...] = (
     OddZip("with folders", partial(zipped, {"arm/": "", "arm/a.urdf": URDF, "arm/m/": "", "arm/m/b.stl": "x"})),
     OddZip("with other files", partial(good, notes__txt="x", setup__py="import os", bomb__zip=b"PK")),
     OddZip("stored", partial(zipped, {"a.urdf": URDF}, zipfile.ZIP_STORED)),
+    OddZip("with a file 16 folders deep", partial(with_file, "m/" * 16 + "b.stl")),
     OddZip("with names outside ASCII", partial(zipped, {"å.urdf": URDF, "ß/ö.stl": "x"})),
     OddZip("on another disk", partial(changed, 34, "<H", 7)),
     OddZip("with sizes of 64 bits that nobody needs", partial(extra_field, 1, b"\xff" * 8, 8)),

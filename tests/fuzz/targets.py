@@ -22,8 +22,9 @@ from app.model.errors import KinematicsError
 from app.model.robot import Robot
 from app.model.urdf import read_urdf, write_urdf
 from app.schemas.robots import NewRobot
-from app.store.archive import MESH_SUFFIXES, UnpackedRobot, unpacked
+from app.store.archive import UnpackedRobot, unpacked
 from app.store.folders import pieces
+from app.store.meshes import KEPT_SUFFIXES
 from app.store.records import describe
 from tests.fuzz import seeds
 from tests.fuzz.mutation import ArchiveMutator, Mutator
@@ -132,7 +133,7 @@ def read_archive(data: bytes) -> bool:
     with unpacked(BytesIO(data), _MOST_UNPACKED) as robot, zipfile.ZipFile(packed, "w") as archive:
         files = _contents(robot)
         for path, content in files.items():
-            if {"", ".", ".."} & set(path.split("/")) or PurePosixPath(path).suffix.lower() not in MESH_SUFFIXES:
+            if {"", ".", ".."} & set(path.split("/")) or PurePosixPath(path).suffix.lower() not in KEPT_SUFFIXES:
                 raise Unsound(f"the path {path!r}")
             archive.writestr(path, content)
         archive.writestr("robot.urdf", robot.urdf)

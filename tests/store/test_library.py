@@ -276,11 +276,11 @@ def test_who_writes_sweeps_first(library: Library, tmp_path: Path) -> None:
 
     leave_orphans()
     library.replace(RobotUpload("arm", "urdf", one_joint(2)))
-    assert orphans() == {".new-1", ".old-1"}
-    library.add(RobotUpload("other", "urdf", one_joint(1)))
     assert orphans() == set()
     leave_orphans()
-    library.remove("arm")
+    library.add(RobotUpload("other", "urdf", one_joint(1)))
+    assert orphans() == {"arm/.new-1"}
+    library.prepare()
     assert orphans() == set()
 
 
