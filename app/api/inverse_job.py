@@ -22,6 +22,7 @@ from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses
 from app.schemas.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, InverseRequest
+from app.store.folders import read_plain
 from app.store.records import LoadedRobot
 
 KIND = "ik"
@@ -70,7 +71,7 @@ def _npy(array: Array) -> bytes:
 
 def _work(folder: Path) -> Work:
     """What does the job, by the folder of its request."""
-    text, content = robot_text(folder), (folder / _CALL).read_bytes()
+    text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
     # Read from disk as they are needed: a million targets are a hundred megabytes.
     targets, seeds = (np.load(folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))

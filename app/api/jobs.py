@@ -24,6 +24,7 @@ from app.schemas.ik import InverseAnswer
 from app.schemas.jobs import Finished, JobInfo
 from app.schemas.trajectory_answer import TrajectoryAnswer
 from app.schemas.workspace import WorkspaceAnswer
+from app.store.folders import open_plain
 
 EVENT_STREAM = "text/event-stream"
 LOOK_SECONDS = 0.2
@@ -202,7 +203,7 @@ def _file_response(runner: Runner, job_id: str, media_type: str) -> Response:
     """A file that a job has left behind, piece by piece: once open, it is there to its end."""
     path = runner.result(job_id, RESULTS[media_type])
     try:
-        stream = path.open("rb")
+        stream = open_plain(path)
     except FileNotFoundError:
         runner.shelf.get(job_id)
         raise InvalidArray(NO_ARRAY) from None

@@ -5,7 +5,7 @@ import os
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path as FilePath
-from typing import Annotated, Any, BinaryIO
+from typing import IO, Annotated, Any
 
 from fastapi import APIRouter, Path, Request, Response
 from starlette.background import BackgroundTask
@@ -40,7 +40,7 @@ from app.schemas.robots import (
     RobotSummary,
 )
 from app.store.archive import unpacked
-from app.store.folders import writing
+from app.store.folders import open_plain, writing
 from app.store.library import Library, RobotUpload
 from app.store.records import LoadedRobot, Record
 
@@ -125,10 +125,10 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
         """The file as it came; nothing on the server has ever looked into it."""
         await remote.resident(request, robot)
 
-        def opened() -> tuple[FilePath, BinaryIO]:
+        def opened() -> tuple[FilePath, IO[bytes]]:
             file = library.mesh(robot, path)
             try:
-                return file, file.open("rb")  # once open, it is there to its end, whoever replaces the robot meanwhile
+                return file, open_plain(file)  # once open, it is there to its end, whoever replaces the robot meanwhile
             except FileNotFoundError:
                 raise UnknownMesh(path) from None
 

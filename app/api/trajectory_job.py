@@ -18,6 +18,7 @@ from app.jobs.robot_files import RobotText, robot_of, robot_text
 from app.jobs.run import Files, Run
 from app.jobs.runner import Work
 from app.schemas.trajectory import TrajectoryRequest
+from app.store.folders import read_plain
 from app.store.records import LoadedRobot
 
 KIND = "trajectory"
@@ -45,7 +46,7 @@ def trajectory_work(max_answer_numbers: int) -> LongWork[TrajectoryRequest]:
         return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
 
     def work(folder: Path) -> Work:
-        return _work((robot_text(folder), (folder / _CALL).read_bytes(), max_answer_numbers))
+        return _work((robot_text(folder), read_plain(folder / _CALL), max_answer_numbers))
 
     return LongWork(KIND, request, work, f"{MAX_JOB_SAMPLES:,} samples")
 

@@ -26,6 +26,7 @@ from app.model.errors import InvalidField, TooLarge
 from app.model.robot import Robot
 from app.schemas.jobs import JobInfo
 from app.schemas.workspace import SlicePlane, WorkspaceRequest
+from app.store.folders import read_plain
 from app.store.records import LoadedRobot
 
 _CALL = "call.json"
@@ -122,7 +123,7 @@ def workspace_work(folder: Path) -> Work:
     """What does the job of a request, by the folder that it is kept in."""
     text = robot_text(folder)
     robot = robot_of(text)
-    call = read_json(WorkspaceRequest, (folder / _CALL).read_bytes())
+    call = read_json(WorkspaceRequest, read_plain(folder / _CALL))
     return work_of(_question(text.name, robot, robot.chain(call.base_frame, call.tip_frame), call))
 
 

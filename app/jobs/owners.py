@@ -5,6 +5,8 @@ import uuid
 from pathlib import Path
 from typing import IO
 
+from app.store.folders import open_plain
+
 
 class Owners:
     """This process of the service among all of them, on any machine that sees the folder.
@@ -22,7 +24,7 @@ class Owners:
         """Hold a lock from now on; to be called before anything is this process's."""
         if self._lock is None:
             self._folder.mkdir(exist_ok=True)
-            self._lock = (self._folder / self.own_name).open("w")
+            self._lock = open_plain(self._folder / self.own_name, "w")
             fcntl.flock(self._lock, fcntl.LOCK_EX)
 
     def lives(self, name: str) -> bool:
@@ -30,7 +32,7 @@ class Owners:
         if name == self.own_name:
             return self._lock is not None
         try:
-            with (self._folder / name).open() as lock:
+            with open_plain(self._folder / name) as lock:
                 fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except BlockingIOError:
             return True

@@ -34,7 +34,7 @@ class Parts:
     def read(self, name: str) -> bytes | None:
         """A part; None where it is not there as a whole."""
         try:
-            content = (self._folder / f"{_PREFIX}{name}").read_bytes()
+            content = folders.read_plain(self._folder / f"{_PREFIX}{name}")
         except FileNotFoundError:
             return None
         digest, content = content[:_DIGEST], content[_DIGEST:]

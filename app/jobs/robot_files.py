@@ -8,6 +8,7 @@ import orjson
 
 from app.model.robot import Robot
 from app.model.urdf import read_urdf
+from app.store.folders import read_plain
 
 _URDF, _ABOUT = "robot.urdf", "robot.json"
 _ENCODING = "utf-8", "surrogatepass"
@@ -44,8 +45,8 @@ def robot_text(folder: Path) -> RobotText:
     Raises:
         OSError: It cannot be read.
     """
-    name, base_frame, tip_frame = orjson.loads((folder / _ABOUT).read_bytes())
-    return RobotText(name, (folder / _URDF).read_bytes(), (base_frame, tip_frame))
+    name, base_frame, tip_frame = orjson.loads(read_plain(folder / _ABOUT))
+    return RobotText(name, read_plain(folder / _URDF), (base_frame, tip_frame))
 
 
 @lru_cache(maxsize=2)

@@ -277,7 +277,7 @@ class Shelf:
         if not _NAME.fullmatch(job_id):
             return None
         try:
-            return Job.from_bytes((self._root / job_id / JOB_FILE).read_bytes())
+            return Job.from_bytes(folders.read_plain(self._root / job_id / JOB_FILE))
         except (FileNotFoundError, NotADirectoryError, ValueError, TypeError):
             return None
 

@@ -9,13 +9,14 @@ import errno
 import fcntl
 import os
 import shutil
+import stat
 import uuid
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import IO, TypeAlias
+from typing import IO, Any, TypeAlias
 
 from app.model.errors import StorageFailed, StorageFull
 
@@ -55,6 +56,32 @@ def pieces(content: Content) -> Iterator[bytes]:
     while left and (piece := content.file.read(min(left, _PIECE))):
         left -= len(piece)
         yield piece
+
+
+def open_plain(path: Path, mode: str = "rb") -> IO[Any]:
+    """Open a file of the data folder, where a pipe in its place is not waited for.
+
+    Raises:
+        FileNotFoundError: There is none, or a pipe, a device, a socket or a folder instead.
+        OSError: It cannot be opened.
+    """
+    try:
+        file = open(path, mode, opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK, 0o666))  # noqa: SIM115
+    except OSError as error:
+        if error.errno in {errno.ENXIO, errno.EISDIR}:  # a socket, or a pipe that nobody reads; a folder
+            raise FileNotFoundError(errno.ENOENT, "it is no plain file", str(path)) from error
+        raise
+    if stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+        return file
+    file.close()
+    raise FileNotFoundError(errno.ENOENT, "it is no plain file", str(path))
+
+
+def read_plain(path: Path) -> bytes:
+    """The content of a file of the data folder; raises as `open_plain` does."""
+    with open_plain(path) as file:
+        content: bytes = file.read()
+    return content
 
 
 @contextmanager
@@ -107,7 +134,7 @@ def exclusive(root: Path) -> Iterator[None]:
     """
     with writing():
         _make(root)
-        with (root / _LOCK).open("w") as lock:
+        with open_plain(root / _LOCK, "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             yield
 
@@ -228,7 +255,7 @@ def _orphans(folder: Path) -> list[Path]:
 def _is_in_use(new: Path) -> bool:
     """Whether a process holds the lock in a folder of `staging`."""
     try:
-        with (new / _LOCK).open() as lock:
+        with open_plain(new / _LOCK) as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except BlockingIOError:
         return True

@@ -23,6 +23,7 @@ from app.model.urdf import read_urdf, write_urdf
 from app.model.xml import MAX_BYTES
 from app.schemas.dh import DhTablePayload
 from app.schemas.robots import RobotFile
+from app.store.folders import read_plain
 from app.store.meshes import KEPT_SUFFIXES, MeshFiles, ends, flat, mesh_warnings
 
 Source: TypeAlias = Literal["catalogue", "uploaded"]
@@ -141,7 +142,7 @@ def load(record: Record) -> LoadedRobot:
     size = record.model_path.stat().st_size
     if size > MAX_BYTES:
         raise TooLarge(f"bytes of {record.model_path.name}", size, MAX_BYTES)
-    description, urdf, table = describe(record.name, record.file.format, record.model_path.read_bytes())
+    description, urdf, table = describe(record.name, record.file.format, read_plain(record.model_path))
     ends = record.file.default_chain
     robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
     return LoadedRobot(record, robot, urdf, table, _found_meshes(record, description.meshes))
@@ -206,7 +207,7 @@ def _signature(file_path: Path, model_path: Path) -> Signature:
 
 def _robot_file(path: Path) -> RobotFile:
     try:
-        return RobotFile.model_validate_json(path.read_bytes())
+        return RobotFile.model_validate_json(read_plain(path))
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         where = ".".join(str(part) for part in first["loc"])

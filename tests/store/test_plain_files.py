@@ -1,0 +1,106 @@
+"""Whatever stands in the place of a file of the data folder, nothing waits for it, as it would for a pipe, forever."""
+
+import os
+import shutil
+import signal
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import pytest
+
+from app.jobs.robot_files import robot_text
+from app.jobs.shelf import Limits, Shelf
+from app.model.errors import KinematicsError
+from app.store.folders import read_plain
+from app.store.library import Library, RobotUpload
+from tests.store.test_archive import CATALOGUE, urdf
+
+MOST_SECONDS = 5
+"""For what takes a few milliseconds, on a busy machine too."""
+
+
+def _socket(path: Path) -> None:
+    short = Path("/proc/self/fd") / str(os.open(path.parent, os.O_RDONLY))
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(str(short / path.name))
+
+
+KINDS: dict[str, Callable[[Path], object]] = {
+    "pipe": os.mkfifo,
+    "folder": Path.mkdir,
+    "socket": _socket,
+    "dangling link": lambda path: path.symlink_to("nowhere"),
+    "link to a device": lambda path: path.symlink_to("/dev/tty"),
+}
+
+
+@contextmanager
+def at_most(seconds: int, what: str) -> Iterator[None]:
+    """Break off what waits for longer, in the main thread."""
+
+    def late(*_: object) -> None:
+        raise AssertionError(f"it waits for {what}")
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.alarm(seconds)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def used(data: Path) -> None:
+    """Everything that a service does with its data folder, at its start and for requests."""
+    library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits(unfinished=100))
+    steps: list[Callable[[], object]] = [
+        library.prepare,
+        library.records,
+        lambda: library.get("arm"),
+        lambda: read_plain(library.mesh("arm", "m/a.stl")),
+        lambda: library.add(RobotUpload("arm", "urdf", urdf())),
+        lambda: library.add(RobotUpload("new", "urdf", urdf())),
+        lambda: library.replace(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"})),
+        shelf.prepare,
+        shelf.states,
+        lambda: shelf.get("mine"),
+        lambda: robot_text(shelf.request("mine")),
+        lambda: shelf.parts("mine").read("1"),
+        lambda: shelf.add("ik", "digest", {}, "mine"),
+        lambda: shelf.add("ik", "digest", {}, "other"),
+        shelf.take_up,
+        shelf.tidy,
+        lambda: shelf.remove("mine"),
+        lambda: library.remove("arm"),
+    ]
+    for step in steps:
+        with suppress(KinematicsError, OSError, ValueError):
+            step()
+    shelf.close()
+
+
+@pytest.fixture(scope="module")
+def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    data = tmp_path_factory.mktemp("data")
+    library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits())
+    library.add(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"}))
+    job, _ = shelf.add("ik", "digest", {"robot.urdf": b"<robot/>", "robot.json": b'["arm", "a", "b"]'}, "mine")
+    shelf.parts("mine").write("1", b"part")
+    shelf.close()
+    (data / "jobs" / ".owners" / job.owner).touch()  # as a killed process leaves it
+    return data
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_waits_for_what_is_no_file(template: Path, tmp_path: Path, kind: str) -> None:
+    files = sorted(path.relative_to(template) for path in template.rglob("*") if path.is_file())
+    assert len(files) >= 9
+    for number, name in enumerate(files):
+        data = tmp_path / str(number)
+        shutil.copytree(template, data)
+        (data / name).unlink()
+        KINDS[kind](data / name)
+        with at_most(MOST_SECONDS, f"{kind} {name}"):
+            used(data)
