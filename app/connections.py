@@ -28,6 +28,8 @@ _SLOWEST_BYTES = 32 * 1024
 """A body that takes longer than its time must come at this rate, [bytes/s]."""
 _GRACE_SECONDS = 2.0
 """How long the rest of a body is waited for when the service shuts down."""
+_ARRIVAL_SECONDS = 0.5
+"""A connection that has just come has so long to send its request when the service shuts down."""
 _RETRY_SECONDS = 1.0
 """How long a request that is not even begun is told to wait."""
 _SHORTEST_PAUSE = 0.75
@@ -75,12 +77,14 @@ class Gate:
         connections: That are open.
         refused: Requests for which there was no room.
         closed: Connections that were closed because their client was slow, or because there were too many.
+        is_stopping: Whether each answer is the last one of its connection.
     """
 
     def __init__(self, bounds: Bounds) -> None:
         self.bounds = bounds
         self.connections: set[BoundedProtocol] = set()
         self.refused = self.closed = 0
+        self.is_stopping = False
         self._waiting: deque[Callable[[], None]] = deque()
         self._begun = 0
 
@@ -88,6 +92,12 @@ class Gate:
     def queue_length(self) -> int:
         """Requests that wait to be begun."""
         return len(self._waiting)
+
+    def stop(self) -> None:
+        """Say in each answer from now on that its connection ends: a client that is told so is not cut off."""
+        self.is_stopping = True
+        for connection in self.connections:
+            connection.end_with_answer()
 
     def enter(self, begin: Callable[[], None]) -> bool:
         """Begin a request now, or when those before it have been; False where too many wait."""
@@ -159,6 +169,8 @@ class BoundedProtocol(HttpToolsProtocol):
         super().connection_made(transport)
         if not self._gate.admit(self):
             self._refuse(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy", "there are too many connections")
+        elif self._gate.is_stopping:
+            self.loop.call_later(_ARRIVAL_SECONDS, self.shutdown)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End."""
@@ -227,6 +239,8 @@ class BoundedProtocol(HttpToolsProtocol):
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
         begin = partial(super()._start_asgi_task, cycle, app)
+        if self._gate.is_stopping:
+            self.end_with_answer()
         if cycle.scope["path"].endswith(AT_ONCE):
             begin()
         elif not self._gate.enter(begin):
@@ -260,13 +274,22 @@ class BoundedProtocol(HttpToolsProtocol):
         """What came is not HTTP."""
         self._refuse(HTTPStatus.BAD_REQUEST, "malformed-request", msg.rstrip("."))
 
+    def end_with_answer(self) -> None:
+        """Let the answer to the request that is being worked on be the last one; streams end."""
+        if self.cycle is not None and not self.cycle.response_complete:
+            self.cycle.keep_alive = False
+            self.cycle.scope["state"]["stopping"] = True
+
     def shutdown(self) -> None:
         """The service is to stop: what is in flight finishes, streams end, and a client has little time left."""
+        self.end_with_answer()
         if self.cycle is not None and not self.cycle.response_complete:
-            self.cycle.scope["state"]["stopping"] = True
             if self.cycle.more_body:
                 self._ends = self.loop.time() + _GRACE_SECONDS
-        super().shutdown()
+        elif self.loop.time() < self.since + _ARRIVAL_SECONDS:
+            self.loop.call_later(_ARRIVAL_SECONDS, super().shutdown)
+        else:
+            super().shutdown()
 
     def is_late(self, now: float) -> bool:
         """Whether the client has taken too long, at which the connection is closed."""

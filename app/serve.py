@@ -26,8 +26,8 @@ from app.logs import configuration
 from app.settings import InvalidSetting, Settings
 from app.supervisor import Supervisor
 
-SHUTDOWN_SECONDS = 6
-"""How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 8."""
+SHUTDOWN_SECONDS = 3
+"""How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 5."""
 
 _METRICS, _LOCK = "gelenk-metrics-", "lock"
 

@@ -8,17 +8,22 @@ import signal
 import socket
 import sys
 import time
+from collections.abc import Iterator
 from functools import partial
 from multiprocessing import reduction
 from multiprocessing.connection import Connection, wait
+from typing import Any, cast
 
 import uvicorn
 
+from app.connections import Gate
 from app.processes import copies
 from app.processes.copies import Copy
 
 LISTENERS = 8
 """Connections that are let in in one turn of an event loop, each in less than a tenth of a millisecond."""
+LEAVING_SECONDS = 0.5
+"""How long clients are still let in after SIGTERM, and told in each answer that their connection ends, [s]."""
 STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
 """How a worker ends that could not begin to serve."""
@@ -123,7 +128,8 @@ class Supervisor:
         seats = [*self._seats, self._early]
         for seat in seats:
             seat.stop()
-        until = time.monotonic() + (self._config.timeout_graceful_shutdown or 0) + _END_SECONDS
+        self._listener.close()  # when the last worker has closed its own, nobody is let in whom nobody will answer
+        until = time.monotonic() + LEAVING_SECONDS + (self._config.timeout_graceful_shutdown or 0) + _END_SECONDS
         for seat in seats:
             seat.leave(until)
 
@@ -254,6 +260,13 @@ def several(listener: socket.socket) -> list[socket.socket]:
     return [listener, *(listener.dup() for _ in range(LISTENERS - 1))]
 
 
+def waiting(listener: socket.socket) -> Iterator[socket.socket]:
+    """The connections that nobody has taken yet, of a listening socket that does not block."""
+    with contextlib.suppress(OSError):
+        while True:
+            yield listener.accept()[0]
+
+
 class _Server(uvicorn.Server):
     """A server that says that it goes on."""
 
@@ -266,6 +279,24 @@ class _Server(uvicorn.Server):
         await super().startup(sockets=sockets)
         if self.started:
             self._beat()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """End; a client that is just about to ask again over an open connection is answered before it is closed."""
+        gate: Gate = cast(partial[Any], self.config.http).keywords["gate"]
+        gate.stop()
+        until = time.monotonic() + LEAVING_SECONDS
+        while gate.connections and time.monotonic() < until:
+            await asyncio.sleep(0.05)
+        # Who stands in the queue when it is closed is cut off: it is emptied first, and there is no wait in between.
+        arrived = asyncio.gather(*map(self._let_in, waiting(sockets[0]) if sockets else ()))
+        await super().shutdown(sockets)
+        await arrived
+
+    async def _let_in(self, connection: socket.socket) -> None:
+        make: Any = self.config.http_protocol_class
+        protocol = partial(make, config=self.config, server_state=self.server_state, app_state=self.lifespan.state)
+        with contextlib.suppress(OSError):  # it has left already
+            await asyncio.get_running_loop().connect_accepted_socket(protocol, connection)
 
     def _beat(self) -> None:
         with contextlib.suppress(OSError):

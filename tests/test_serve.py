@@ -14,7 +14,9 @@ import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from http.client import HTTPConnection
 from pathlib import Path
+from threading import Semaphore
 from typing import IO, Any
 
 import pytest
@@ -121,6 +123,32 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         assert answer.startswith(b"HTTP/1.1 200")
         assert b'"position":[1.7' in answer
         run.wait(timeout=8)
+
+
+def test_whoever_asks_while_it_ends_is_told_so_and_not_cut_off(tmp_path: Path) -> None:
+    body = json.dumps({"joint_positions": [[0.0] * 7]})
+    begun = Semaphore(0)
+
+    def ask_on(url: str) -> tuple[int, str | None]:
+        """What the last answer says over a connection that is used until its end."""
+        connection = HTTPConnection(url.removeprefix("http://"), timeout=60)
+        connection.connect()
+        begun.release()
+        while True:
+            connection.request("POST", "/v1/robots/panda/fk", body, {"Content-Type": "application/json"})
+            answer = connection.getresponse()
+            answer.read()
+            if connection.sock is None:
+                return answer.status, answer.getheader("connection")
+
+    with service(tmp_path, "--workers", "2") as (run, url), ThreadPoolExecutor(24) as pool:
+        asking = [pool.submit(ask_on, url) for _ in range(24)]
+        for _ in asking:
+            begun.acquire()
+        time.sleep(0.5)
+        run.terminate()
+        assert {one.result() for one in asking} <= {(200, "close"), (503, "close")}
+        assert run.wait(timeout=20) == 0
 
 
 def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
