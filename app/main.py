@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import sys
 import threading
 from collections.abc import AsyncIterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -55,6 +56,9 @@ Metres, radians, seconds. Twists and Jacobian rows are linear before angular. A 
 quaternion's name says its order. A call addresses a chain, `base_frame` → `tip_frame`; a configuration lists the
 chain's joints from base to tip. Errors are `application/problem+json`.
 """
+
+_SWITCH_SECONDS = 5e-4
+"""How long a thread that computes may keep the event loop waiting, at most, for its turn in Python."""
 
 
 def create_app(settings: Settings, crew: Crew | None = None) -> Application:
@@ -179,6 +183,7 @@ async def _start(readiness: Readiness, crew: Crew) -> None:
 
 def from_environment() -> FastAPI:
     """The application as the environment sets it; what each worker process starts from."""
+    sys.setswitchinterval(_SWITCH_SECONDS)
     settings = Settings.from_environment(os.environ)
     if settings.otlp_endpoint:
         os.environ.update(exporter_variables(settings.otlp_endpoint, os.environ))

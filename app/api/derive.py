@@ -10,8 +10,9 @@ from app.api.dh import dh_route
 from app.api.elsewhere import Elsewhere
 from app.api.lagrangian import formula_content, matrix_content, motion_content
 from app.api.payloads import JSON, BoundedRequest, json_response, read_json
+from app.api.places import Places
 from app.api.problems import UnsupportedMediaType
-from app.api.remote import client_of, while_wanted
+from app.api.remote import PARSED_HERE_BYTES, client_of, while_wanted
 from app.api.routes import DocumentedRoute, in_thread
 from app.crew.crew import Crew
 from app.kinematics.derive.jacobian import ROW_NAMES
@@ -24,10 +25,13 @@ from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequ
 
 SECONDS = 8.0
 """Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""
+_AT_ONCE = 2
+"""Requests that are worked on in threads of this process at a time, while the crew writes their formulas."""
 
 
 def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
     """POST /v1/dh/derive."""
+    places = Places(_AT_ONCE)
 
     def derive_table(call: DeriveRequest) -> DeriveAnswer:
         """Writes the worked solution of a table as a lecturer does, in symbols and in numbers.
@@ -55,14 +59,19 @@ def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> Documen
             raise InvalidField("query", "this call has its parameters as fields of the body")
         body = await request.body()
 
-        elsewhere = Elsewhere(crew, client_of(request))
+        client = client_of(request)
+        elsewhere = Elsewhere(crew, client)
 
         def work() -> Response:
             call = read_json(DeriveRequest, body)
             return json_response(_answer(call, _solved(call, elsewhere, deadline)))
 
+        async def worked() -> Response:
+            async with places.taken(client):
+                return await in_thread(executor, work)
+
         try:
-            return await while_wanted(request.receive, in_thread(executor, work))
+            return await while_wanted(request.receive, worked())
         finally:
             elsewhere.end()
 
@@ -70,7 +79,7 @@ def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> Documen
         "/v1/dh/derive",
         derive_table,
         handle,
-        max_body_bytes,
+        min(max_body_bytes, PARSED_HERE_BYTES),
         operation_id="derive_dh",
         summary="Table → worked solution",
         example=EXAMPLE_ANTHROPOMORPHIC,

@@ -24,6 +24,9 @@ INLINE_BYTES = 4096
 So it compiles nothing either: as long as the crew is starting, that is all asked of it.
 """
 
+PARSED_HERE_BYTES = 512 * 1024
+"""Most of a body that a thread of this process parses: the event loop stands still meanwhile."""
+
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
 _Result = TypeVar("_Result")

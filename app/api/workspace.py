@@ -13,7 +13,7 @@ from app.api.job_info import job_response
 from app.api.openapi import RobotPath, json_example, problem_responses
 from app.api.payloads import JSON, BoundedRequest, read_json
 from app.api.problems import UnsupportedMediaType
-from app.api.remote import Remote, client_of
+from app.api.remote import PARSED_HERE_BYTES, Remote, client_of
 from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
 from app.jobs.robot_files import robot_files, robot_of, robot_text
@@ -80,7 +80,7 @@ def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_bo
         "/v1/robots/{robot}/workspace",
         workspace,
         handle,
-        max_body_bytes,
+        min(max_body_bytes, PARSED_HERE_BYTES),
         methods=["POST"],
         operation_id="workspace",
         summary="Workspace",

@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import MISSING, fields
 
+from app.api import remote
 from app.api.access import keyring
 from app.model import dh, tree, urdf, xml
 from app.schemas import ik
@@ -42,6 +43,7 @@ _BOUNDS = (
     ("keys", keyring.MAX_KEYS),
     ("targets of a call by a method of the course, or with `trace`", ik.MAX_STEPWISE),
     ("the same of a job", ik.MAX_JOB_STEPWISE),
+    ("a body of `dh/derive` or `workspace`", f"{remote.PARSED_HERE_BYTES // 1024} KiB"),
     ("configurations of a target's `trace`", ik.MAX_TRACE),
     ("targets of a job", ik.MAX_JOB_TARGETS),
 )
