@@ -30,6 +30,7 @@ def job_content(job: Job) -> dict[str, Any]:
         "started": _moment(job.started),
         "finished": _moment(job.finished),
         "attempts": job.attempts,
+        "robot_digest": job.robot_digest,
         "error": None,
     }
     if failure is not None:

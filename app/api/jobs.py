@@ -138,17 +138,22 @@ def jobs_router(runner: Runner) -> APIRouter:
     def get_result(job: JobPath, request: Request) -> Response:
         """Of a workspace a summary as JSON, the array as npy, or a picture, by `Accept`; of any other job the answer.
 
-        That of an operation is byte for byte what it answers with at once. A failed job answers with its problem.
+        That of an operation is byte for byte what it answers with at once. The header `Gelenk-Robot-Digest` has the
+        `robot_digest` of the job. A failed job answers with its problem.
 
         One that was given up because the service ended each time that it was begun is a 409: it has to be asked for
         again.
         """
-        kind = runner.shelf.get(job).kind
-        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(kind, ())))
-        if kind == KIND and wanted in _PICTURES:
+        told = runner.shelf.get(job)
+        wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(told.kind, ())))
+        if told.kind == KIND and wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
-            return Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
-        return _file_response(runner, job, wanted)
+            response = Response(runner.rendered(picture, (*paths, _PICTURES[wanted])), media_type=wanted)
+        else:
+            response = _file_response(runner, job, wanted)
+        if told.robot_digest is not None:
+            response.headers["Gelenk-Robot-Digest"] = told.robot_digest
+        return response
 
     @router.delete(
         "/{job}",

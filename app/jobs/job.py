@@ -65,6 +65,7 @@ class Job:
         finished: When it came to a final state, likewise.
         failure: Why it failed, where it did.
         attempts: How often it was begun without getting further than the time before.
+        robot_digest: SHA-256 of the description of the robot that it is about.
         number: Its place among all jobs in the order in which they came: clocks are set, also back.
         client: Who asked for it; empty where clients are not told apart.
     """
@@ -82,6 +83,7 @@ class Job:
     attempts: int = 0
     number: int = 0
     client: str = ""
+    robot_digest: str | None = None
 
     @property
     def is_final(self) -> bool:

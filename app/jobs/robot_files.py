@@ -1,5 +1,7 @@
 """The robot of a job, kept with its request: whatever becomes of the robot meanwhile, the job goes on with this one."""
 
+import hashlib
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -37,6 +39,11 @@ def robot_files(name: str, robot: Robot, urdf: str) -> dict[str, bytes]:
         urdf: What it was read from.
     """
     return {_URDF: urdf.encode(*_ENCODING), _ABOUT: orjson.dumps([name, *robot.default_chain])}
+
+
+def robot_digest(request: Mapping[str, bytes]) -> str | None:
+    """What tells the robot of a request from others that have had its name: SHA-256 of its URDF."""
+    return hashlib.sha256(request[_URDF]).hexdigest() if _URDF in request else None
 
 
 def robot_text(folder: Path) -> RobotText:

@@ -21,6 +21,7 @@ from typing import IO, Any
 from app.jobs.job import Job
 from app.jobs.owners import Owners
 from app.jobs.parts import Parts
+from app.jobs.robot_files import robot_digest
 from app.model.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from app.store import folders
 
@@ -122,6 +123,7 @@ class Shelf:
             number = 1 + max((job.number for job in self._jobs()), default=0)
             name, owner = job_id or uuid.uuid4().hex, self._owners.own_name
             job = Job(name, kind, digest, owner, time.time(), number=number, client=client)
+            job = replace(job, robot_digest=robot_digest(request))
             files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
             folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
         return job, True

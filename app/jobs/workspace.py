@@ -130,7 +130,8 @@ def work_of(asked: Question) -> Work:
         dexterity = None if asked.asked is None else _dexterity(run, asked, found)
         table = found.points if found.points is not None else found.voxel_rows(asked.plan)
         array = table if dexterity is None else np.column_stack((table, dexterity))
-        summary = orjson.dumps(_summary(asked, found, dexterity), option=orjson.OPT_SERIALIZE_NUMPY)
+        told = _summary(asked, found, dexterity) | {"robot_digest": run.job.robot_digest}
+        summary = orjson.dumps(told, option=orjson.OPT_SERIALIZE_NUMPY)
         return {
             ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
             SUMMARY: lambda target: target.write(summary),

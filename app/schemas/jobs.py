@@ -45,4 +45,9 @@ class JobInfo(Answer):
         description="How often it was begun since it got further: more than once where the service has ended "
         "meanwhile; after three times it is given up.",
     )
+    robot_digest: str | None = Field(
+        default=None,
+        description="SHA-256 of the URDF of the robot that it is about, as `GET /v1/robots/{robot}/urdf` had it then: "
+        "another robot may have its name by now.",
+    )
     error: JobError | None = Field(default=None, description="Of a failed job.")

@@ -210,6 +210,7 @@ class WorkspaceAnswer(Answer):
     """What the samples tell of a workspace."""
 
     robot: str = Field(description="Name of the robot.")
+    robot_digest: str | None = Field(default=None, description="As in the job.")
     joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame in which positions are expressed.")
     tip_frame: str = Field(description="Frame whose positions they are.")

@@ -1,6 +1,7 @@
 """Operations asked for as jobs: checked at once, and answered in the very bytes that they answer with at once."""
 
 import asyncio
+import hashlib
 import json
 import time
 from collections.abc import Mapping
@@ -72,6 +73,7 @@ def same(client: TestClient, url: str, accepted: tuple[str, ...], **call: Any) -
         now, then = client.post(url, headers={**headers, **wanted}, **call), client.get(result, headers=wanted)
         assert (now.status_code, then.status_code) == (200, 200), now.text + then.text
         assert then.content == now.content
+        assert len(then.headers.pop("gelenk-robot-digest")) == 64
         own = [
             {k: v for k, v in a.headers.items() if k.startswith("gelenk-") or k == "content-type"} for a in (now, then)
         ]
@@ -147,6 +149,10 @@ def test_some_targets_as_json(client: TestClient, robot: str, joints: int, optio
     same(client, f"/v1/robots/{robot}/ik", fits, json={"targets": told_poses(Ts), **options})
 
 
+PLANAR: dict[str, Any] = {
+    "convention": "standard",
+    "joints": [{"name": name, "type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0} for name in "ab"],
+}
 MOTION: dict[str, Any] = {
     "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
     "segments": [
@@ -239,6 +245,36 @@ def test_a_solution_that_time_kept_from_its_objective_says_so(
             monkeypatch.setattr(module, "time", clock)
         (result,) = client.post("/v1/robots/panda/ik", json=call).json()["results"]
     assert (result["status"], result["stop_reason"]) == ("solved", "time_limit")
+
+
+@pytest.mark.parametrize("path", ["workspace", "ik", "trajectory"])
+def test_a_job_and_its_result_say_for_which_version_of_a_robot(client: TestClient, path: str) -> None:
+    """The digest of its description, as it was when the job was asked for; whatever stands under the name by now."""
+    calls: dict[str, Any] = {
+        "workspace": {"samples": 10},
+        "ik": {"targets": [{"position": [1.0, 0.5, 0.0], "rpy": [0.0, 0.0, 0.0]}], "task": ["x", "y"]},
+        "trajectory": {"start": [0.1, 0.2], "segments": [{"type": "joint", "target": [0.3, 0.4]}], "law": "cubic"},
+    }
+    tables = [{**PLANAR, "joints": [{**joint, "a": a} for joint in PLANAR["joints"]]} for a in (1.0, 1.5)]
+    digests = []
+    for table in tables:
+        client.delete("/v1/robots/changing")
+        assert client.post("/v1/robots", json={"name": "changing", "dh": table}).status_code == 201
+        digests.append(hashlib.sha256(client.get("/v1/robots/changing/urdf").content).hexdigest())
+        job = client.post(f"/v1/robots/changing/{path}", json=calls[path], headers=LATER)
+        assert job.json()["robot_digest"] == digests[-1]
+        client.delete("/v1/robots/changing")
+        result, deadline = f"{job.headers['location']}/result", time.monotonic() + 30.0
+        while client.get(result).status_code == 409:
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        assert client.get(job.headers["location"]).json()["robot_digest"] == digests[-1]
+        for media_type in (JSON, NPY):
+            answer = client.get(result, headers={"Accept": media_type})
+            assert answer.headers["gelenk-robot-digest"] == digests[-1]
+        if path == "workspace":
+            assert client.get(result).json()["robot_digest"] == digests[-1]
+    assert digests[0] != digests[1]
 
 
 def test_no_targets(client: TestClient) -> None:
