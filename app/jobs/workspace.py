@@ -20,7 +20,7 @@ from app.kinematics.workspace import PART, Part, Plan, Plane, Wish, plan, sample
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
 from app.model.description import Description
-from app.model.errors import TooLarge
+from app.model.errors import InvalidField
 from app.model.robot import Robot
 
 KIND = "workspace"
@@ -140,12 +140,29 @@ def work_of(asked: Question) -> Work:
     return work
 
 
+def check_first_samples(asked: Question) -> None:
+    """Refuse a dexterity map that has too many voxels by its first part of the samples already, which is quick.
+
+    Raises:
+        InvalidField: It has.
+    """
+    if asked.asked is not None:
+        _check_poses(len(sampled((asked.plan, 0)).voxels), len(asked.asked.rotations))
+
+
+def _check_poses(voxels: int, rotations: int) -> None:
+    if voxels * rotations > MAX_POSES:
+        reason = (
+            f"the samples fall into {voxels:,} voxels, at each of which {rotations} orientations are asked for: "
+            f"{voxels * rotations:,} of at most {MAX_POSES:,}; ask for larger voxels or fewer `orientations`"
+        )
+        raise InvalidField("voxel_size", reason)
+
+
 def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
     """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
     assert asked.asked is not None  # noqa: S101 - what it is called for
-    poses = len(found.voxels) * len(asked.asked.rotations)
-    if poses > MAX_POSES:
-        raise TooLarge("orientations at voxels", poses, MAX_POSES)
+    _check_poses(len(found.voxels), len(asked.asked.rotations))
     centres = asked.plan.grid.centres(found.voxels.keys)
     arm = pickle.dumps(_arm(asked))
     size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))

@@ -16,8 +16,7 @@ from app.model.errors import quoted
 _METHODS = b"GET, HEAD, POST, PUT, DELETE"
 _REQUEST_HEADERS = b"Authorization, Content-Type, Last-Event-ID, X-Request-Id"
 _ANSWER_HEADERS = (
-    b"Gelenk-Robot-Digest, Gelenk-Unsolved, Gelenk-Unsolved-Rows, "
-    b"Location, Retry-After, WWW-Authenticate, X-Request-Id"
+    b"Gelenk-Robot-Digest, Gelenk-Unsolved, Gelenk-Unsolved-Rows, Location, Retry-After, WWW-Authenticate, X-Request-Id"
 )
 _PREFLIGHT_SECONDS = b"600"
 
