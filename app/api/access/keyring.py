@@ -127,6 +127,11 @@ class Keyring:
         self._looked = now
         return True
 
+    @property
+    def is_overdue(self) -> bool:
+        """Whether nobody has looked at the file for so long that a key may have been taken away since."""
+        return self._file is not None and time.monotonic() > self._looked + 2.0 * _LOOK_SECONDS
+
     def refresh(self) -> None:
         """Read the file again if it has changed; what cannot be read leaves the keys as they are."""
         if self._file is None:

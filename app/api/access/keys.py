@@ -1,6 +1,6 @@
 """Lets in who sends a key that is good for the operation: `Authorization: Bearer gelenk.…`."""
 
-import asyncio
+from concurrent.futures import ThreadPoolExecutor, wait
 from http import HTTPStatus
 
 from starlette.responses import Response
@@ -10,6 +10,8 @@ from app.api.access.keyring import Keyring
 from app.api.access.scopes import Scope
 from app.api.problems import problem
 
+_PATIENCE = 0.5
+"""How long a request may wait until the keys are looked at, [s]."""
 _REALM = 'Bearer realm="gelenk"'
 
 
@@ -22,16 +24,18 @@ class KeyCheck:
 
     def __init__(self, keyring: Keyring) -> None:
         self._keyring = keyring
-        self._refreshing: asyncio.Future[None] | None = None
+        self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
 
     def __call__(self, exchange: Exchange) -> Response | None:
         """A refusal, or None."""
         operation = exchange.operation
         if operation.is_open:
             return None
+        is_overdue = self._keyring.is_overdue
         if self._keyring.is_due:
-            # Its file may lie on a slow disk: nobody waits for that.
-            self._refreshing = asyncio.get_running_loop().run_in_executor(None, self._keyring.refresh)
+            refreshing = self._beside.submit(self._keyring.refresh)
+            if is_overdue:  # the first request after a quiet time; its file may lie on a slow disk
+                wait((refreshing,), _PATIENCE)
         scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         if scheme.lower() != "bearer":
             return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)

@@ -4,6 +4,7 @@ import hmac
 import logging
 import stat
 import string
+import time
 from pathlib import Path
 
 import pytest
@@ -128,6 +129,21 @@ def test_keys_are_made_used_and_taken_away(
     file.write_text("# otto only\n" + lines[1])
     wait_for(lambda: status(anna) == 401)  # each call looks at the file, beside the event loop
     assert status(otto) == 200
+
+
+def test_a_key_that_was_taken_away_opens_nothing_after_a_quiet_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The very first request: nobody has looked at the file meanwhile."""
+    monkeypatch.setattr(keyring, "_LOOK_SECONDS", 0.1)
+    (token, gone), (_, stays) = new_key("anna", [Scope.READ]), new_key("otto", [Scope.READ])
+    file = tmp_path / "keys"
+    file.write_text(f"{gone.entry()}\n{stays.entry()}\n")
+    app = application(data_dir=tmp_path, api_keys=str(file))
+    assert ask(app, "/v1/robots", headers=(HOST, bearer(token))).status == 200
+    file.write_text(f"{stays.entry()}\n")
+    time.sleep(0.3)
+    assert ask(app, "/v1/robots", headers=(HOST, bearer(token))).status == 401
 
 
 def test_a_file_that_has_become_wrong_leaves_the_keys_as_they_were(
