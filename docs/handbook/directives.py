@@ -3,6 +3,7 @@
 One service answers all pages of a build; each page is a session of its own.
 """
 
+import re
 from html import escape
 from pathlib import Path
 from typing import Any, ClassVar
@@ -22,6 +23,8 @@ from docs.handbook.written import DIGITS, disagreement
 
 _PICTURES = "_pictures"
 _SVG, _PNG = b"<?xml", b"\x89PNG"
+_IS = re.compile(r"\{is\}`([^`]+)`")
+_NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?!\w)")
 
 _logger = logging.getLogger(__name__)
 _sessions: dict[str, Session] = {}
@@ -135,6 +138,8 @@ class Picture(SphinxDirective):
     Options:
         alt: What is to be seen, for whoever cannot see it; must be there.
         caption: A sentence below it.
+
+    A number in either is one of the picture's own code, or stated and compared as in a sentence: {is}`2 = 1 + 1`.
     """
 
     has_content = True
@@ -152,11 +157,14 @@ class Picture(SphinxDirective):
         title = "the call"
         if isinstance(content, Figure):
             content, title = svg(content), "how it is drawn"
+        try:
+            alt, caption = (_true(self.options.get(text, ""), code, session) for text in ("alt", "caption"))
+        except Unexpected as error:
+            raise self.error(str(error)) from error
         if not isinstance(content, bytes) or not content.startswith((_SVG, _PNG)):
             raise self.error("it gives no picture: a figure, or SVG or PNG as bytes")
-        caption = self.options.get("caption", "")
         figure = (
-            f'<figure class="picture"><img src="{self._saved(content)}" alt="{escape(self.options["alt"])}">'
+            f'<figure class="picture"><img src="{self._saved(content)}" alt="{escape(alt)}">'
             f"{caption and f'<figcaption>{escape(caption)}</figcaption>'}</figure>"
         )
         call = nodes.literal_block(code, code, language="python")
@@ -221,18 +229,39 @@ class Answer(SphinxDirective):
         return _folded("Answer", [result, way], "answer")
 
 
+def _true(text: str, code: str, session: Session) -> str:
+    """What a picture's text states, once it is found to be true.
+
+    Raises:
+        Unexpected: It is not, or a number is neither compared nor one of the picture's code.
+    """
+    known = set(_NUMBER.findall(code))
+    if untold := [number for number in _NUMBER.findall(_IS.sub("", text)) if number not in known]:
+        raise Unexpected(f"{', '.join(untold)} in the picture's text should be {{is}}`value = expression`")
+    return _IS.sub(lambda found: _stated(found[1], session), text)
+
+
+def _stated(text: str, session: Session) -> str:
+    """A value that is stated, of `value = expression`.
+
+    Raises:
+        Unexpected: The expression gives another one.
+    """
+    stated, equals, expression = text.partition(" = ")
+    if not equals:
+        raise Unexpected(f"{text!r} should be a value, =, and an expression that gives it")
+    if difference := disagreement(stated, session.value(expression)):
+        raise Unexpected(difference)
+    return stated
+
+
 class Is(SphinxRole):
     """A value in a sentence: `0.5021 = det`, what is stated, and an expression that gives it."""
 
     def run(self) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         """What is stated, once it is found to be true."""
-        stated, equals, expression = self.text.partition(" = ")
         try:
-            if not equals:
-                raise Unexpected(f"{self.text!r} should be a value, =, and an expression that gives it")
-            difference = disagreement(stated, session_of(self.env.docname).value(expression))
-            if difference:
-                raise Unexpected(difference)
+            stated = _stated(self.text, session_of(self.env.docname))
         except Unexpected as error:
             return [], [self.inliner.reporter.error(str(error), line=self.lineno)]
         return [nodes.Text(stated)], []

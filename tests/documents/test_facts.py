@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.kinematics.ik import branches, search
+from app.main import create_app
 from app.model import urdf
 from app.settings import Settings
 from tests.documents.blocks import PAGES, README
@@ -32,3 +33,27 @@ def test_the_readme_counts_right() -> None:
     settings = Settings()
     most = f"{settings.max_body_bytes // 2**20} MiB and take {settings.request_seconds} s"
     assert f"{most}, an answer {settings.max_answer_numbers:,} numbers, a robot {urdf.MAX_LINKS} links" in text
+
+
+def test_where_the_service_has_a_copy_of_the_keys_the_page_says_so() -> None:
+    unit = Path("deploy/systemd/gelenk.service").read_text(encoding="utf-8")
+    text = Path("docs/how-to/run-it-for-a-lab.md").read_text(encoding="utf-8")
+    assert "LoadCredential=keys" in unit
+    assert "# After a change of the keys: `systemctl restart gelenk`" in unit
+    assert (
+        "must be started anew for that: with the [systemd](#with-the-machine-systemd) unit by\n`systemctl restart"
+        in text
+    )
+
+
+def test_all_calculators_but_one_write_their_steps_down() -> None:
+    """As the page on conventions has it."""
+    schemas = create_app(Settings()).openapi()
+    without = set()
+    for path, item in schemas["paths"].items():
+        if path.startswith("/v1/course/"):
+            content = item["post"]["responses"]["200"]["content"]["application/json"]["schema"]
+            answer = schemas["components"]["schemas"][content["$ref"].rpartition("/")[2]]
+            without |= set() if "steps" in answer["properties"] else {f"…/{path.rpartition('/')[2]}"}
+    text = Path("docs/explanation/conventions.md").read_text(encoding="utf-8")
+    assert [f"all but `{path}` write their steps down" in text for path in without] == [True]

@@ -32,7 +32,9 @@ gelenk.picture("v1/robots/planar_2r/manipulability", "svg", {"joint_positions": 
 ```
 
 ```{picture}
-:alt: A curve.
+:alt: A curve from 0.3 over {is}`2 = len(answer.joint_names)` joints.
+:caption: At {is}`1.27 = answer.poses[0].position[0]` m.
+start = 0.3
 figure, axes = plt.subplots()
 axes.plot(answer.poses[0].position)
 figure
@@ -82,6 +84,17 @@ and {is}`1 = gelenk.fk("ur5", joint_positions=[[0.0]])`, and a [dead link](nowhe
 b"text"
 ```
 
+```{picture}
+:alt: A current of {is}`18 = 19.0` A.
+plt.figure()
+```
+
+```{picture}
+:alt: A curve.
+:caption: It ends at 42.
+plt.figure()
+```
+
 :::{answer} 5
 :is: 2 + 2
 :::
@@ -98,6 +111,8 @@ FAULTS = (
     "NameError: name 'unheard' is not defined",
     "nowhere.md",
     "it gives no picture",
+    "stated is '18', and the call gives 19",
+    "42 in the picture's text should be {is}`value = expression`",
     "stated is '5', and the call gives 4",
     "it leaves robots behind: forgotten",
     "cannot be set",
@@ -129,6 +144,8 @@ def test_a_page_has_what_its_calls_give(tmp_path: Path) -> None:
     assert "2.55 m" in words
     assert "curl -s http://127.0.0.1:8000/v1/robots/planar_2r/fk -H 'Content-Type: application/json'" in words
     assert 'alt="An arm &amp; its ellipses."' in text
+    assert 'alt="A curve from 0.3 over 2 joints."' in text
+    assert "At 1.27 m." in words
     pictures = re.findall(r'src="(_pictures/[^"]+)"', text)
     assert len(pictures) == 2
     assert all((output / picture).read_bytes().startswith(b"<?xml") for picture in pictures)
