@@ -91,7 +91,8 @@ class LineHandler(logging.Handler):
             while self._waiting:
                 lines.append(_line_of(self._waiting.popleft()))
             if self._lost:
-                lines.append(line({"level": "warning", "message": f"{self._lost} lines were left out"}))
+                lost = "1 line was" if self._lost == 1 else f"{self._lost} lines were"
+                lines.append(line({"level": "warning", "message": f"{lost} left out"}))
                 self._lost = 0
             if lines:
                 stream = self._stream or sys.stderr

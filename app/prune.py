@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from app.model.errors import counted
 from app.store.library import Library
 from app.store.records import package_data
 
@@ -25,7 +26,7 @@ def main() -> None:
     size = sum(file.stat().st_size for file in files)
     for file in files:
         file.unlink()
-    print(f"{len(files)} files of {size / 1e6:.0f} MB removed")
+    print(f"{counted(len(files), 'file')} of {size / 1e6:.0f} MB removed")
 
 
 def catalogue_files() -> Iterator[Path]:

@@ -9,7 +9,7 @@ from app.api.routes import DocumentedRoute
 from app.course import gray, quadrature
 from app.course.encoders import COUNTS_A_LINE, TURN, Scale, required, required_step, scale_steps
 from app.course.steps import Step, tex
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 from app.schemas.course_encoder import EXAMPLE_ENCODER, EncoderAnswer, EncoderRequest
 
 _FIELDS = {
@@ -152,7 +152,9 @@ def _absolute(call: EncoderRequest, bits: int, steps: list[Step]) -> dict[str, A
     readings = gray.read_codes(call.readings or (), call.code, bits, "readings")
     for number, value in enumerate(call.values or ()):
         if value >> bits:
-            raise InvalidField(f"values/{number}", f"is {value}; {bits} bits hold numbers below {1 << bits}")
+            raise InvalidField(
+                f"values/{number}", f"is {value}; numbers of {counted(bits, 'bit')} are below {1 << bits}"
+            )
     if call.table and bits > gray.MOST_TABLE_BITS:
         raise InvalidField("table", f"is written for at most {gray.MOST_TABLE_BITS} bits; `values` take any position")
     values = [gray.position(value, bits) for value in call.values or ()]

@@ -21,7 +21,7 @@ from app.api.remote import Remote
 from app.api.routes import DocumentedRoute
 from app.course.steps import Step
 from app.model.arrays import Array
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 from app.schemas.course_motion import MAX_SAMPLED_NUMBERS
 from app.schemas.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer, TimeLawRequest
 from app.trajectory.formulas import SHOWN_JOINTS
@@ -190,8 +190,9 @@ def _blends(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
         if pieces * knots.shape[1] > MAX_SAMPLED_NUMBERS:
             raise InvalidField(
                 "waypoints",
-                f"{len(times)} of them make up to {pieces} pieces of {knots.shape[1]} joints, each joint switching at "
-                f"times of its own: more than the {MAX_SAMPLED_NUMBERS} numbers allowed; give `blend_time`",
+                f"{len(times)} of them make up to {pieces} pieces of {counted(knots.shape[1], 'joint')}, each joint "
+                f"switching at times of its own: more than the {MAX_SAMPLED_NUMBERS} numbers allowed; "
+                "give `blend_time`",
             )
         found = with_accelerations(times, knots, limits.acceleration)
     else:

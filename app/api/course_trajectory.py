@@ -157,7 +157,8 @@ def _sample_times(call: SampledRequest, motion: PiecewisePolynomial) -> Array:
     if count * joints > MAX_SAMPLED_NUMBERS:
         field = "samples" if call.sample_times is None else "sample_times"
         raise InvalidField(
-            field, f"{count} samples of {joints} joints are more than the {MAX_SAMPLED_NUMBERS} numbers allowed"
+            field,
+            f"{count} samples of {counted(joints, 'joint')} are more than the {MAX_SAMPLED_NUMBERS} numbers allowed",
         )
     if call.sample_times is None:
         return np.linspace(start, end, call.samples) if end > start else np.array([start])
@@ -260,7 +261,7 @@ def table(rows: Sequence[Sequence[float]], field: str, count: int | None = None,
         InvalidField: Rows of different lengths, or another count of rows or joints.
     """
     if count is not None and len(rows) != count:
-        raise InvalidField(field, f"has {len(rows)} entries where there are {count} times")
+        raise InvalidField(field, f"has {counted(len(rows), 'entry')} for {counted(count, 'time')}")
     width = len(rows[0]) if joints is None else joints
     for i, one in enumerate(rows):
         if len(one) != width:

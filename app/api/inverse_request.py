@@ -12,7 +12,7 @@ from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.ik.words import DIRECTIONS, Direction
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField, TooLarge
+from app.model.errors import InvalidField, TooLarge, counted
 from app.model.poses import Poses
 from app.schemas.ik import MAX_TRACE, InverseRequest
 from app.schemas.pose_arrays import poses_from
@@ -56,7 +56,9 @@ def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
         return mid_range(chain)[None]
     seeds = configurations(chain, call.seeds, "seeds")
     if len(seeds) not in {1, count}:
-        raise InvalidField("seeds", f"{len(seeds)} entries for {count} targets: one for all of them or one each")
+        raise InvalidField(
+            "seeds", f"{counted(len(seeds), 'entry')} for {counted(count, 'target')}: one for all of them or one each"
+        )
     return seeds
 
 

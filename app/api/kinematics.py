@@ -10,7 +10,7 @@ from app.kinematics.forward import forward_kinematics
 from app.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
-from app.model.errors import InvalidField, TooLarge
+from app.model.errors import InvalidField, TooLarge, counted
 from app.model.robot import Robot
 from app.schemas.kinematics import (
     ForwardAnswer,
@@ -135,7 +135,9 @@ def _velocities(chain: Chain, call: JacobianRequest, count: int) -> Array | None
         raise InvalidField("joint_velocities", "a time variation needs them, so send the call as JSON")
     velocities = configurations(chain, call.joint_velocities, "joint_velocities")
     if len(velocities) != count:
-        raise InvalidField("joint_velocities", f"{len(velocities)} entries for {count} configurations")
+        raise InvalidField(
+            "joint_velocities", f"{counted(len(velocities), 'entry')} for {counted(count, 'configuration')}"
+        )
     return velocities
 
 

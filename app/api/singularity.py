@@ -20,7 +20,7 @@ from app.kinematics.singularity_path import Place, places_along
 from app.kinematics.task_space import TaskSpace, slides, structure
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField, TooLarge
+from app.model.errors import InvalidField, TooLarge, counted
 from app.model.robot import Robot
 from app.schemas.singularity import (
     MAX_NEAREST,
@@ -145,7 +145,7 @@ def _check_size(call: SingularityRequest, count: int, joints: int, allowed: int)
         raise TooLarge("configurations of a path", count, MAX_PATH)
     most = max(1, MAX_NEAREST * 49 // max(joints, 7) ** 2)
     if call.nearest and count > most:
-        raise TooLarge(f"configurations of {joints} joints whose nearest singularity is wanted", count, most)
+        raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
     numbers = count * (_ENTRY + joints * (joints + 4)) * (1 + call.path)
     if numbers > allowed:
         raise TooLarge("numbers in the answer", numbers, allowed)
@@ -252,7 +252,9 @@ def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
     reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
     if rank == len(space):
         return reason
-    reason += f": of these {len(space)} directions the tip has {rank} at most, and it keeps as many wherever was looked"
+    reason += (
+        f": of {counted(len(space), 'direction')} the tip has {rank} at most, and it keeps as many wherever was looked"
+    )
     fewer = _positions_that_move(chain, space)
     return reason if fewer is None else f"{reason}; what it loses of the position shows with `task` {fewer}"
 

@@ -11,7 +11,7 @@ from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.ik.words import DIRECTIONS
 from app.model.arrays import Array, Configuration
 from app.model.chain import Chain
-from app.model.errors import InvalidField, InvalidPose, OutsideLimits
+from app.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from app.model.robot import Robot
 from app.schemas.pose import Pose
 from app.schemas.pose_arrays import poses_from
@@ -157,7 +157,9 @@ def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Par
 def _times(segment: SplineSegment, place: str) -> Array:
     times, field = np.array(segment.times), f"{place}.times"
     if len(times) != len(segment.waypoints):
-        raise InvalidField(field, f"has {len(times)} entries where there are {len(segment.waypoints)} waypoints")
+        raise InvalidField(
+            field, f"has {counted(len(times), 'entry')} for {counted(len(segment.waypoints), 'waypoint')}"
+        )
     if segment.duration is not None:
         raise InvalidField(f"{place}.duration", "goes without `times`, which say it already")
     late = np.diff(times) >= _SHORTEST

@@ -31,7 +31,7 @@ from app.kinematics.task_space import TaskSpace, jacobians_with_terms, structure
 from app.kinematics.velocity import TipMotion, tip_motion
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import TooLarge
+from app.model.errors import TooLarge, counted
 from app.model.robot import Robot
 from app.schemas.velocity import MAX_REPORTS, VelocityAnswer, VelocityOptions, VelocityRequest
 from app.store.records import LoadedRobot
@@ -275,7 +275,7 @@ def _no_inverse(call: VelocityRequest, inversion: Inversion, row: int) -> str:
     rank, size = inversion.decomposition.ranks[row], inversion.xs.shape[1]
     if call.inverse == "exact" and rank < size:
         return (
-            f"the Jacobian has rank {rank} with {size} joints, so that it has no inverse: `damped` or `pseudo_inverse` "
-            "give an answer here"
+            f"the Jacobian has rank {rank} with {counted(size, 'joint')}, so that it has no inverse: `damped` "
+            "or `pseudo_inverse` give an answer here"
         )
     return "the Jacobian is so small here that the joints would be faster than any number says"

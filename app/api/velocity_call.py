@@ -62,7 +62,7 @@ def _split(chain: Chain, array: Array) -> tuple[Array, Array]:
 def _one_each(chain: Chain, values: Any, field: str, count: int) -> Array:
     rows = configurations(chain, values, field)
     if len(rows) != count:
-        raise InvalidField(field, f"{len(rows)} entries for {count} configurations")
+        raise InvalidField(field, f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}")
     return rows
 
 
@@ -117,8 +117,8 @@ def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: in
         if directions != len(chain):
             raise InvalidField(
                 "inverse",
-                f"`exact` needs as many joints as directions, and here {len(chain)} joints are to give {directions}: "
-                "choose a `task` of as many, or `pseudo_inverse`",
+                f"`exact` needs as many joints as directions, and here {counted(len(chain), 'joint')} should give "
+                f"{directions}: choose a `task` of as many, or `pseudo_inverse`",
             )
     if call.inverse != "damped":
         for field in ("damping", "damping_threshold"):
@@ -155,7 +155,7 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
     """What is to be inverted, in the directions that count; shape (N, k)."""
     given: Sequence[Sequence[float]] = getattr(call, asked)
     if len(given) != count:
-        raise InvalidField(asked, f"{len(given)} entries for {count} configurations")
+        raise InvalidField(asked, f"{counted(len(given), 'entry')} for {counted(count, 'configuration')}")
     targets = np.empty((count, len(space)))
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
@@ -192,6 +192,7 @@ def _given_null_motion(chain: Chain, wanted: NullSpace, asked: str, count: int) 
     rows = configurations(chain, values, f"null_space/{field}")
     if len(rows) not in {1, count}:
         raise InvalidField(
-            f"null_space/{field}", f"{len(rows)} entries for {count} configurations: one for all or each"
+            f"null_space/{field}",
+            f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}: one for all or each",
         )
     return np.broadcast_to(rows, (count, len(chain)))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from app.cli.rows import STDIN, cells_of, number, text_of
 from app.cli.xacro import expanded
-from app.model.errors import InvalidDhTable, InvalidField, InvalidName
+from app.model.errors import InvalidDhTable, InvalidField, InvalidName, counted
 
 if TYPE_CHECKING:
     from app.client import Client
@@ -128,7 +128,7 @@ def _table_of_rows(text: str) -> dict[str, Any]:
     joints = []
     for joint, row in enumerate(rows):
         if len(row) > len(header):
-            raise InvalidDhTable(f"{len(row)} cells where there are {len(header)} columns", joint)
+            raise InvalidDhTable(f"{counted(len(row), 'cell')} for {counted(len(header), 'column')}", joint)
         joints.append({name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text})
     places = {name: json.loads(told[name]) for name in ("base", "tool") if name in told}
     return {"convention": told.get("convention", "standard"), "joints": joints, **places}

@@ -89,7 +89,9 @@ class Rows:
     def _row(self, cells: Sequence[str], line: int, columns: Sequence[int] | None) -> list[float]:
         where, text = f"{self.source}, line {line}", ",".join(cells)[:80]
         if self.header and len(cells) != len(self.header):
-            raise InvalidArray(f"{where}: {text!r} has {len(cells)} cells where the header has {len(self.header)}")
+            raise InvalidArray(
+                f"{where}: {text!r} has {counted(len(cells), 'cell')} where the header has {len(self.header)}"
+            )
         try:
             return [finite(cells[i]) for i in (range(len(cells)) if columns is None else columns)]
         except ValueError:

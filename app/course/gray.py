@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 from app.course.encoders import TURN
 from app.course.steps import Step
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 
 Code: TypeAlias = Literal["gray", "binary"]
 
@@ -67,7 +67,7 @@ def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple
     found = []
     for number, text in enumerate(codes):
         if len(text) != bits or not set(text) <= {"0", "1"}:
-            raise InvalidField(f"{field}/{number}", f"a reading is {bits} digits, each 0 or 1, one a track")
+            raise InvalidField(f"{field}/{number}", f"a reading is {counted(bits, 'digit')}, each 0 or 1, one a track")
         digits = int(text, 2)
         found.append(position(binary(digits) if code == "gray" else digits, bits))
     return tuple(found)

@@ -18,7 +18,7 @@ from typing import Literal, TypeAlias
 from app.course.mechanism import FLOATING, Mechanism, Pair, Split, check_kind
 from app.course.pairs import FREEDOMS, KINDS, Order, Space
 from app.course.screws import Posture
-from app.model.errors import CertificationFailed, InvalidField, listed, quoted
+from app.model.errors import CertificationFailed, InvalidField, counted, listed, quoted
 
 Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
 
@@ -109,7 +109,7 @@ def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: 
         check_kind(space, kind, f"coincident/{i}/type")
         joints[kind] += 1
         if joints[kind] > counts.get(kind, 0):
-            reason = f"`pairs` counts {counts.get(kind, 0)} {kind} joints, among which this one has to be"
+            reason = f"`pairs` counts {counted(counts.get(kind, 0), f'{kind} joint')}, among which this one has to be"
             raise InvalidField(f"coincident/{i}", reason)
         if node.links > links:
             raise InvalidField(f"coincident/{i}/links", f"{node.links} links meet where there are {links}")
@@ -170,7 +170,8 @@ def warnings(counted: Tally, found: Mechanism | None, stands: Posture | None = N
     if stands is not None and stands.redundant:
         sentences.append(
             f"The formula ignores geometry: as the linkage stands, {stands.redundant} of its {counted.constraints} "
-            f"constraints are redundant, and its mobility is {stands.mobility}, not {counted.mobility}."
+            f"constraints {'is' if stands.redundant == 1 else 'are'} redundant, and its mobility is "
+            f"{stands.mobility}, not {counted.mobility}."
         )
     elif stands is None and counted.mobility - idle <= 0 and counted.pairs and not is_open:
         sentences.append(_GEOMETRY[counted.space])
@@ -203,9 +204,10 @@ def _graph_sentences(found: Mechanism) -> list[str]:
     if len(graph.components) > 1:
         lost = [part for part in graph.components if found.ground not in part]
         loose = listed(tuple(names[part[0]] for part in lost))
+        which = f"a part, that with {loose}, is" if len(lost) == 1 else f"{len(lost)} parts, those with {loose}, are"
         sentences.append(
-            f"The links do not hang together: {len(lost)} parts, those with {loose}, are not joined to the ground, and "
-            f"each counts with the {FREEDOMS[found.space]} freedoms of a free body."
+            f"The links do not hang together: {which} not joined to the ground, and each such part counts with the "
+            f"{FREEDOMS[found.space]} freedoms of a free body."
         )
     if graph.loops:
         hanging = tuple(names[link] for link in graph.pendants)

@@ -75,7 +75,8 @@ def _constraints(counted: Tally) -> Step:
     plain, latex = " + ".join(f"{k}·{c}" for k, c in terms), " + ".join(rf"{k} \cdot {c}" for k, c in terms)
     text = f"Σc = {plain} = {total}." if terms else "Σc = 0."
     if counted.couplings:
-        text += f" {counted.couplings} joints follow another one, a constraint each."
+        who = "One joint follows" if counted.couplings == 1 else f"{counted.couplings} joints follow"
+        text += f" {who} another one, a constraint each."
     return Step("Constraints", text, (rf"\sum c_i = {latex} = {total}" if terms else r"\sum c_i = 0",))
 
 

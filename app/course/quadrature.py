@@ -13,7 +13,7 @@ import numpy as np
 
 from app.course.encoders import Decoding
 from app.model.arrays import Flags, Indices
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 
 Direction: TypeAlias = Literal["forward", "backward", "none"]
 
@@ -64,7 +64,7 @@ def _fault(groups: Sequence[str], width: int) -> str:
             shown = "".join(c if c.isprintable() else "�" for c in group[:_SHOWN])
             return f"sample {number} is {shown!r}; it is A and B, or A, B and Z, each 0 or 1"
         if len(group) != width:
-            return f"sample {number} has {len(group)} digits, the first one has {width}"
+            return f"sample {number} has {counted(len(group), 'digit')}, the first one has {width}"
     raise AssertionError("one of them is at fault")
 
 

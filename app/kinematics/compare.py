@@ -37,7 +37,7 @@ from app.model.arrays import Array, Flags
 from app.model.chain import Chain, joints_on_the_way
 from app.model.description import Mimic
 from app.model.dh import DhTable
-from app.model.errors import InvalidField, listed, quoted
+from app.model.errors import InvalidField, counted, listed, quoted
 from app.model.robot import Robot
 
 MAX_ROWS_WITH_SENSES = 16
@@ -155,7 +155,8 @@ def _refused(unlike: Difference, freedom: Freedom, robot: Robot, chain: Chain, s
     """The verdict where rows and joints do not go together."""
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
     joints = joints_on_the_way(robot.description, chain)
-    note = f"the chain {ends} leads across the {len(joints)} joints {listed(tuple(each.name for each in joints))}"
+    names = listed(tuple(each.name for each in joints))
+    note = f"the chain {ends} leads across the {counted(len(joints), 'joint')} {names}"
     return Comparison(False, freedom, None, unlike, (unlike,), (), (), (note,), seed, 0)
 
 

@@ -15,6 +15,7 @@ from app.model.errors import (
     OutsideLimits,
     UnknownJoint,
     WrongJointCount,
+    counted,
     quoted,
 )
 
@@ -63,7 +64,9 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
         InvalidArray: It is no table.
     """
     if rows.ndim != 2:
-        raise InvalidArray(f"{field} form an array of shape (N, {len(chain)}); this one has {rows.ndim} dimensions")
+        raise InvalidArray(
+            f"{field} form an array of shape (N, {len(chain)}); this one has {counted(rows.ndim, 'dimension')}"
+        )
     if rows.shape[1] != len(chain):
         raise WrongJointCount(rows.shape[1], chain.joint_names, None, field)
     if not _within(rows, MAX_MAGNITUDE):

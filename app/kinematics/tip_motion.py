@@ -10,6 +10,7 @@ from app.kinematics.sampling import Ranges, Sampling
 from app.kinematics.subspaces import rounding
 from app.model.arrays import Array
 from app.model.chain import Chain, FlatChain
+from app.model.errors import counted
 
 _PROBES = 4096
 """Samples that say how large the workspace is before it is cut into cells."""
@@ -84,7 +85,7 @@ class Motion:
             return []
         note = (
             f"the tip keeps to a {self.kept_to}: the voxels that it meets have a volume that shrinks with their size, "
-            f"and the measure of more than {self.local_dimensions} directions vanishes everywhere"
+            f"and the measure of more than {counted(self.local_dimensions, 'direction')} vanishes everywhere"
         )
         return [note]
 

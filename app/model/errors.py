@@ -67,8 +67,9 @@ def listed(names: tuple[str, ...], most: int = 12) -> str:
 
 
 def counted(count: int, thing: str) -> str:
-    """How many there are, as a sentence has it: `1 joint`, `2 joints`."""
-    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
+    """How many there are, as a sentence has it: `1 joint`, `2 joints`, `3 entries`."""
+    things = f"{thing[:-1]}ies" if thing.endswith("y") else f"{thing}s"
+    return f"{count} {thing if count == 1 else things}"
 
 
 def meshes_are(names: tuple[str, ...]) -> str:

@@ -15,7 +15,7 @@ from app.kinematics.ik.solve import Options, inverse_kinematics
 from app.kinematics.ik.words import DIRECTIONS
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField, quoted
+from app.model.errors import InvalidField, counted, quoted
 from app.model.robot import Robot
 from app.trajectory.follow_course import Course
 from app.trajectory.follow_rows import task_rows
@@ -193,7 +193,7 @@ def _missing(inquiry: Inquiry, s: float, trace: Trace) -> str:
     names = [name for name in DIRECTIONS if name in course.task.directions]
     named = [name for name, part in zip(names, missing, strict=True) if part > _MISSED * missing.max()]
     few = (
-        f"; {len(q)} joints cannot serve {len(names)} directions: `task` says which count"
+        f"; {counted(len(q), 'joint')} cannot serve {counted(len(names), 'direction')}: `task` says which count"
         if len(q) < len(names)
         else ""
     )

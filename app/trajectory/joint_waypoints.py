@@ -10,7 +10,7 @@ import numpy as np
 
 from app.model.arrays import Array
 from app.model.chain import Chain
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 from app.trajectory.joint_motion import LARGEST, NO_LENGTH, named
 from app.trajectory.splines import CLOSED, NEAREST, Boundary, checked_times
 
@@ -75,7 +75,7 @@ def _spaced(positions: Array, velocity: Array, name: str) -> Array:
 
 def _check_times(times: Array, count: int, name: str) -> None:
     if len(times) != count:
-        raise InvalidField(name, f"{len(times)} entries for {count} waypoints")
+        raise InvalidField(name, f"{counted(len(times), 'entry')} for {counted(count, 'waypoint')}")
     if not (np.abs(times) <= LARGEST).all():
         raise InvalidField(name, f"each must be at most {LARGEST:g} s")
     checked_times(times, name)

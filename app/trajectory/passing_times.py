@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.model.arrays import Array
-from app.model.errors import InvalidField
+from app.model.errors import InvalidField, counted
 from app.trajectory.composition import in_time
 from app.trajectory.paths import Path
 from app.trajectory.polynomial import PiecewisePolynomial
@@ -38,7 +38,7 @@ def passing_at(
         InvalidField: The times do not increase, would make the tip go back on its way, or are too short.
     """
     if len(times) != len(places):
-        raise InvalidField("times", f"{len(times)} entries for {len(places)} waypoints")
+        raise InvalidField("times", f"{counted(len(times), 'entry')} for {counted(len(places), 'waypoint')}")
     knots = np.concatenate(([0.0], times))
     checked_times(knots, "times")
     law = cubic_spline(knots, np.concatenate(([0.0], places))[:, None], "clamped").motion

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.course.steps import Step, tex
+from app.model.errors import counted
 from app.trajectory.formulas import SHOWN_JOINTS, of_joint, tex_column, tex_matrix, tex_polynomial
 from app.trajectory.splines import Boundary, Spline
 
@@ -57,8 +58,8 @@ def spline_steps(spline: Spline, boundary: Boundary) -> tuple[Step, ...]:
     steps = [
         Step(
             "Conditions",
-            f"{N} knots and {N - 1} cubics have {4 * (N - 1)} coefficients; {2 * (N - 1)} positions and {2 * (N - 2)} "
-            "continuities of velocity and acceleration leave two free.",
+            f"{N} knots and {counted(N - 1, 'cubic')} have {4 * (N - 1)} coefficients; {2 * (N - 1)} positions and "
+            f"{2 * (N - 2)} continuities of velocity and acceleration leave two free.",
             (r"4(N-1) - [2(N-1) + 2(N-2)] = 2",),
         ),
         Step(

@@ -105,7 +105,7 @@ def test_pictures(client: TestClient, accept: str) -> None:
     [
         ({"times": [0.0], "waypoints": [1.0]}, "times", ""),
         ({"times": [0.0, 1.0], "waypoints": [1.0]}, "waypoints", ""),
-        ({"times": [0.0, 1.0]}, "waypoints", "5 entries where there are 2 times"),
+        ({"times": [0.0, 1.0]}, "waypoints", "5 entries for 2 times"),
         ({"times": [0.0, 1.0, 1.0, 3.0, 4.0]}, "times", "1 s is there twice"),
         ({"times": [0.0, 1.0, 0.5, 3.0, 4.0]}, "times", "have to increase"),
         ({"times": [0.0, 1e300, 2.0, 3.0, 4.0]}, "times", ""),

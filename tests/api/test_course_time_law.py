@@ -198,7 +198,7 @@ def test_pictures(client: TestClient, body: dict[str, Any], accept: str) -> None
         ({**LIFT, "waypoints": [0.0, 1.0, 2.0], "times": [0.0, 1.0, 2.0]}, "waypoints", "3 given"),
         ({**LIFT, "times": [0.0, 0.5, 0.5, 2.0]}, "times", "there twice"),
         ({**LIFT, "times": [0.0, 0.5, 0.4, 2.0]}, "times", "have to increase"),
-        ({**LIFT, "times": [0.0, 0.5, 0.8]}, "waypoints", "4 entries where there are 3 times"),
+        ({**LIFT, "times": [0.0, 0.5, 0.8]}, "waypoints", "4 entries for 3 times"),
         ({**LIFT, "times": None}, "times", "needed"),
         ({**LIFT, "duration": 1.0}, "duration", "does not go"),
         ({**LIFT, "waypoints": [[0.0, 1.0], [0.3], [1.2], [1.5]]}, "waypoints", "entry 1 has 1 number for"),

@@ -123,7 +123,7 @@ def test_pictures(client: TestClient) -> None:
         ({**SAMPLES, "times": None}, "times", "needed"),
         ({**SAMPLES, "times": [0.0, 0.5, 0.5, 2.0]}, "times", "there twice"),
         ({**SAMPLES, "times": [0.0, 0.5, 0.5, 2.0], "velocities": [0.0] * 4}, "times", "there twice"),
-        ({**SAMPLES, "velocities": [0.0] * 3}, "velocities", "3 entries where there are 4 times"),
+        ({**SAMPLES, "velocities": [0.0] * 3}, "velocities", "3 entries for 4 times"),
         ({**SAMPLES, "velocities": [[0.0, 1.0]] * 4}, "velocities", "entry 0 has 2 numbers"),
         ({**SAMPLES, "accelerations": [0.0] * 4}, "accelerations", "goes with `velocities`"),
         ({**SAMPLES, "velocities": [0.0] * 4, "boundary": "natural"}, "boundary", "there is none"),

@@ -88,7 +88,7 @@ def places(problem: dict[str, Any]) -> list[str]:
             "#/segments/0/waypoints/1",
             "quaternion",
         ),
-        ({"segments": [{**SPLINE, "times": [1.0]}]}, "#/segments/0/times", "1 entries where there are 2"),
+        ({"segments": [{**SPLINE, "times": [1.0]}]}, "#/segments/0/times", "1 entry for 2 waypoints"),
         ({"segments": [{**SPLINE, "times": [2.0, 1.0]}]}, "#/segments/0/times", "entry 1, 1 s, is not after entry 0"),
         ({"segments": [{**SPLINE, "times": [1.0, 1.0]}]}, "#/segments/0/times", "is not after"),
         ({"segments": [{**SPLINE, "times": [0.0, 1.0]}]}, "#/segments/0/times/0", "greater than"),

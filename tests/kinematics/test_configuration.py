@@ -7,7 +7,15 @@ import pytest
 
 from app.kinematics.configuration import MAX_MAGNITUDE, check_limits, checked_rows, configurations
 from app.model.arrays import Configuration
-from app.model.errors import InvalidArray, InvalidField, MissingJoint, OutsideLimits, UnknownJoint, WrongJointCount
+from app.model.errors import (
+    InvalidArray,
+    InvalidField,
+    MissingJoint,
+    OutsideLimits,
+    UnknownJoint,
+    WrongJointCount,
+    counted,
+)
 from tests.robots import robot, samples
 
 ARM = robot("planar_3r").chain("base", "tool")
@@ -65,7 +73,7 @@ def test_the_largest_position() -> None:
 
 @pytest.mark.parametrize("shape", [(3,), (2, 3, 1), ()])
 def test_arrays_of_other_dimensions(shape: tuple[int, ...]) -> None:
-    with pytest.raises(InvalidArray, match=f"has {len(shape)} dimensions"):
+    with pytest.raises(InvalidArray, match=f"has {counted(len(shape), 'dimension')}"):
         checked_rows(ARM, np.zeros(shape), "q")
 
 

@@ -16,7 +16,7 @@ from app.kinematics.ik.task import Task
 from app.kinematics.ik.words import DIRECTIONS, Status
 from app.model.arrays import Array, Flags, Indices
 from app.model.chain import Chain
-from app.model.errors import quoted
+from app.model.errors import counted, quoted
 from app.model.poses import Poses
 from app.model.robot import Robot
 
@@ -136,26 +136,30 @@ def explain(
         return "outside_limits", Failure(reason, nearest, *errors, outside, directions)
     starts = max(1, budget // ITERATIONS_PER_START)
     if directions is None:
-        reason = f"none of {starts} starts reached it, and the time limit ended the call before it was known why"
+        reason = (
+            f"none of {counted(starts, 'start')} reached it, and the time limit ended the call before it was known why"
+        )
         return "not_converged", Failure(reason, nearest, *errors)
     if starts < ENOUGH_STARTS:
-        reason = f"none of {starts} starts came nearer than {_far(question.task, errors)}: allow more iterations"
+        reason = (
+            f"none of {counted(starts, 'start')} came nearer than {_far(question.task, errors)}: allow more iterations"
+        )
         return "not_converged", Failure(reason, nearest, *errors, unserved_directions=directions)
     if _is_stationary(question, i, nearest):
         reason = (
-            f"none of {starts} starts came nearer than {_far(question.task, errors)}, and from there no motion "
-            "of the joints leads on"
+            f"none of {counted(starts, 'start')} came nearer than {_far(question.task, errors)}, and from there no "
+            "motion of the joints leads on"
         )
         if len(directions):
-            reason += f"; the tip cannot follow {len(directions)} of {len(question.task)} directions there"
+            reason += f"; the tip cannot follow {len(directions)} of {counted(len(question.task), 'direction')} there"
         return "unreachable", Failure(reason, nearest, *errors, unserved_directions=directions)
     if len(directions):
         reason = (
             f"the search slowed down {_far(question.task, errors)} from the target, where the Jacobian loses "
-            f"{len(directions)} of {len(question.task)} directions"
+            f"{len(directions)} of {counted(len(question.task), 'direction')}"
         )
         return "singular", Failure(reason, nearest, *errors, unserved_directions=directions)
-    reason = f"none of {starts} starts came nearer than {_far(question.task, errors)}"
+    reason = f"none of {counted(starts, 'start')} came nearer than {_far(question.task, errors)}"
     return "not_converged", Failure(reason, nearest, *errors)
 
 
@@ -200,10 +204,13 @@ def verdict_on_path(
             reason = "the steps grew without bound: take a smaller step size, or leave it out for a line search"
             return "not_converged", Failure(reason, end, *errors)
         case "time_limit":
-            reason = f"{away} away after {len(descent.trace) - 1} iterations, when the time limit ended the call"
+            reason = (
+                f"{away} away after {counted(len(descent.trace) - 1, 'iteration')}, when the time limit ended the call"
+            )
             return "not_converged", Failure(reason, end, *errors)
         case "iterations":
-            reason = f"{away} away after {len(descent.trace) - 1} iterations; try another start, method or step size"
+            after = counted(len(descent.trace) - 1, "iteration")
+            reason = f"{away} away after {after}; try another start, method or step size"
             return "not_converged", Failure(reason, end, *errors)
 
 

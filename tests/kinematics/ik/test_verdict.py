@@ -14,6 +14,7 @@ from app.kinematics.ik.task import FULL_POSE, Task
 from app.kinematics.jacobian import jacobians
 from app.model.arrays import Array
 from app.model.chain import Chain
+from app.model.errors import counted
 from app.model.poses import Poses
 from app.model.robot import Robot
 from tests.kinematics.ik.arms import (
@@ -524,7 +525,7 @@ def test_few_steps_are_not_converged(method: StepMethod, most: int) -> None:
     assert answer.statuses == ["not_converged"]
     assert answer.paths is not None
     assert answer.paths[0].stop_reason == "iterations"
-    assert f"after {most} iterations" in answer.failures[0].reason
+    assert f"after {counted(most, 'iteration')}" in answer.failures[0].reason
 
 
 def test_the_reach_of_a_target_is_looked_at_a_few_times(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,7 +18,7 @@ from app.kinematics.derive.texts import Question
 from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.dh import DhTable
-from app.model.errors import CertificationFailed, InvalidField
+from app.model.errors import CertificationFailed, InvalidField, counted
 
 LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
 """What these fields of a request are called in errors."""
@@ -54,12 +54,14 @@ def checked_dynamics(table: DhTable, chain: Chain, dynamics: Dynamics, count: in
     """
     n, given = len(table.joints), len(dynamics.bodies)
     if given not in {0, n}:
-        raise InvalidField(LINKS, f"has {given} entries where the table has {n} joints: one link a joint, or none")
+        raise InvalidField(
+            LINKS, f"has {counted(given, 'entry')} where the table has {counted(n, 'joint')}: one link a joint, or none"
+        )
     velocities = None
     if dynamics.velocities is not None:
         velocities = configurations(chain, dynamics.velocities, VELOCITIES)
         if len(velocities) != count:
-            reason = f"has {len(velocities)} entries where joint_positions has {count}: one a configuration"
+            reason = f"has {counted(len(velocities), 'entry')} where joint_positions has {count}: one a configuration"
             raise InvalidField(VELOCITIES, reason)
     return replace(dynamics, bodies=dynamics.bodies or (Body(),) * n), velocities
 

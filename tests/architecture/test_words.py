@@ -1,0 +1,56 @@
+"""Sentences that count: one joint, and not `1 joints`."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+from app.model.errors import counted
+
+NOUN = re.compile(r" ([a-z]{3,}s)\b")
+NO_NOUNS = {
+    *("belongs", "comes", "follows", "gives", "holds", "keeps", "leads", "lies", "meets", "reaches", "slides", "stays"),
+    *("stands", "takes", "this", "was", "has", "does", "names", "needs", "goes", "jumps", "misses", "lists", "answers"),
+    *("vanishes", "bytes", "seconds"),
+}
+NEVER_ONE = {
+    *("len(keys) keys", "count coordinates", "joints joints", "pieces pieces", "count samples", "waypoints waypoints"),
+    *("len(links) links", "len(links) - 1 pairs", "split.links links", "split.pairs pairs", "links links"),
+    *("links - 1 pairs", "node.links links", "FREEDOMS[found.space] freedoms", "freedoms freedoms", "len(lost) parts"),
+    *("counted.couplings joints", "counted.constraints constraints", "total constraints", "placed joints"),
+    *("self._lost lines", "len(self.joints) joints", "len(joints) joints", "self.representation angles"),
+    *("self.unfinished jobs", "self.allowed requests", "len(roots) roots"),
+    *("depth[deepest] joints", "len(found) elements", "len(name) characters", "len(attributes) attributes"),
+    *("len(value) characters", "len(found) orientations", "len(grounds) links", "peak.ratio times", "count waypoints"),
+    *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times", "len(spline.times) knots"),
+    *("4 * (N - 1) coefficients", "2 * (N - 1) positions", "2 * (N - 2) continuities", "2 * len(starts) conditions"),
+    *("degree + 1 coefficients", "moves + turns independent"),
+}
+"""Numbers that are two or more, or a limit, or zero; and those whose sentence has a form for one."""
+
+
+def counts(path: Path) -> set[str]:
+    """The numbers that stand before the plural of a noun."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.JoinedStr):
+            continue
+        for value, text in zip(node.values, node.values[1:], strict=False):
+            if isinstance(value, ast.FormattedValue) and isinstance(text, ast.Constant):
+                noun, number = NOUN.match(str(text.value)), ast.unparse(value.value)
+                is_limit = re.fullmatch(r"(\w+\.)?_?[A-Z_]+", number)
+                if noun and noun[1] not in NO_NOUNS and not is_limit:
+                    found.add(f"{number} {noun[1]}")
+    return found
+
+
+def test_what_is_counted_has_a_form_for_one() -> None:
+    assert (counted(1, "entry"), counted(0, "entry"), counted(2, "joint")) == ("1 entry", "0 entries", "2 joints")
+    assert {one for path in Path("app").rglob("*.py") for one in counts(path)} - NEVER_ONE == set()
+
+
+@pytest.mark.parametrize("text", ["f'{len(x)} joints'", "f'the {n} parts, and'"])
+def test_it_is_seen(text: str, tmp_path: Path) -> None:
+    (tmp_path / "page.py").write_text(f"say({text})")
+    assert len(counts(tmp_path / "page.py")) == 1
