@@ -46,6 +46,7 @@ from app.jobs.runner import Kind, Runner
 from app.jobs.shelf import Limits, Shelf
 from app.jobs.workers import Workers
 from app.settings import Settings
+from app.store.library import Quota
 
 DESCRIPTION = """
 A URDF or a Denavit-Hartenberg table goes in, and each turns into the other; forward and inverse kinematics, velocities,
@@ -69,7 +70,8 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
         crew: What does the work that may take long; processes of its own if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
-    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds)
+    quota = Quota(settings.client_robots, settings.client_robot_bytes)
+    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds, quota)
     library = setup.library()
     crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)

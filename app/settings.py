@@ -41,6 +41,9 @@ class Settings:
         requests_waiting: Requests of each worker process that may wait to be begun (`GELENK_REQUESTS_WAITING`).
         client_requests: Requests of one client, told by its key or else by its address, that may wait for one of the
             crew or be worked on (`GELENK_CLIENT_REQUESTS`).
+        client_robots: Uploaded robots that one client may keep, told by its key; all clients without a key are one
+            (`GELENK_CLIENT_ROBOTS`).
+        client_robot_bytes: Bytes of all of them (`GELENK_CLIENT_ROBOT_BYTES`).
         crew_memory_bytes: What each of the crew may take beside the program itself (`GELENK_CREW_MEMORY_BYTES`).
         request_seconds: How long a request may wait for one of the crew, and may then take, [s]
             (`GELENK_REQUEST_SECONDS`).
@@ -86,6 +89,8 @@ class Settings:
     connections: int = 2000
     requests_waiting: int = 150
     client_requests: int = 16
+    client_robots: int = 20_000
+    client_robot_bytes: int = 10 * 1024**3
     crew_memory_bytes: int = 4 * 1024**3
     request_seconds: int = 60
     job_processes: int = field(default_factory=lambda: min(8, os.cpu_count() or 1))

@@ -1,6 +1,6 @@
 """All operations on a robot, and what a process of the crew sets its desk up from."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from app.api.singularity import singularity_operation
 from app.api.statics import statics_operation
 from app.api.trajectory import trajectory_operation
 from app.api.velocity import velocity_operation
-from app.store.library import Library
+from app.store.library import Library, Quota
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,12 +26,14 @@ class Setup:
         uploads: Folder of all others.
         max_answer_numbers: Most numbers in one answer.
         seconds: How long a request may take; what has a time limit of its own is to end before.
+        quota: What one client may keep.
     """
 
     catalogue: Path
     uploads: Path
     max_answer_numbers: int
     seconds: float
+    quota: Quota = field(default_factory=Quota)
 
     def operations(self) -> list[Operation]:
         """All operations on a robot."""
@@ -49,7 +51,7 @@ class Setup:
 
     def library(self) -> Library:
         """All robots."""
-        return Library(self.catalogue, self.uploads)
+        return Library(self.catalogue, self.uploads, self.quota)
 
     def desk(self) -> Desk:
         """What a process needs to answer with."""

@@ -25,6 +25,8 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.InvalidInput: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.NotFound: HTTPStatus.NOT_FOUND,
     errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+    # Waiting is of no use, so that no client is to try again by itself: neither 429 nor a 5xx.
+    errors.QuotaExceeded: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     errors.RobotExists: HTTPStatus.CONFLICT,
     errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
     errors.StorageFailed: HTTPStatus.SERVICE_UNAVAILABLE,

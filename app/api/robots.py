@@ -2,7 +2,8 @@
 
 import asyncio
 import os
-from dataclasses import dataclass
+import time
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path as FilePath
 from typing import IO, Annotated, Any
@@ -45,9 +46,13 @@ from app.store.library import Library, RobotUpload
 from app.store.records import LoadedRobot, Record
 
 MULTIPART = "multipart/form-data"
+WITHOUT_KEY = "clients without a key"
+"""Whose an upload without a key is: addresses change, and where no key is needed all share one machine."""
 SANDBOXED = {"Content-Security-Policy": "default-src 'none'; sandbox", "X-Content-Type-Options": "nosniff"}
 """Files that came from outside: shown by no browser as a page of ours."""
 _PIECE = 256 * 1024
+_LIST_SECONDS = 5.0
+"""How long the list of robots is good for, where nothing says that it has changed."""
 _MESH_TYPES = {
     ".stl": "model/stl",
     ".obj": "model/obj",
@@ -62,6 +67,7 @@ _MESH_TYPES = {
 def robots_router(library: Library, remote: Remote) -> APIRouter:
     """What reads robots, or removes them: the crew looks at them, because a description comes from outside."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
+    listed = Listed(library, remote)
 
     @router.get(
         "",
@@ -72,7 +78,7 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
     )
     async def list_robots(request: Request) -> Any:
         """The catalogue's robots, then the uploaded ones, each part by name."""
-        return await remote.answer(request, _listed, Inquiry())
+        return await listed.answer(request)
 
     @router.get(
         "/{robot}",
@@ -156,6 +162,30 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
     return router
 
 
+class Listed:
+    """The list of all robots, kept as long as none is uploaded, replaced or removed, by whichever process.
+
+    What a person changes in the folder of a robot is told when the list has become old.
+
+    Args:
+        library: All robots.
+        remote: Who makes the list.
+    """
+
+    def __init__(self, library: Library, remote: Remote) -> None:
+        self._library, self._remote = library, remote
+        self._kept: tuple[int, float, bytes] | None = None
+
+    async def answer(self, request: Request) -> Response:
+        """The list; raises as `Remote.answer` does."""
+        state, now = self._library.state(), time.monotonic()
+        if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
+            return Response(self._kept[2], media_type=JSON)
+        content = await self._remote.told(request, _listed, Inquiry())
+        self._kept = None if state is None else (state, now, content)
+        return Response(content, media_type=JSON)
+
+
 def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
     """What writes robots: as JSON, or as a zip in a form."""
 
@@ -220,9 +250,11 @@ def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
 async def _receive(request: BoundedRequest, remote: Remote, name: str | None) -> Response:
     """Take an upload in either form; the crew looks at it and keeps it."""
     root_path, given = request.scope.get("root_path", ""), request.media_type
+    key = request.scope.get("gelenk.key")
+    owner = WITHOUT_KEY if key is None else f"key {key}"
     if given == JSON:
         inquiry = Inquiry(buffers(await request.pieces()))
-        return await remote.answer(request, Keep(name, root_path), inquiry)
+        return await remote.answer(request, Keep(name, root_path, owner), inquiry)
     if given != MULTIPART:
         raise UnsupportedMediaType(given, (JSON, MULTIPART))
     with writing():
@@ -236,7 +268,7 @@ async def _receive(request: BoundedRequest, remote: Remote, name: str | None) ->
         pieces = await asyncio.to_thread(lambda: list(iter(lambda: archive.file.read(_PIECE), b"")))
     finally:
         await form.close()
-    return await remote.answer(request, Keep(name, root_path, text), Inquiry(buffers(pieces)))
+    return await remote.answer(request, Keep(name, root_path, owner, text), Inquiry(buffers(pieces)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,17 +278,19 @@ class Keep:
     Attributes:
         name: The robot to replace; None adds one.
         root_path: What goes before the path of its address.
+        owner: Whose it is.
         form: The fields that come with an archive; None where the body is JSON.
     """
 
     name: str | None
     root_path: str
+    owner: str
     form: ArchiveReplacement | None = None
 
     def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
         """The robot as it is kept now."""
         if self.form is None:
-            return self._kept(desk.library, _from_json(inquiry.body, self.name))
+            return self._kept(desk.library, replace(_from_json(inquiry.body, self.name), owner=self.owner))
         with unpacked(BytesIO(inquiry.body), root=desk.library.uploads) as content:
             upload = RobotUpload(
                 name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
@@ -267,6 +301,7 @@ class Keep:
                 meshes=content.meshes,
                 urdf_folder=content.urdf_folder,
                 strict=self.form.strict,
+                owner=self.owner,
             )
             return self._kept(desk.library, upload)
 
@@ -290,8 +325,24 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
 
 
 def _listed(desk: Desk, _: Inquiry) -> Response:
-    summaries = (_summary(desk.library, record) for record in desk.library.records())
-    return json_response({"robots": [summary.model_dump(mode="json") for summary in summaries if summary is not None]})
+    before, now, told = _LINES.copy(), desk.library.records(), []
+    _LINES.clear()
+    for record in now:
+        known = before.get(record.name)
+        line = known[1] if known is not None and known[0] is record else _line(desk.library, record)
+        if line is not None:
+            _LINES[record.name] = record, line
+            told.append(line)
+    return Response(b'{"robots":[%b]}' % b",".join(told), media_type=JSON)
+
+
+_LINES: dict[str, tuple[Record, bytes]] = {}
+"""What the list told of each robot, in this process: records are the same objects as long as nothing has changed."""
+
+
+def _line(library: Library, record: Record) -> bytes | None:
+    summary = _summary(library, record)
+    return None if summary is None else summary.model_dump_json().encode()
 
 
 def _described(desk: Desk, inquiry: Inquiry) -> Response:

@@ -326,7 +326,8 @@ def _was_interrupted(job: Job) -> bool:
 def _size(folder: Path) -> int:
     """Bytes of the files below a folder."""
     total = 0
-    for path in folder.rglob("*"):
-        with suppress(OSError):
-            total += path.stat().st_size
+    for parent, _, names in os.walk(folder):  # takes no harm where a folder is removed meanwhile
+        for name in names:
+            with suppress(OSError):
+                total += (Path(parent) / name).stat().st_size
     return total

@@ -23,6 +23,7 @@
     │   ├── UnknownMesh
     │   └── UnknownJob
     ├── TooLarge                     more than the service is set up to take
+    ├── QuotaExceeded                more robots, or bytes of them, than one client may keep
     ├── RobotExists                  the name stands for something else
     ├── ReadOnlyRobot                a robot of the catalogue
     ├── StorageFailed                the disk cannot be written to
@@ -426,6 +427,26 @@ class TooLarge(KinematicsError):
     def detail(self) -> str:
         """Both numbers."""
         return f"{self.what}: {self.given} is more than the {self.allowed} allowed"
+
+
+@dataclass(eq=False)
+class QuotaExceeded(KinematicsError):
+    """A client would keep more than it may: of what, how much it keeps, what comes on top, and what is allowed."""
+
+    client: str
+    what: str
+    used: int
+    more: int
+    allowed: int
+
+    @property
+    def detail(self) -> str:
+        """The numbers, and what can be done."""
+        return (
+            f"{self.used} {self.what} are kept for {quoted(self.client)}, and {self.more} would come on top; "
+            f"allowed are {self.allowed}: remove robots that are no longer needed (DELETE /v1/robots/{{robot}}), or "
+            "have whoever runs the service raise GELENK_CLIENT_ROBOTS or GELENK_CLIENT_ROBOT_BYTES"
+        )
 
 
 @dataclass(eq=False)

@@ -28,6 +28,8 @@ class RobotFile(Payload):
     meshes: str | None = Field(default=None, description="Folder of the mesh files, in this folder.")
     urdf_folder: str = Field(default="", description="Where the URDF stood among the mesh files.")
     digest: str | None = Field(default=None, description="SHA-256 of the model and its meshes, of an uploaded robot.")
+    owner: str | None = Field(default=None, description="Which client uploaded it; null where none did.")
+    kept_bytes: int = Field(default=0, description="Of the model and its meshes, of an uploaded robot.")
     left_out: int = Field(default=0, description="Files of the archive, meshes or pictures, that nothing names.")
     default_chain: ChainEnds | None = None
     chains: dict[str, ChainEnds] = Field(default_factory=dict)

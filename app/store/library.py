@@ -11,6 +11,7 @@ import logging
 import os
 import re
 import threading
+import time
 import uuid
 from collections import OrderedDict
 from collections.abc import Mapping
@@ -23,6 +24,7 @@ from app.model.errors import (
     InvalidName,
     InvalidRobotFolder,
     KinematicsError,
+    QuotaExceeded,
     ReadOnlyRobot,
     RobotExists,
     StorageFailed,
@@ -33,15 +35,17 @@ from app.model.robot import Robot
 from app.schemas.common import ChainEnds
 from app.schemas.robots import RobotFile
 from app.store import folders
-from app.store.folders import Content
+from app.store.folders import Content, Stretch
 from app.store.meshes import MeshFiles, flat
-from app.store.records import ROBOT_FILE, LoadedRobot, Record, describe, load, mesh_file, read_record
+from app.store.records import ROBOT_FILE, LoadedRobot, Record, Stamp, describe, load, mesh_file, read_record, stamp_of
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _MEMORY = 512 * 1024 * 1024
 """Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
 _VERSION = re.compile(r"files-[0-9a-f]{12}")
 _MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
+_TICK = 2_000_000_000
+"""Nanoseconds within which two changes of a folder may have the same time."""
 _ATTEMPTS = 3
 """A folder may be replaced between the reading of its record and of its model."""
 
@@ -61,6 +65,7 @@ class RobotUpload:
         meshes: What mesh files hold, by relative path.
         urdf_folder: Where the URDF stood among them.
         strict: Whether a URDF with harmless faults is refused; asked when it comes, and not kept.
+        owner: Which client keeps it, counted against its quota.
     """
 
     name: str
@@ -71,6 +76,20 @@ class RobotUpload:
     meshes: Mapping[str, Content] = field(default_factory=dict)
     urdf_folder: str = ""
     strict: bool = False
+    owner: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Quota:
+    """What one client may keep.
+
+    Attributes:
+        robots: How many uploaded ones.
+        robot_bytes: Of all of them.
+    """
+
+    robots: int = 20_000
+    robot_bytes: int = 10 * 1024**3
 
 
 class Library:
@@ -79,13 +98,15 @@ class Library:
     Args:
         catalogue: Folder of the robots that come with the project.
         uploads: Folder of all others; made when first written to.
+        quota: How much of these each client may keep.
 
     Attributes:
         uploads: The latter.
     """
 
-    def __init__(self, catalogue: Path, uploads: Path) -> None:
-        self.uploads = uploads
+    def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
+        self.uploads, self._quota = uploads, quota
+        self._uploaded: dict[str, tuple[Stamp, Record]] = {}
         found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
         self._catalogue = {record.name: record for record in found if record is not None}
         self._loaded: OrderedDict[str, LoadedRobot] = OrderedDict()
@@ -114,15 +135,57 @@ class Library:
 
     def records(self) -> list[Record]:
         """All robots, the catalogue's first, each part by name; folders that are no robots are left out."""
-        uploaded = []
-        for folder in self._folders():
+        return [*self._catalogue.values(), *self._uploaded_records()]
+
+    def _uploaded_records(self) -> list[Record]:
+        """The uploaded robots by name; of each its `robot.json` is read again when it has changed."""
+        before, self._uploaded = self._uploaded, {}
+        records = []
+        for name in sorted(self._names()):
             try:
-                record = read_record(folder, "uploaded")
+                stamp, known = stamp_of(f"{self.uploads}/{name}/{ROBOT_FILE}"), before.get(name)
+                is_same = known is not None and stamp == known[0]
+                record = known[1] if known and is_same else read_record(self.uploads / name, "uploaded")
             except (KinematicsError, OSError):
                 continue
             if record is not None:
-                uploaded.append(record)
-        return [*self._catalogue.values(), *uploaded]
+                records.append(record)
+                if stamp is not None:
+                    self._uploaded[name] = stamp, record
+        return records
+
+    def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
+        """Refuse what its owner has no room for; a robot of the same owner makes room for what takes its place.
+
+        Raises:
+            QuotaExceeded: How much there is, and may be.
+        """
+        if new.owner is None:
+            return
+        mine = [record.file for record in self._uploaded_records() if record.file.owner == new.owner]
+        replaced = [old] if old is not None and old.owner == new.owner else []
+        for what, used, more, allowed in (
+            ("robots", len(mine), 1 - len(replaced), self._quota.robots),
+            (
+                "bytes of robots",
+                sum(file.kept_bytes for file in mine),
+                new.kept_bytes - sum(file.kept_bytes for file in replaced),
+                self._quota.robot_bytes,
+            ),
+        ):
+            if more > 0 and used + more > allowed:
+                raise QuotaExceeded(new.owner, what, used, more, allowed)
+
+    def state(self) -> int | None:
+        """A number that changes whenever a robot is uploaded, replaced or removed; None as long as it may change again.
+
+        That is the time of the folder, which whoever writes makes and removes a folder in; its clock may tick slowly.
+        """
+        try:
+            changed = self.uploads.stat().st_mtime_ns
+        except OSError:
+            return None
+        return changed if abs(time.time_ns() - changed) > _TICK else None
 
     def loaded(self, name: str) -> LoadedRobot | None:
         """A robot if it is in memory and up to date; quick enough for an event loop."""
@@ -199,6 +262,7 @@ class Library:
             with folders.exclusive(self.uploads):
                 if _stands(folder, file):
                     return False
+                self._check_quota(file)
                 folders.move(new, folder)
         return True
 
@@ -217,6 +281,7 @@ class Library:
             folders.write_tree(staging / version, contents)
             with folders.exclusive(self.uploads):
                 self._writable(upload.name)
+                self._check_quota(file, _file_of(folder))
                 folders.sweep(folder)
                 folders.move(staging / version, folder / version)
                 try:
@@ -245,10 +310,15 @@ class Library:
 
     def _folders(self) -> list[Path]:
         """The folders that may be uploaded robots."""
-        if not self.uploads.is_dir():
+        return [path for name in sorted(self._names()) if (path := self.uploads / name).is_dir()]
+
+    def _names(self) -> list[str]:
+        """What may be the name of an uploaded robot; a file may have such a name too."""
+        try:
+            names = os.listdir(self.uploads)  # noqa: PTH208 - there may be thousands
+        except (FileNotFoundError, NotADirectoryError):
             return []
-        names = (path for path in self.uploads.iterdir() if _NAME.fullmatch(path.name))
-        return sorted(path for path in names if path.name not in self._catalogue and path.is_dir())
+        return [name for name in names if _NAME.fullmatch(name) and name not in self._catalogue]
 
     def _move_stale_versions(self, folder: Path, aside: Path) -> None:
         """Move versions away that a killed replacement wrote, or did not come to remove."""
@@ -324,6 +394,8 @@ def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
         meshes=f"{version}/meshes" if used else None,
         urdf_folder=upload.urdf_folder,
         digest=_digest(upload),
+        owner=upload.owner,
+        kept_bytes=sum(content.size if isinstance(content, Stretch) else len(content) for content in contents.values()),
         left_out=len(upload.meshes) - len(used),
         default_chain=ChainEnds(base_frame=base_frame, tip_frame=tip_frame),
     )
@@ -357,14 +429,20 @@ def _stands(folder: Path, wanted: RobotFile) -> bool:
     return folder.exists()
 
 
-def _holds(folder: Path, wanted: RobotFile) -> bool:
+def _file_of(folder: Path) -> RobotFile | None:
+    """What a folder tells of itself, where it can be read."""
     try:
         record = read_record(folder, "uploaded")
     except (KinematicsError, OSError):
-        return False
-    apart = {"model", "meshes", "left_out"}
+        return None
+    return record.file if record is not None else None
+
+
+def _holds(folder: Path, wanted: RobotFile) -> bool:
+    file = _file_of(folder)
+    apart = {"model", "meshes", "owner", "kept_bytes", "left_out"}
     return (
-        record is not None
-        and record.file.digest is not None
-        and record.file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
+        file is not None
+        and file.digest is not None
+        and file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
     )

@@ -109,7 +109,7 @@ def read_record(folder: Path, source: Source) -> Record | None:
 
 def _read_record(folder: Path, source: Source) -> Record | None:
     path = folder / ROBOT_FILE
-    stamp = _stamp(path)
+    stamp = stamp_of(path)
     file = _robot_file(path) if stamp else _without_robot_file(folder)
     if file is None:
         return None
@@ -118,14 +118,14 @@ def _read_record(folder: Path, source: Source) -> Record | None:
             raise InvalidRobotFolder("only the catalogue refers to packages", f"{folder.name}/{ROBOT_FILE}")
         root = package_data()
         model = root / file.model.path
-        return Record(folder.name, source, file, path, model, root.parent, (stamp, _stamp(model)))
+        return Record(folder.name, source, file, path, model, root.parent, (stamp, stamp_of(model)))
     inside = folder.resolve()
     for name in filter(None, (file.model, file.meshes)):
         if not (folder / name).resolve().is_relative_to(inside):
             raise InvalidRobotFolder(f"the path {quoted(name)} leads out of the folder", f"{folder.name}/{ROBOT_FILE}")
     model = folder / file.model
     meshes = folder / file.meshes if file.meshes else None
-    signature = (stamp, _stamp(model))
+    signature = (stamp, stamp_of(model))
     if signature[1] is None:
         raise FileNotFoundError(file.model)
     return Record(folder.name, source, file, path, model, meshes, signature)
@@ -190,7 +190,7 @@ def package_data() -> Path:
     return Path(str(distribution.locate_file("cmeel.prefix/share/example-robot-data")))
 
 
-def _stamp(path: Path) -> Stamp | None:
+def stamp_of(path: Path | str) -> Stamp | None:
     """What changes with a file; None where there is no such file, or something that is none."""
     try:
         status = os.stat(path)  # noqa: PTH116 - on the path of every call
@@ -202,7 +202,7 @@ def _stamp(path: Path) -> Stamp | None:
 
 
 def _signature(file_path: Path, model_path: Path) -> Signature:
-    return _stamp(file_path), _stamp(model_path)
+    return stamp_of(file_path), stamp_of(model_path)
 
 
 def _robot_file(path: Path) -> RobotFile:

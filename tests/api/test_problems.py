@@ -30,7 +30,7 @@ from app.model.poses import Poses
 from app.model.urdf import read_urdf
 from app.store.archive import unpacked
 from app.store.folders import writing
-from app.store.library import Library, RobotUpload
+from app.store.library import Library, Quota, RobotUpload
 from app.store.records import read_record
 from app.trajectory.audit import audit
 from app.trajectory.audit_demands import Demands
@@ -105,6 +105,7 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidArray: lambda: read_npy(b"no array"),
     errors.InvalidArchive: lambda: unpacked(BytesIO(b"no zip")).__enter__(),
     errors.InvalidName: lambda: Library(CATALOGUE, CATALOGUE / "none").add(RobotUpload("a/b", "urdf", b"")),
+    errors.QuotaExceeded: lambda: beyond_the_quota(),  # noqa: PLW0108 - it stands below
     errors.InvalidRobotFolder: lambda: read_record(Path("x\0"), "uploaded"),
     errors.UnsupportedJoint: lambda: build_chain(read_urdf(SHIP), "sea", "crane"),
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
@@ -127,6 +128,12 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.CertificationFailed: lambda: certify_poses(PLANAR, PLANAR.chain(None, None), np.zeros((1, 2)), WRONG),
 }
 """What needs more than a request, or a state that no request can bring about."""
+
+
+def beyond_the_quota() -> None:
+    with TemporaryDirectory() as folder:
+        row = b'<robot name="r"><link name="l"/></robot>'
+        Library(CATALOGUE, Path(folder), Quota(0, 1)).add(RobotUpload("mine", "urdf", row, owner="somebody"))
 
 
 def on_a_shelf(do: Callable[[Shelf], object]) -> None:
