@@ -29,6 +29,8 @@ from app.supervisor import Supervisor
 SHUTDOWN_SECONDS = 3
 """How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 5."""
 
+_OWN_FILES, _FILES_A_PROCESS, _FEWEST_CONNECTIONS = 32, 4, 16
+"""What a process of the service has open beside its connections, and how many of these it is not worth less than."""
 _METRICS, _LOCK = "gelenk-metrics-", "lock"
 
 OPEN_TO_ALL = (
@@ -65,11 +67,11 @@ def main() -> None:
         sys.exit("GELENK_RAY_ADDRESS needs the extra `ray`: install requirements-ray.lock, as ./dev serve does")
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host))
-    _open_as_many_files_as_allowed()
+    room = _room_for_connections(settings.crew_processes + settings.job_processes)
     listener = _listening(arguments.host, arguments.port)
     where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
     print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
-    bounds = Bounds(connections=settings.connections, waiting=settings.requests_waiting)
+    bounds = Bounds(connections=min(settings.connections, room), waiting=settings.requests_waiting)
     config = uvicorn.Config(
         "app.main:from_environment",
         factory=True,
@@ -136,10 +138,21 @@ def is_loopback(host: str) -> bool:
         return host == "localhost"
 
 
-def _open_as_many_files_as_allowed() -> None:
-    """Each connection is one; the usual limit is for programs that count them otherwise."""
+def _room_for_connections(processes: int) -> int:
+    """How many connections each process of the service may have open, which are files to the system.
+
+    Args:
+        processes: That each of them has for its work.
+
+    Raises:
+        SystemExit: Hardly any.
+    """
     hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
-    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))  # the usual limit is for programs that count otherwise
+    own = _OWN_FILES + _FILES_A_PROCESS * processes
+    if 0 <= hard < own + _FEWEST_CONNECTIONS:
+        sys.exit(f"only {hard} files may be open (`ulimit -n`): the service needs {own + _FEWEST_CONNECTIONS} or more")
+    return sys.maxsize if hard == resource.RLIM_INFINITY else hard - own
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ class Settings:
             clients that have none while others have all (`GELENK_CREW_PROCESSES`).
         crew_waiting: Requests that may wait for one of the crew; more are refused (`GELENK_CREW_WAITING`).
         connections: Open connections of each worker process; where there are more, those are closed that wait longest
-            for their client (`GELENK_CONNECTIONS`).
+            for their client; fewer where the system allows fewer open files (`GELENK_CONNECTIONS`).
         requests_waiting: Requests of each worker process that may wait to be begun (`GELENK_REQUESTS_WAITING`).
         client_requests: Requests of one client, told by its key or else by its address, that may wait for one of the
             crew or be worked on (`GELENK_CLIENT_REQUESTS`).

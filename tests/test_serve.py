@@ -13,7 +13,7 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from http.client import HTTPConnection
 from pathlib import Path
 from threading import Semaphore
@@ -197,6 +197,31 @@ def test_what_a_killed_service_has_counted_goes_at_the_next_start(
             assert ours.exists()
         assert ours.exists()
     assert list(tmp_path.iterdir()) == [foreign]
+
+
+def test_a_crowd_takes_no_more_files_than_there_may_be(tmp_path: Path) -> None:
+    port = free_port()
+    few = {"GELENK_DATA_DIR": str(tmp_path), "GELENK_CREW_PROCESSES": "2", "GELENK_JOB_PROCESSES": "2"}
+    command = f"ulimit -n 64; exec {sys.executable} -m app.serve --port {port}"
+    with subprocess.Popen(["bash", "-c", command], env={**os.environ, **few}, text=True) as run, ExitStack() as crowd:
+        try:
+            url = f"http://{HOST}:{port}"
+            wait_until_ready(url, run)
+            for _ in range(120):
+                crowd.enter_context(socket.create_connection((HOST, port), timeout=20))
+            assert get(f"{url}/healthz")[0] == 200
+            assert get(f"{url}/v1/robots/planar_2r/fk", "POST", {"joint_positions": [[0.0, 0.0]]})[0] == 200
+        finally:
+            run.terminate()
+            run.wait(timeout=20)
+
+
+def test_hardly_any_files_end_it_with_one_line() -> None:
+    command = f"ulimit -n 40; exec {sys.executable} -m app.serve --port {free_port()}"
+    run = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode == 1
+    assert run.stderr.startswith("only 40 files may be open (`ulimit -n`): the service needs ")
+    assert run.stderr.count("\n") == 1
 
 
 def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
