@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from http.client import HTTPException
 from pathlib import Path
 
-from tests.api.test_hostile_calls import JSON_OPERATIONS
-from tests.corpus.bodies import JSON, Call, of_json
+from tests.api.test_hostile_calls import JSON_OPERATIONS, wrong_bodies
+from tests.corpus.bodies import JSON, Call
 from tests.corpus.calls import ALL, NPY, PLANAR, RAW_PATHS
 from tests.corpus.dh import REFUSED_DH, REFUSED_JSON
 from tests.corpus.fields import PANDA
@@ -77,7 +77,7 @@ def corpus() -> Iterator[Call]:
     yield from RAW_PATHS
     for method, path, example in JSON_OPERATIONS:
         if path in _SOME and method == "POST":
-            yield from of_json(method, path.replace("{robot}", "panda"), example)
+            yield from wrong_bodies(method, path, "panda", example)
 
 
 def test_a_service_survives_the_whole_corpus(tmp_path: Path) -> None:

@@ -157,7 +157,10 @@ def staging(root: Path) -> Iterator[Path]:
             # Locked as long as it is in use: see `_is_in_use`.
             lock = stack.enter_context((folder / _LOCK).open("w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
-            orphans = [orphan.rename(folder / orphan.name) for orphan in _orphans(root)]
+            orphans = []
+            for orphan in _orphans(root):
+                with suppress(FileNotFoundError):  # its writer is about to remove it
+                    orphans.append(orphan.rename(folder / orphan.name))
         for orphan in orphans:
             discard(orphan)
         yield folder

@@ -244,7 +244,7 @@ def test_a_disk_that_refuses_is_said_and_leaves_nothing(
 ) -> None:
     """The crew's part is done in this process, where the disk can be made to refuse."""
 
-    async def here(_: Crew, function: Callable[[Any], Any], argument: Any, __: float) -> Any:
+    async def here(__: Crew, function: Callable[[Any], Any], argument: Any, *_: Any) -> Any:
         return function(argument)
 
     monkeypatch.setattr(Crew, "run", here)

@@ -12,7 +12,7 @@ NOUN = re.compile(r" ([a-z]{3,}s)\b")
 NO_NOUNS = {
     *("belongs", "comes", "follows", "gives", "holds", "keeps", "leads", "lies", "meets", "reaches", "slides", "stays"),
     *("stands", "takes", "this", "was", "has", "does", "names", "needs", "goes", "jumps", "misses", "lists", "answers"),
-    *("vanishes", "bytes", "seconds"),
+    *("vanishes", "bytes", "seconds", "counts"),
 }
 NEVER_ONE = {
     *("len(keys) keys", "count coordinates", "joints joints", "pieces pieces", "count samples", "waypoints waypoints"),
@@ -25,6 +25,8 @@ NEVER_ONE = {
     *("len(value) characters", "len(found) orientations", "len(grounds) links", "peak.ratio times", "count waypoints"),
     *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times", "len(spline.times) knots"),
     *("4 * (N - 1) coefficients", "2 * (N - 1) positions", "2 * (N - 2) continuities", "2 * len(starts) conditions"),
+    *("len(names) meshes", "len(parts) - 1 folders", "len(path.trace) configurations", "voxels voxels"),
+    *("rotations orientations", "hard files"),
     *("degree + 1 coefficients", "moves + turns independent"),
 }
 """Numbers that are two or more, or a limit, or zero; and those whose sentence has a form for one."""

@@ -64,7 +64,7 @@ REFUSED = {
     "a header alone": (b"joint_1,joint_2\n", "there are no rows in it"),
     "no rows of npy": (npy(np.zeros((0, 2))), "there are no rows in it"),
     "ragged": (b"0.1,0.2\n0.3\n", "all rows must have as many numbers; these have [1, 2]"),
-    "ragged below a header": (b"a,b\n0.1,0.2\n0.3\n", "line 3: '0.3' has 1 cells where the header has 2"),
+    "ragged below a header": (b"a,b\n0.1,0.2\n0.3\n", "line 3: '0.3' has 1 cell where the header has 2"),
     "a hole": (b"0.1,,0.2\n", "line 1: '0.1,,0.2' holds something that is not a finite number"),
     "nan": (b"0.1,0.2\n0.1,nan\n", "line 2: '0.1,nan' holds something that is not a finite number"),
     "some of the joints": (b"joint_1,elbow\n0.1,0.2\n", "names joints of the chain, but not joint_2"),
@@ -149,7 +149,7 @@ def test_a_table_as_csv_is_the_table_again(shell: Shell, tmp_path: Path) -> None
 
 
 WRONG_TABLES = {
-    "too many cells": (TABLE + b"revolute,1,0,0,0,7\n", "joint 3 of the table: 6 cells where there are 5 columns"),
+    "too many cells": (TABLE + b"revolute,1,0,0,0,7\n", "joint 3 of the table: 6 cells for 5 columns"),
     "no number": (TABLE + b"revolute,1,pi/x,0,0\n", "joint 3 of the table: alpha: 'pi/x' is not a number"),
     "bytes": (b"\xff\xfe", "must be text in UTF-8"),
     "no rows": (b"type,a,alpha,d,theta\n", "at least 1 item"),

@@ -157,4 +157,11 @@ def test_each_option_is_compared() -> None:
         compared.add((" ".join(asked.words[:words]), option.removeprefix("--")))
     left = {(command, option) for command, option in options() if option not in ELSEWHERE} - compared
     # No question with an answer to compare; and what is given to a new robot, `test_every_operation` asks for.
-    assert left == {("bench", "base"), ("bench", "tip"), ("add", "base"), ("add", "tip"), ("add", "name")}
+    assert left == {
+        ("bench", "base"),
+        ("bench", "tip"),
+        ("add", "base"),
+        ("add", "tip"),
+        ("add", "name"),
+        ("jobs cancel", "finished"),
+    }

@@ -68,7 +68,7 @@ def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.Mo
 
     monkeypatch.setattr("app.api.remote.Remote.answer", fail)
     with TestClient(application(data_dir=tmp_path), raise_server_exceptions=False) as client:
-        answer = client.get("/v1/robots")
+        answer = client.get("/v1/robots/panda")
     assert answer.status_code == 500
     assert answer.headers["x-request-id"] == answer.json()["request_id"]
     assert "boom" not in answer.text
