@@ -39,7 +39,7 @@ OF_HTTP = (
         HTTPStatus.BAD_REQUEST,
         "What came is not HTTP. The connection is closed.",
     ),
-    Kind("invalid-host", HTTPStatus.BAD_REQUEST, "The request does not name the host that it is for exactly once."),
+    Kind("invalid-host", HTTPStatus.BAD_REQUEST, "The request does not name the one host that it is for."),
     Kind("repeated-header", HTTPStatus.BAD_REQUEST, "A header field that counts once, such as a key, stands twice."),
     Kind("malformed-json", HTTPStatus.BAD_REQUEST, "The body is not JSON: where its reader had to stop."),
     Kind(

@@ -4,6 +4,7 @@ The very address that a connection has come in on is always answered for: a name
 (DNS rebinding) is another one.
 """
 
+import re
 from collections.abc import Sequence
 from http import HTTPStatus
 
@@ -18,6 +19,7 @@ ONCE = frozenset(
     b"authorization content-type origin sec-fetch-site access-control-request-method last-event-id".split()
 )
 """Fields that decide something, and are no lists."""
+_HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
 _MOST_REMEMBERED = 64
 
 
@@ -49,8 +51,8 @@ class TrustedHosts:
         given = exchange.headers.get(b"host", b"")
         if given in self._remembered and self._stands_once(exchange):
             return None
-        if not given or not self._stands_once(exchange):
-            detail = "a request names the host that it is for, once"
+        if not _HOST.fullmatch(given) or not self._stands_once(exchange):
+            detail = "a request names the host that it is for, once: a name or an address, and a port where it has one"
             return problem(exchange.request, HTTPStatus.BAD_REQUEST, "invalid-host", detail)
         name = _without_port(given.decode("latin-1").lower())
         if self._any or name in self._names or name.endswith(self._endings):
