@@ -18,8 +18,6 @@ _BUSY = 503
 _LEFT = 499
 """Stands in the log for the status of an answer that nobody waited for."""
 
-_SUM_SECONDS = 3600.0
-"""How long the refused writes of a key are summed up after one of them has got a line, [s]."""
 _MOST_CLIENTS = 8
 """Addresses that such a line names."""
 
@@ -63,10 +61,13 @@ class Audit:
         folder: Where it is kept; made when first written to.
         most_bytes: Of one file; a full one becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`.
         kept: Full files that are kept.
+        sum_seconds: How long refused writes are summed up after the first one has got a line, [s].
     """
 
-    def __init__(self, folder: Path, most_bytes: int = 16 * 1024 * 1024, kept: int = 4) -> None:
-        self._folder, self._most_bytes, self._kept = folder, most_bytes, kept
+    def __init__(
+        self, folder: Path, most_bytes: int = 16 * 1024 * 1024, kept: int = 4, sum_seconds: float = 3600.0
+    ) -> None:
+        self._folder, self._most_bytes, self._kept, self._sum_seconds = folder, most_bytes, kept, sum_seconds
         self._refusals: dict[str, _Refusals] = {}
         self._lock = threading.Lock()
 
@@ -82,9 +83,14 @@ class Audit:
             self._append(facts)
             return
         with self._lock:
+            if not self._refusals:
+                timer = threading.Timer(self._sum_seconds, self.close)
+                timer.daemon = True
+                timer.start()
+            is_first = exchange.key not in self._refusals
             refusals = self._refusals.setdefault(exchange.key, _Refusals())
             refusals.add(facts)
-            entry = refusals.summed() if time.monotonic() >= refusals.due else None
+            entry = refusals.summed() if is_first else None
         if entry is not None:
             self._append(entry)
 
@@ -92,6 +98,7 @@ class Audit:
         """Write what was counted since the last lines."""
         with self._lock:
             entries = [refusals.summed() for refusals in self._refusals.values() if refusals.count]
+            self._refusals.clear()
         for entry in entries:
             self._append(entry)
 
@@ -127,14 +134,12 @@ class _Refusals:
         last: What is told of the last one.
         since: When the first one was, [s].
         clients: Addresses that they came from, some of them.
-        due: When the next line may be written, on the monotonic clock, [s].
     """
 
     count: int = 0
     last: dict[str, Any] = field(default_factory=dict)
     since: float = 0.0
     clients: set[str] = field(default_factory=set)
-    due: float = 0.0
 
     def add(self, facts: dict[str, Any]) -> None:
         """Count one."""
@@ -146,7 +151,7 @@ class _Refusals:
     def summed(self) -> dict[str, Any]:
         """What a line says of all of them; counting begins anew."""
         entry = self.last | {"refused": self.count, "since": moment(self.since), "clients": sorted(self.clients)}
-        self.count, self.clients, self.due = 0, set(), time.monotonic() + _SUM_SECONDS
+        self.count, self.clients = 0, set()
         return entry
 
 

@@ -4,6 +4,7 @@ import json
 import logging
 import subprocess
 import sys
+import time
 import urllib.error
 import urllib.request
 from concurrent.futures import ThreadPoolExecutor
@@ -103,6 +104,19 @@ def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) 
     assert rest["refused"] == 999
     assert len(rest["clients"]) == 8
     assert len(json.dumps(rest)) < 1000
+
+
+def test_what_was_counted_is_written_in_time_also_where_nothing_more_comes(tmp_path: Path) -> None:
+    audit = Audit(tmp_path, sum_seconds=0.5)
+    for _ in range(2):
+        for _ in range(20):
+            exchange = written_by("anna")
+            exchange.status, exchange.was_let_in = 403, False
+            audit.write(exchange, None)
+        until = time.monotonic() + 20.0
+        while len(lines := (tmp_path / "audit.jsonl").read_text().splitlines()) % 2 and time.monotonic() < until:
+            time.sleep(0.02)
+    assert [json.loads(line)["refused"] for line in lines] == [1, 19, 1, 19]
 
 
 def test_a_write_is_kept_before_it_is_acknowledged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
