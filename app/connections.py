@@ -275,15 +275,16 @@ class BoundedProtocol(HttpToolsProtocol):
         self._refuse(HTTPStatus.BAD_REQUEST, "malformed-request", msg.rstrip("."))
 
     def end_with_answer(self) -> None:
-        """Let the answer to the request that is being worked on be the last one; streams end."""
+        """Let the answer to the request that is being worked on be the last one, unless it has begun; streams end."""
         if self.cycle is not None and not self.cycle.response_complete:
-            self.cycle.keep_alive = False
+            self.cycle.keep_alive &= self.cycle.response_started
             self.cycle.scope["state"]["stopping"] = True
 
     def shutdown(self) -> None:
         """The service is to stop: what is in flight finishes, streams end, and a client has little time left."""
         self.end_with_answer()
         if self.cycle is not None and not self.cycle.response_complete:
+            self.cycle.keep_alive = False
             if self.cycle.more_body:
                 self._ends = self.loop.time() + _GRACE_SECONDS
         elif self.loop.time() < self.since + _ARRIVAL_SECONDS:

@@ -56,6 +56,9 @@ class Application:
         await send(
             {"type": "http.response.start", "status": 200, "headers": [(b"content-length", str(len(body)).encode())]}
         )
+        if scope["path"] == "/halves":
+            await send({"type": "http.response.body", "body": body[:0], "more_body": True})
+            await asyncio.sleep(1.0)
         await send({"type": "http.response.body", "body": body})
 
 
@@ -383,6 +386,19 @@ def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
         for one in busy:
             one.close()
         still_answers(port)
+
+
+def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -> None:
+    """The head of that answer did not say that it is the last one of its connection: it must not be."""
+    with serving(Bounds()) as (port, gate, _, _), connected(port) as connection:
+        connection.sendall(GET.replace(b"/ ", b"/halves "))
+        head = connection.recv(65536)
+        assert head.startswith(b"HTTP/1.1 200") and b"close" not in head
+        gate.stop()
+        assert connection.recv(65536) == b"0"
+        connection.sendall(GET)
+        found = answer(connection)
+        assert (found[0], found[1]["connection"]) == (200, "close")
 
 
 def test_a_shutdown_waits_for_answers_and_hardly_for_clients() -> None:
