@@ -41,7 +41,7 @@ not all until the same moment: together they would hold up the event loop.
 _LONGEST_PAUSE = 8.0
 """No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
 _EVICTED = 16
-"""Connections that make room together where there are too many."""
+"""Connections that make room together where there are too many; of few an eighth, or new ones would be among them."""
 _CHUNK_BYTES = 20
 """What frames a chunk of a body at most: sixteen hexadecimal digits and two ends of a line."""
 _ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re.DOTALL)
@@ -129,7 +129,7 @@ class Gate:
         if len(self.connections) <= self.bounds.connections:
             return True
         idle = [one for one in self.connections if one.waits_for_client and one is not connection]
-        for one in nsmallest(_EVICTED, idle, key=lambda one: one.since):
+        for one in nsmallest(min(_EVICTED, 1 + self.bounds.connections // 8), idle, key=lambda one: one.since):
             self.closed += 1
             one.leave()
         return bool(idle)

@@ -6,7 +6,7 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from random import Random
 from typing import Any, Literal, cast
@@ -319,6 +319,15 @@ def test_slow_sockets_give_way_to_others_where_there_are_too_many() -> None:
         wait_for(lambda: gate.closed >= 100)
         for connection in slow:
             connection.close()
+
+
+def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
+    with serving(Bounds(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
+        for count in range(1, 17):
+            crowd.enter_context(connected(port))
+            wait_for(lambda count=count: len(gate.connections) == count)
+        still_answers(port)
+        assert 0 < gate.closed <= 4
 
 
 def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
