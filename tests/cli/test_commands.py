@@ -179,6 +179,9 @@ def test_a_faulty_file_is_taken_unless_strict(shell: Shell, tmp_path: Path) -> N
             shell(*command)
             assert "not well-formed XML" in shell("--strict", *command, code=2)[1]
     assert "before the XML declaration" in shell("add", file)[0]
+    for added in shell.json("robots")["robots"]:
+        if added["source"] == "uploaded":
+            shell("remove", added["name"])
 
 
 def test_configurations_in_and_out(shell: Shell, tmp_path: Path) -> None:
