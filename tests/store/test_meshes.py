@@ -55,7 +55,7 @@ def test_all_meshes_of_a_downloaded_repository_are_found(tmp_path: Path, name: s
         ("package://p/visual/a.stl", ["r/p/collision/a.stl"], "r/p", []),
         ("package://p/visual/a.stl", ["r/p/a.stl"], "r/p", []),
         ("model://p/m/a.stl", ["r/p/m/a.stl"], "", ["r/p/m/a.stl"]),
-        ("file:///home/p/m/a.stl", ["home/p/m/a.stl"], "", []),
+        ("file:///opt/p/m/a.stl", ["opt/p/m/a.stl"], "", []),
         ("https://p/m/a.stl", ["p/m/a.stl"], "", []),
         ("/p/m/a.stl", ["p/m/a.stl"], "", []),
         ("m/a.stl", ["r/m/a.stl", "m/a.stl"], "r", ["r/m/a.stl"]),
