@@ -74,7 +74,7 @@ class Gate:
 
     Attributes:
         bounds: What connections may take.
-        connections: That are open.
+        connections: That are open, in the order in which they came: many do within one tick of the loop's clock.
         refused: Requests for which there was no room.
         closed: Connections that were closed because their client was slow, or because there were too many.
         is_stopping: Whether each answer is the last one of its connection.
@@ -82,7 +82,7 @@ class Gate:
 
     def __init__(self, bounds: Bounds) -> None:
         self.bounds = bounds
-        self.connections: set[BoundedProtocol] = set()
+        self.connections: dict[BoundedProtocol, None] = {}
         self.refused = self.closed = 0
         self.is_stopping = False
         self._waiting: deque[Callable[[], None]] = deque()
@@ -125,10 +125,13 @@ class Gate:
         """Take in a new connection; False where all others are at work and there is no room for it."""
         if not self.connections:
             asyncio.get_running_loop().call_later(_SWEEP_SECONDS, self._sweep)
-        self.connections.add(connection)
+        self.connections[connection] = None
         if len(self.connections) <= self.bounds.connections:
             return True
-        idle = [one for one in self.connections if one.waits_for_client and one is not connection]
+        staying = [one for one in self.connections if not one.is_gone]
+        if len(staying) <= self.bounds.connections:
+            return True
+        idle = [one for one in staying if one.waits_for_client and one is not connection]
         for one in nsmallest(min(_EVICTED, 1 + self.bounds.connections // 8), idle, key=lambda one: one.since):
             self.closed += 1
             one.leave()
@@ -164,6 +167,11 @@ class BoundedProtocol(HttpToolsProtocol):
         """Whether no request is being worked on."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
+    @property
+    def is_gone(self) -> bool:
+        """Whether it is closed but for the end of this turn of the event loop."""
+        return self.transport.is_closing() and not self.transport.get_write_buffer_size()
+
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin."""
         super().connection_made(transport)
@@ -174,7 +182,7 @@ class BoundedProtocol(HttpToolsProtocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         """End."""
-        self._gate.connections.discard(self)
+        self._gate.connections.pop(self, None)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -328,7 +336,9 @@ class BoundedProtocol(HttpToolsProtocol):
     def leave(self) -> None:
         """Make room for another connection."""
         detail = "too many connections are open, and this one has waited longest for its client"
-        if self.cycle is not None and not self.cycle.response_complete:
+        if self.transport.is_closing():
+            self.transport.abort()
+        elif self.cycle is not None and not self.cycle.response_complete:
             self._refuse(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy", detail)
         else:
             self.transport.close()

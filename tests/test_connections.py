@@ -46,6 +46,8 @@ class Application:
                 await asyncio.sleep(1.0)
             case "/busy":
                 time.sleep(0.01)
+            case "/held":
+                time.sleep(0.5)
             case "/full":
                 scope["state"]["retry_after"] = 3
             case "/endless":
@@ -328,6 +330,18 @@ def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
             wait_for(lambda count=count: len(gate.connections) == count)
         still_answers(port)
         assert 0 < gate.closed <= 4
+
+
+def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
+    """All are let in within a turn of the event loop, in which those that have to go are still there."""
+    with serving(Bounds(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
+        watching = crowd.enter_context(connected(port))
+        watching.sendall(GET.replace(b"/ ", b"/held "))
+        newest = [crowd.enter_context(connected(port)) for _ in range(100)][-10:]
+        for connection in newest:
+            connection.sendall(GET)
+        assert [answer(connection)[0] for connection in newest] == [200] * 10
+        wait_for(lambda: 10 <= len(gate.connections) <= 16)
 
 
 def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
