@@ -32,8 +32,8 @@ def main() -> None:
 def catalogue_files() -> Iterator[Path]:
     """The description of each robot of the catalogue, and the meshes that it names."""
     library = Library(_CATALOGUE, _CATALOGUE / "none")
-    for record in library.records():
-        meshes = library.get(record.name).meshes.values()
+    for robot in map(library.get, library.catalogue_names):
+        record, meshes = robot.record, robot.meshes.values()
         yield record.model_path.resolve()
         if record.mesh_root is not None:
             yield from ((record.mesh_root / path).resolve() for path in meshes if path is not None)

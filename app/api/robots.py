@@ -22,7 +22,7 @@ from app.api.routes import DocumentedRoute
 from app.api.skeleton import skeleton_of
 from app.model.chain import Chain
 from app.model.description import Joint
-from app.model.errors import InvalidArchive, KinematicsError, UnknownMesh
+from app.model.errors import InvalidArchive, UnknownMesh
 from app.schemas.common import ChainEnds
 from app.schemas.dh import DhTablePayload, table_content
 from app.schemas.pose import Pose
@@ -38,12 +38,11 @@ from app.schemas.robots import (
     RobotInfo,
     RobotList,
     RobotReplacement,
-    RobotSummary,
 )
 from app.store.archive import unpacked
 from app.store.folders import open_plain, writing
 from app.store.library import Library, RobotUpload
-from app.store.records import LoadedRobot, Record
+from app.store.records import LoadedRobot
 
 MULTIPART = "multipart/form-data"
 WITHOUT_KEY = "clients without a key"
@@ -325,24 +324,7 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
 
 
 def _listed(desk: Desk, _: Inquiry) -> Response:
-    before, now, told = _LINES.copy(), desk.library.records(), []
-    _LINES.clear()
-    for record in now:
-        known = before.get(record.name)
-        line = known[1] if known is not None and known[0] is record else _line(desk.library, record)
-        if line is not None:
-            _LINES[record.name] = record, line
-            told.append(line)
-    return Response(b'{"robots":[%b]}' % b",".join(told), media_type=JSON)
-
-
-_LINES: dict[str, tuple[Record, bytes]] = {}
-"""What the list told of each robot, in this process: records are the same objects as long as nothing has changed."""
-
-
-def _line(library: Library, record: Record) -> bytes | None:
-    summary = _summary(library, record)
-    return None if summary is None else summary.model_dump_json().encode()
+    return Response(b'{"robots":[%b]}' % b",".join(desk.library.summaries()), media_type=JSON)
 
 
 def _described(desk: Desk, inquiry: Inquiry) -> Response:
@@ -397,24 +379,6 @@ def _joint(joint: Joint) -> JointInfo:
             effort=joint.limits.effort,
         ),
         mimic=MimicInfo(joint=mimic.joint, multiplier=mimic.multiplier, offset=mimic.offset) if mimic else None,
-    )
-
-
-def _summary(library: Library, record: Record) -> RobotSummary | None:
-    """A robot in the list; None where a folder dropped in by hand is no robot (asked for by name it says why)."""
-    ends = record.file.default_chain
-    if ends is None:
-        try:
-            base_frame, tip_frame = library.get(record.name).robot.default_chain
-        except (KinematicsError, OSError):
-            return None
-        ends = ChainEnds(base_frame=base_frame, tip_frame=tip_frame)
-    return RobotSummary(
-        name=record.name,
-        description=record.file.description,
-        source=record.source,
-        format=record.file.format,
-        default_chain=ends,
     )
 
 

@@ -20,6 +20,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+import orjson
+
 from app.model.errors import (
     InvalidName,
     InvalidRobotFolder,
@@ -36,10 +38,10 @@ from app.schemas.common import ChainEnds
 from app.schemas.robots import RobotFile
 from app.store import folders
 from app.store.folders import Content, Stretch
+from app.store.index import NAME, Index, summary
 from app.store.meshes import MeshFiles, flat
-from app.store.records import ROBOT_FILE, LoadedRobot, Record, Stamp, describe, load, mesh_file, read_record, stamp_of
+from app.store.records import ROBOT_FILE, LoadedRobot, Record, Source, describe, load, mesh_file, read_record
 
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _MEMORY = 512 * 1024 * 1024
 """Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
 _VERSION = re.compile(r"files-[0-9a-f]{12}")
@@ -106,9 +108,9 @@ class Library:
 
     def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
         self.uploads, self._quota = uploads, quota
-        self._uploaded: dict[str, tuple[Stamp, Record]] = {}
         found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
         self._catalogue = {record.name: record for record in found if record is not None}
+        self._index = Index(uploads, self._catalogue)
         self._loaded: OrderedDict[str, LoadedRobot] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -125,6 +127,7 @@ class Library:
                     with folders.exclusive(self.uploads), suppress(FileNotFoundError):
                         folders.sweep(folder)
                         self._move_stale_versions(folder, aside)
+            self._index.entries(looked_at=None)
         except StorageFailed as error:
             logger.warning("uploaded robots cannot be written: %s", error.reason)
 
@@ -133,26 +136,29 @@ class Library:
         """Names of the robots that come with the project."""
         return list(self._catalogue)
 
-    def records(self) -> list[Record]:
-        """All robots, the catalogue's first, each part by name; folders that are no robots are left out."""
-        return [*self._catalogue.values(), *self._uploaded_records()]
+    def summaries(self) -> list[bytes]:
+        """All robots as the list has them in JSON, the catalogue's first, each part by name; what is none is left out.
 
-    def _uploaded_records(self) -> list[Record]:
-        """The uploaded robots by name; of each its `robot.json` is read again when it has changed."""
-        before, self._uploaded = self._uploaded, {}
-        records = []
-        for name in sorted(self._names()):
+        Of an uploaded one that was edited by hand this may be what it was: each list looks at some of them again.
+        """
+        entries, others = self._index.entries()
+        told = {entry.name: entry.summary for entry in entries}
+        if others:
+            loaded = {name: self._summary(name, "uploaded", file) for name, file in others}
+            told = dict(sorted((told | {name: one for name, one in loaded.items() if one is not None}).items()))
+        ours = (self._summary(record.name, "catalogue", record.file) for record in self._catalogue.values())
+        return [*filter(None, ours), *told.values()]
+
+    def _summary(self, name: str, source: Source, file: RobotFile) -> bytes | None:
+        """A robot in the list; None where a folder dropped in by hand is no robot (asked for by name it says why)."""
+        told = summary(name, source, file)
+        if told["default_chain"] is None:
             try:
-                stamp, known = stamp_of(f"{self.uploads}/{name}/{ROBOT_FILE}"), before.get(name)
-                is_same = known is not None and stamp == known[0]
-                record = known[1] if known and is_same else read_record(self.uploads / name, "uploaded")
+                base_frame, tip_frame = self.get(name).robot.default_chain
             except (KinematicsError, OSError):
-                continue
-            if record is not None:
-                records.append(record)
-                if stamp is not None:
-                    self._uploaded[name] = stamp, record
-        return records
+                return None
+            told["default_chain"] = {"base_frame": base_frame, "tip_frame": tip_frame}
+        return orjson.dumps(told)
 
     def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
         """Refuse what its owner has no room for; a robot of the same owner makes room for what takes its place.
@@ -162,13 +168,13 @@ class Library:
         """
         if new.owner is None:
             return
-        mine = [record.file for record in self._uploaded_records() if record.file.owner == new.owner]
+        mine = [entry for entry in self._index.entries()[0] if entry.owner == new.owner]
         replaced = [old] if old is not None and old.owner == new.owner else []
         for what, used, more, allowed in (
             ("robots", len(mine), 1 - len(replaced), self._quota.robots),
             (
                 "bytes of robots",
-                sum(file.kept_bytes for file in mine),
+                sum(entry.kept_bytes for entry in mine),
                 new.kept_bytes - sum(file.kept_bytes for file in replaced),
                 self._quota.robot_bytes,
             ),
@@ -245,7 +251,7 @@ class Library:
             InvalidInput: It does not describe a robot.
             StorageFailed: It cannot be written.
         """
-        if not _NAME.fullmatch(upload.name):
+        if not NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)
         if upload.name in self._catalogue:
             if upload.model == self._catalogue[upload.name].model_path.read_bytes() and not upload.meshes:
@@ -264,6 +270,7 @@ class Library:
                     return False
                 self._check_quota(file)
                 folders.move(new, folder)
+                self._index.note(upload.name, file)
         return True
 
     def replace(self, upload: RobotUpload) -> None:
@@ -286,6 +293,7 @@ class Library:
                 folders.move(staging / version, folder / version)
                 try:
                     folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+                    self._index.note(upload.name, file)
                 finally:
                     self._move_stale_versions(folder, staging)
                 for path in folder.iterdir():
@@ -310,15 +318,7 @@ class Library:
 
     def _folders(self) -> list[Path]:
         """The folders that may be uploaded robots."""
-        return [path for name in sorted(self._names()) if (path := self.uploads / name).is_dir()]
-
-    def _names(self) -> list[str]:
-        """What may be the name of an uploaded robot; a file may have such a name too."""
-        try:
-            names = os.listdir(self.uploads)  # noqa: PTH208 - there may be thousands
-        except (FileNotFoundError, NotADirectoryError):
-            return []
-        return [name for name in names if _NAME.fullmatch(name) and name not in self._catalogue]
+        return [path for name in sorted(self._index.names()) if (path := self.uploads / name).is_dir()]
 
     def _move_stale_versions(self, folder: Path, aside: Path) -> None:
         """Move versions away that a killed replacement wrote, or did not come to remove."""
@@ -336,14 +336,14 @@ class Library:
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
         folder = self.uploads / name
-        if not _NAME.fullmatch(name) or not folder.is_dir():
+        if not NAME.fullmatch(name) or not folder.is_dir():
             raise self._unknown(name)
         return folder
 
     def _record(self, name: str) -> Record:
         if name in self._catalogue:
             return self._catalogue[name]
-        record = read_record(self.uploads / name, "uploaded") if _NAME.fullmatch(name) else None
+        record = read_record(self.uploads / name, "uploaded") if NAME.fullmatch(name) else None
         if record is None:
             raise self._unknown(name)
         return record

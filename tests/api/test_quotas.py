@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import pytest
 from starlette.testclient import TestClient
 
 from app.api.access.keyring import new_key
@@ -109,26 +108,3 @@ def test_the_list_is_that_of_the_folder_whoever_changes_it(tmp_path: Path) -> No
         assert settled() == {"a", "b"}
         other.remove("a")
         assert names(client) == {"b"}
-
-
-def test_a_long_list_is_made_without_reading_each_robot_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    library = Library(CATALOGUE, tmp_path)
-    for number in range(30):
-        library.add(RobotUpload(f"r{number}", "urdf", urdf().encode()))
-    read: list[Path] = []
-    whole = Path.read_bytes
-
-    def noted(path: Path) -> bytes:
-        read.append(path)
-        return whole(path)
-
-    monkeypatch.setattr("app.store.records.read_plain", noted)
-    known = len(library.records())
-    read.clear()
-    library.replace(RobotUpload("r3", "urdf", urdf(2).encode()))
-    read.clear()
-    assert len(library.records()) == known
-    assert read == [tmp_path / "r3" / "robot.json"]
-    library.remove("r4")
-    assert len(library.records()) == known - 1
-    assert len(read) == 1

@@ -78,7 +78,7 @@ def test_what_the_description_does_not_use_is_not_kept_and_told(tmp_path: Path) 
             library.mesh("arm", name)
     [told] = [text for text in library.get("arm").warnings if "archive" in text]
     assert told.startswith("2 files of the archive")
-    assert len([*tmp_path.rglob("*")]) == len([".lock"]) + FIXED_ENTRIES + 4
+    assert len([*tmp_path.rglob("*")]) == len([".lock", ".index"]) + FIXED_ENTRIES + 4
 
 
 NAMES = st.sampled_from(["a", "b", "A", "m", "ü"])
@@ -112,7 +112,7 @@ def test_any_archive_is_kept_or_refused_leaving_no_more_than_is_used(
         assert all(len(folders) <= MAX_FOLDERS for folders, _ in tree)
         assert None not in library.get("arm").meshes.values()
         companions = [path for path in paths if path.lower().endswith((".mtl", ".png"))]
-        assert len([*root.rglob("*")]) <= len([".lock"]) + FIXED_ENTRIES + len({*named, *companions})
+        assert len([*root.rglob("*")]) <= len([".lock", ".index"]) + FIXED_ENTRIES + len({*named, *companions})
 
 
 def test_the_worst_archive_takes_no_minutes(tmp_path: Path) -> None:
@@ -122,7 +122,7 @@ def test_the_worst_archive_takes_no_minutes(tmp_path: Path) -> None:
     started = time.monotonic()
     kept(library, "arm", zipped([("r.urdf", urdf(*paths[:500])), *((path, b"") for path in paths)]))
     assert time.monotonic() - started < 20  # 0.7 s on two idle cores; minutes with a folder for each folder
-    assert len([*tmp_path.rglob("*")]) == len([".lock"]) + FIXED_ENTRIES + 500
+    assert len([*tmp_path.rglob("*")]) == len([".lock", ".index"]) + FIXED_ENTRIES + 500
 
 
 class Slow(BytesIO):
@@ -166,4 +166,4 @@ def test_other_uploads_go_on_while_leftovers_are_removed(tmp_path: Path, monkeyp
     assert went_on == [True]
     monkeypatch.undo()
     library.prepare()
-    assert {path.name for path in tmp_path.iterdir()} == {".lock", "arm"}
+    assert {path.name for path in tmp_path.iterdir()} == {".lock", ".index", "arm"}

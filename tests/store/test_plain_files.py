@@ -57,7 +57,7 @@ def used(data: Path) -> None:
     library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits(unfinished=100))
     steps: list[Callable[[], object]] = [
         library.prepare,
-        library.records,
+        library.summaries,
         lambda: library.get("arm"),
         lambda: read_plain(library.mesh("arm", "m/a.stl")),
         lambda: library.add(RobotUpload("arm", "urdf", urdf())),
