@@ -71,7 +71,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
-    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds, quota)
+    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds, quota, settings.job_bytes)
     library = setup.library()
     crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)

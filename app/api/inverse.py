@@ -26,8 +26,11 @@ _SHARE_OF_TIME = 0.8
 """Of the time that a request may take, what a search with a time limit may: what is found is to be sent too."""
 
 
-def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
-    """The operation `ik`, none of whose answers holds more numbers or takes longer than given, [s]."""
+def inverse_operation(max_answer_numbers: int, seconds: float, job_bytes: int) -> Operation:
+    """The operation `ik`, none of whose answers holds more numbers or takes longer than given, [s].
+
+    `job_bytes` is what the parts of a job may take.
+    """
     longest = _SHARE_OF_TIME * seconds
     bounds = Bounds(MAX_TARGETS, MAX_STEPWISE, max_answer_numbers)
 
@@ -73,7 +76,7 @@ def inverse_operation(max_answer_numbers: int, seconds: float) -> Operation:
             is_heavy=_is_heavy,
             attempt=attempt,
             lesson=Lesson(_is_looked_at, _closed_form, _look_at),
-            long=inverse_work(),
+            long=inverse_work(job_bytes),
         ),
         answer=InverseAnswer,
         npy_body="`targets` as an array of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), matrices.",

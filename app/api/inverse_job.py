@@ -1,7 +1,7 @@
 """Inverse kinematics as a job: some targets a part, each answered as if it were the only one."""
 
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 from io import BytesIO
 from pathlib import Path
 from typing import IO, TypeAlias
@@ -19,9 +19,11 @@ from app.jobs.run import Files, Run
 from app.jobs.runner import Work
 from app.kinematics.ik.solve import inverse_kinematics
 from app.model.arrays import Array
+from app.model.chain import Chain
 from app.model.errors import InvalidField
 from app.model.poses import Poses
-from app.schemas.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, InverseRequest
+from app.model.robot import Robot
+from app.schemas.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from app.store.folders import read_plain
 from app.store.records import LoadedRobot
 
@@ -32,6 +34,8 @@ _BOUNDS = Bounds(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
 _PART, _PART_OF_MANY = 4096, 128
 """Targets of a part: of one solution each by search or closed form, and of what takes longer."""
 
+_TRIED, _BYTES_A_NUMBER = 64, 100
+"""Targets that tell how much room the others take, where this many bytes for each number would be too many."""
 _STAGE = "targets"
 _SOLVED = 0.95
 """Progress when nothing is missing but to write it down."""
@@ -40,27 +44,53 @@ _Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
 """The robot, the call, the targets as rows of 12, where to start."""
 
 
-def inverse_work() -> LongWork[InverseRequest]:
-    """How inverse kinematics are done as a job."""
+def inverse_work(most_bytes: int) -> LongWork[InverseRequest]:
+    """How inverse kinematics are done as a job, the parts of which may take this many bytes."""
     more = (
         f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
         "as many numbers in the answer as there is room for; it goes without `time_limit`, as each target is looked "
         "for to the end"
     )
-    return LongWork(KIND, _request, _work, more)
+    return LongWork(KIND, partial(_request, most_bytes), _work, more)
 
 
-def _request(loaded: LoadedRobot, call: InverseRequest) -> dict[str, bytes]:
+def _request(most_bytes: int, loaded: LoadedRobot, call: InverseRequest) -> dict[str, bytes]:
     """The files of a checked call; targets and seeds are arrays from here on."""
     if call.time_limit is not None:
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )
     chain, targets, seeds = asked(loaded, call, _BOUNDS)
+    _check_room(most_bytes, loaded, call, (chain, targets, seeds))
     ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
     rows = np.column_stack((targets.positions, targets.rotations.reshape(-1, 9)))
     return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(seeds)}
+
+
+def _check_room(
+    most_bytes: int, loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array]
+) -> None:
+    """Refuse targets whose parts would take more room than there is, as far as some of them show it.
+
+    Raises:
+        InvalidField: They would; it says how many targets there is room for.
+    """
+    chain, targets, seeds = question
+    rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
+    if len(targets) * rows * (len(chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
+        return
+    some = np.unique(np.linspace(0, len(targets) - 1, _TRIED).astype(np.int64))
+    few = Poses(targets.positions[some], targets.rotations[some])
+    part = _solved(loaded.robot, chain, call, few, seeds if len(seeds) == 1 else seeds[some])
+    each = len(part) / len(some)
+    if each * len(targets) > most_bytes:
+        room = max(1, int(0.9 * most_bytes / each))
+        raise InvalidField(
+            "targets",
+            f"what comes of {len(targets):,} targets takes some {each * len(targets):.2g} bytes, and the parts of a "
+            f"job may take {most_bytes:,}: ask for at most {room:,} at a time, or for less of each",
+        )
 
 
 def _npy(array: Array) -> bytes:
@@ -111,6 +141,10 @@ def solved_part(job: _Part) -> bytes:
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
     targets = Poses(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:]).reshape(-1, 3, 3))
+    return _solved(robot, chain, call, targets, seeds)
+
+
+def _solved(robot: Robot, chain: Chain, call: InverseRequest, targets: Poses, seeds: Array) -> bytes:
     result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
     results = orjson.dumps(told_results(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(

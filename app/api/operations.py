@@ -14,6 +14,7 @@ from app.api.singularity import singularity_operation
 from app.api.statics import statics_operation
 from app.api.trajectory import trajectory_operation
 from app.api.velocity import velocity_operation
+from app.jobs.shelf import Limits
 from app.store.library import Library, Quota
 
 
@@ -27,6 +28,7 @@ class Setup:
         max_answer_numbers: Most numbers in one answer.
         seconds: How long a request may take; what has a time limit of its own is to end before.
         quota: What one client may keep.
+        job_bytes: What the parts of a job may take.
     """
 
     catalogue: Path
@@ -34,13 +36,14 @@ class Setup:
     max_answer_numbers: int
     seconds: float
     quota: Quota = field(default_factory=Quota)
+    job_bytes: int = Limits().job_bytes
 
     def operations(self) -> list[Operation]:
         """All operations on a robot."""
         most = self.max_answer_numbers
         return [
             *kinematics_operations(most),
-            inverse_operation(most, self.seconds),
+            inverse_operation(most, self.seconds, self.job_bytes),
             statics_operation(most),
             dynamics_operation(most),
             manipulability_operation(most),

@@ -12,6 +12,7 @@ from app.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from app.api.payloads import CSV, JSON, NPY, PNG, SVG, csv_head, csv_rows, read_json
 from app.api.routes import PictureFormat
 from app.api.trajectory_planned import SAMPLED, Bounds, Planned, checked
+from app.api.trajectory_request import shortest_duration
 from app.api.trajectory_samples import MAX_JOB_SAMPLES
 from app.jobs.parcel import packed, unpacked
 from app.jobs.robot_files import RobotText, robot_of, robot_text
@@ -20,6 +21,7 @@ from app.jobs.runner import Work
 from app.schemas.trajectory import TrajectoryRequest
 from app.store.folders import read_plain
 from app.store.records import LoadedRobot
+from app.trajectory.plan import plan
 
 KIND = "trajectory"
 
@@ -41,7 +43,9 @@ def trajectory_work(max_answer_numbers: int) -> LongWork[TrajectoryRequest]:
     bounds = _bounds(max_answer_numbers)
 
     def request(loaded: LoadedRobot, call: TrajectoryRequest) -> dict[str, bytes]:
-        chain, _ = checked(loaded.robot, call, bounds)
+        chain, question = checked(loaded.robot, call, bounds)
+        if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
+            bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
         whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
         return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
 

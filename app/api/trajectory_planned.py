@@ -34,6 +34,8 @@ from app.trajectory.plan import plan
 from app.trajectory.problem import Trajectory
 
 _NUMBERS_A_POSE = 16
+_LONGER, _LONG_SECONDS = 100.0, 60.0
+"""Hardly any motion lasts so many times what it lasts at least, and so long besides."""
 _MOST_NAME = 16
 """Characters of a robot's name in a title, which has room for 48."""
 SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
@@ -63,8 +65,15 @@ class Bounds:
         Raises:
             InvalidField: There are more; it says what period there may be.
         """
+        check_samples(duration, call.sample_period, self._most(call, chain))
+
+    def may_be_exceeded(self, call: TrajectoryRequest, chain: Chain, shortest: float) -> bool:
+        """Whether a motion that lasts at least this, [s], may last so long that it has more samples than these."""
+        return _LONGER * shortest + _LONG_SECONDS > (self._most(call, chain) - 1) * call.sample_period
+
+    def _most(self, call: TrajectoryRequest, chain: Chain) -> int:
         numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
-        check_samples(duration, call.sample_period, min(self.samples, max(2, self.numbers // numbers)))
+        return min(self.samples, max(2, self.numbers // numbers))
 
 
 def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chain, Asked]:

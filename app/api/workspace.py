@@ -18,7 +18,7 @@ from app.api.routes import DocumentedRoute
 from app.jobs.job import Job
 from app.jobs.robot_files import robot_files, robot_of, robot_text
 from app.jobs.runner import Runner, Work
-from app.jobs.workspace import KIND, Question, check_first_samples, question, work_of
+from app.jobs.workspace import KIND, Question, check_size, question, work_of
 from app.kinematics.survey import POINT_COLUMNS
 from app.kinematics.workspace import Plane, Wish
 from app.model.chain import Chain
@@ -110,7 +110,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     for field in ("orientations", "orientations_over"):
         if call.kind != "dexterity" and field in call.model_fields_set:
             raise InvalidField(field, f"goes with the kind `dexterity`; this one is `{call.kind}`")
-    check_first_samples(_question(loaded.record.name, loaded.robot, chain, call))
+    check_size(_question(loaded.record.name, loaded.robot, chain, call))
     ends = f"{loaded.record.name}\0{chain.base_frame}\0{chain.tip_frame}\0"
     content = call.model_dump_json(exclude={"job_id", "base_frame", "tip_frame"})
     digest = hashlib.sha256((ends + content + loaded.urdf).encode("utf-8", "surrogatepass")).hexdigest()

@@ -1,5 +1,6 @@
 """The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then what it all tells."""
 
+import math
 import pickle
 from dataclasses import asdict, dataclass, fields, replace
 from functools import lru_cache
@@ -15,7 +16,7 @@ from app.kinematics.dexterity import Orientations, Over, excluded, orientations,
 from app.kinematics.sampling import Sampling
 from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
 from app.kinematics.tip_motion import Motion
-from app.kinematics.voxels import VoxelTable
+from app.kinematics.voxels import MAX_VOXELS, VoxelTable, merged
 from app.kinematics.workspace import PART, Part, Plan, Plane, Wish, plan, sampled
 from app.model.arrays import Array, Indices
 from app.model.chain import Chain
@@ -30,6 +31,8 @@ MAX_POSES = 1_000_000
 
 _POSES_AT_ONCE = 512
 """About a tenth of a second of inverse kinematics."""
+_COUNTED_PARTS = 8
+"""So many parts of the samples are computed to count their voxels: some tenths of a second."""
 _SAMPLING_SHARE, _DONE = 0.05, 0.99
 """Progress when the samples of a dexterity map are there, and when nothing but the summary is missing."""
 
@@ -140,29 +143,52 @@ def work_of(asked: Question) -> Work:
     return work
 
 
-def check_first_samples(asked: Question) -> None:
-    """Refuse a dexterity map that has too many voxels by its first part of the samples already, which is quick.
+def check_size(asked: Question) -> None:
+    """Refuse samples that fall into more voxels than there may be, before there is a job.
 
     Raises:
-        InvalidField: It has.
+        InvalidField: There are more; it says what voxels and how many samples there may be.
     """
+    plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
+    most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
+    if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:
+        return
+    voxels = _voxels_met(plan)
+    if voxels <= most:
+        return
+    told = f"the samples fall into some {voxels:,} voxels"
     if asked.asked is not None:
-        _check_poses(len(sampled((asked.plan, 0)).voxels), len(asked.asked.rotations))
+        told += f", at each of which {rotations} orientations are asked for"
+    ways = [f"at most {most:,} `samples`"]
+    if (size := plan.grid.least_size(plan.extent, most)) < plan.extent:
+        ways.insert(0, f"voxels of {_rounded_up(size):g} m or more")
+    if asked.asked is not None:
+        ways.append("fewer `orientations`")
+    raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
 
 
-def _check_poses(voxels: int, rotations: int) -> None:
-    if voxels * rotations > MAX_POSES:
-        reason = (
-            f"the samples fall into {voxels:,} voxels, at each of which {rotations} orientations are asked for: "
-            f"{voxels * rotations:,} of at most {MAX_POSES:,}; ask for larger voxels or fewer `orientations`"
-        )
-        raise InvalidField("voxel_size", reason)
+def _voxels_met(plan: Plan) -> int:
+    """How many voxels the samples fall into: counted where they are few, else no less than is to be expected.
+
+    Good and Turing: the next sample meets a new voxel as probably as those so far are alone in theirs, and later ones
+    less probably.
+    """
+    counted = min(plan.parts, _COUNTED_PARTS)
+    table = merged([sampled((plan, k)).voxels for k in range(counted)])
+    samples = min(plan.sampling.count, counted * PART)
+    alone = int(np.sum(table.counts == 1))
+    return len(table) + math.ceil(alone * (plan.sampling.count - samples) / samples)
+
+
+def _rounded_up(length: float) -> float:
+    """Three digits of a length, not less than it."""
+    step = 10.0 ** (math.floor(math.log10(length)) - 2)
+    return float(f"{math.ceil(length / step) * step:.6g}")
 
 
 def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
     """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
     assert asked.asked is not None  # noqa: S101 - what it is called for
-    _check_poses(len(found.voxels), len(asked.asked.rotations))
     centres = asked.plan.grid.centres(found.voxels.keys)
     arm = pickle.dumps(_arm(asked))
     size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))

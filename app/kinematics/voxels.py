@@ -4,6 +4,7 @@ A table holds the cells that were met, and no others, so that its size is that o
 it. Tables of parts of the samples merge into the table of all of them, whatever the order of the parts.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -18,6 +19,8 @@ MOST_ALONG_AXIS = 1 << 20
 """Cells to either side of the origin that a key of 21 bits an axis tells apart."""
 
 _BITS = 21
+_BALL = (1.0, 2.0, math.pi, 4.0 * math.pi / 3.0)
+"""Volume of the unit ball by dimensions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +43,19 @@ class Grid:
     def cell(self) -> float:
         """Volume of a cell, [m³], in a plane [m²], on a line [m]; a point has none."""
         return self.size**self.dimensions if self.dimensions else 0.0
+
+    def most_cells(self, radius: float) -> float:
+        """More cells than meet a ball about any point: those that do lie within one that is a cell's diagonal larger.
+
+        Args:
+            radius: Of the ball, [m].
+        """
+        return _BALL[self.dimensions] * (radius / self.size + math.sqrt(self.dimensions)) ** self.dimensions
+
+    def least_size(self, radius: float, most: int) -> float:
+        """The size at which `most_cells` comes to this, [m]; inf where that is too few for any size."""
+        across = (most / _BALL[self.dimensions]) ** (1.0 / self.dimensions) - math.sqrt(self.dimensions)
+        return radius / across if across > 0.0 else math.inf
 
     def keys(self, positions: Array) -> Indices:
         """The cell of each position, as one number; shape (N, 3) → (N,)."""

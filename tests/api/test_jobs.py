@@ -217,16 +217,15 @@ def test_unknown_jobs(client: TestClient, method: str, name: str) -> None:
             assert client.get(f"/v1/jobs/{name}/{part}").json()["type"] == "urn:gelenk:unknown-job"
 
 
-def test_a_failed_job_answers_with_its_problem(client: TestClient) -> None:
-    move = {"start": [0.0, 0.0], "segments": [{"type": "joint", "target": [1.0, 0.5]}], "law": "quintic"}
-    call, later = {**move, "sample_period": 3e-6}, {"Prefer": "respond-async"}
-    location = client.post("/v1/robots/planar_2r/trajectory", json=call, headers=later).headers["location"]
-    job = ended(lambda: client.get(location).json())
-    assert (job["state"], job["error"]["type"]) == ("failed", "urn:gelenk:invalid-field")
-    answer = client.get(f"{location}/result")
-    assert (answer.status_code, answer.json()["type"]) == (422, "urn:gelenk:invalid-field")
-    assert answer.json()["detail"] == job["error"]["detail"]
-    assert answer.json()["field"] == job["error"]["facts"]["field"] == "sample_period"
+def test_a_failed_job_answers_with_its_problem(tmp_path: Path) -> None:
+    with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1, job_bytes=1000))) as client:
+        location = posted(client, {"kind": "cloud", "samples": 1000})
+        job = ended(lambda: client.get(location).json())
+        assert (job["state"], job["error"]["type"]) == ("failed", "urn:gelenk:too-large")
+        answer = client.get(f"{location}/result")
+        assert (answer.status_code, answer.json()["type"]) == (413, "urn:gelenk:too-large")
+        assert answer.json()["detail"] == job["error"]["detail"]
+        assert answer.json()["detail"].endswith("more than the 1000 allowed")
 
 
 def test_a_job_goes_on_after_the_end_of_the_service(tmp_path: Path) -> None:
