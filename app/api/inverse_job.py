@@ -88,7 +88,7 @@ def _check_room(
         room = max(1, int(0.9 * most_bytes / each))
         raise InvalidField(
             "targets",
-            f"what comes of {len(targets):,} targets takes some {each * len(targets):.2g} bytes, and the parts of a "
+            f"what comes of all {len(targets):,} takes some {each * len(targets):.2g} bytes, and the parts of a "
             f"job may take {most_bytes:,}: ask for at most {room:,} at a time, or for less of each",
         )
 

@@ -26,6 +26,7 @@ from app.schemas.trajectory import (
 )
 from app.trajectory.problem import Following, Problem
 from app.trajectory.problem import Segment as Part
+from app.trajectory.words import Law
 
 _SHORTEST = 1e-6
 """From one waypoint to the next, [s]."""
@@ -94,7 +95,14 @@ def _task(call: TrajectoryRequest) -> Task:
 
 def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) -> Part:
     segment, place = call.segments[index], f"segments.{index}"
-    part = Part(segment.type, segment.law or call.law, bounds.limits, segment.duration)
+    stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
+    part = Part(
+        segment.type,
+        _law(call, index),
+        bounds.limits,
+        segment.duration,
+        stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
+    )
     match segment:
         case JointSegment():
             target = segment.target
@@ -117,6 +125,32 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) 
         case SplineSegment():
             _check_blends(segment, part, place)
             return _spline(chain, segment, replace(part, boundary=segment.boundary, blends=segment.blends), place)
+
+
+def _law(call: TrajectoryRequest, index: int) -> Law:
+    """The law of a segment: of a way of the tip that is to be slow only where the joints must be there is but one.
+
+    Raises:
+        InvalidField: Another one is asked for, and may not be left for it.
+    """
+    segment = call.segments[index]
+    law = segment.law or call.law
+    if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_way(segment):
+        return law
+    if (segment.law or "law" in call.model_fields_set) and not call.law_fallback:
+        raise InvalidField(
+            f"segments.{index}.law" if segment.law else "law",
+            f"`{law}` has one shape along the whole way, and `near_singularity` `slow_down` is slow only where the "
+            "joints must be: ask for `time_optimal`, or allow another law with `law_fallback`",
+        )
+    return "time_optimal"
+
+
+def _is_way(segment: Segment) -> bool:
+    """Whether the tip follows a way, in times that are not given."""
+    if isinstance(segment, SplineSegment):
+        return segment.times is None and isinstance(segment.waypoints[0], Pose)
+    return not isinstance(segment, JointSegment)
 
 
 def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:

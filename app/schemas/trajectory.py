@@ -236,6 +236,12 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
         "limits of velocity and acceleration allow at each place.",
     )
+    law_fallback: bool = Field(
+        default=False,
+        description="Whether another law may be taken where the one that is asked for cannot be kept: `time_optimal`, "
+        "with `near_singularity` `slow_down`. Each segment of the answer tells its `law`. Without this the call is "
+        "refused.",
+    )
     duration: Duration | None = Field(
         default=None, description="The whole is to last, [s]; a shorter one than the limits allow is refused."
     )
@@ -264,7 +270,7 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
         default="stop",
         description="What happens on a way of the tip where `min_singular_value` is not kept: `stop`, the motion ends "
         "there; `damp`, it goes on with damped joints and leaves the way, by how much each segment tells; `slow_down`, "
-        "it goes on exactly, as slowly as the joints' limits ask for.",
+        "it goes on exactly, as slowly as the joints' limits ask for there alone, which is the law `time_optimal`.",
     )
     min_singular_value: float = Field(
         default=0.01,

@@ -174,8 +174,11 @@ def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reaso
         found = extremes(pieces, order, "absolute")
         bounds = getattr(demands.joints, check)
         peaks[check] = peak = _worst(found, names, bounds)
-        is_kept = check != "jerk" or demands.keeps_jerk
-        if is_kept and peak.ratio is not None and not peak.ratio <= 1.0 + demands.tolerance:
+        if check == "jerk" and not demands.keeps_jerk:
+            if demands.stated_jerk is None:
+                continue
+            peak = _worst(found, names, demands.stated_jerk)
+        if peak.ratio is not None and not peak.ratio <= 1.0 + demands.tolerance:
             detail = f"{check} is {peak.ratio:.6g} times the limit"
             reasons.append(Reason(check, detail, peak.joint, peak.time))
     return peaks

@@ -89,6 +89,8 @@ class Demands:
         stretches: Of time in which the tip's acceleration has a limit of its own; pieces of the motion begin and end
             there.
         keeps_jerk: Whether limits of jerk are kept, or only compared with.
+        stated_jerk: Limits of jerk that are kept even so, where acceleration does not jump; shape (n,),
+            [rad/s³ or m/s³].
         tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
             derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
     """
@@ -103,4 +105,5 @@ class Demands:
     continuous: int = 1
     stretches: tuple[Stretch, ...] = ()
     keeps_jerk: bool = True
+    stated_jerk: Array | None = None
     tolerance: float = 1e-9

@@ -183,4 +183,5 @@ def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
         task=task,
         continuous=promise.continuous,
         keeps_jerk=promise.has_bounded_jerk,
+        stated_jerk=segment.stated_jerk,
     )

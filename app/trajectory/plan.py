@@ -15,6 +15,7 @@ from app.model.errors import AuditFailed, InvalidField
 from app.model.robot import Robot
 from app.trajectory.audit import Audit, audit
 from app.trajectory.audit_demands import Demands
+from app.trajectory.extremes import peaks
 from app.trajectory.joint_part import joint_part
 from app.trajectory.parts import Halt, Part, standing
 from app.trajectory.polynomial import PiecewisePolynomial, joined
@@ -50,6 +51,7 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
     """
     check_limits(chain, problem.start[None])
     parts, halt = _parts(robot, chain, problem)
+    parts = [_with_stated_jerk(part, problem) for part in parts]
     factor = _factor(parts, problem, halt)
     parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
     starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
@@ -143,6 +145,29 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
     return max(1.0, problem.duration / least)
 
 
+def _with_stated_jerk(part: Part, problem: Problem) -> Part:
+    """Slowed down to the limits of jerk that were asked for, where the law alone does not keep them.
+
+    Raises:
+        InvalidField: The time that it takes is given.
+    """
+    limits = part.demands.stated_jerk
+    if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
+        return part
+    factor = float(np.cbrt((np.abs(peaks(part.motion, 3).values) / limits).max()))
+    if factor <= 1.0:
+        return part
+    for report in part.reports:
+        segment = problem.segments[report.index]
+        for name in ("duration", "times"):
+            if getattr(segment, name) is not None:
+                reason = f"the limit of jerk that is asked for is kept in {factor:.6g} times the time"
+                raise InvalidField(f"segments.{report.index}.{name}", reason)
+    law = part.reports[0].law
+    note = f"`{law}` keeps no limit of jerk by itself: it takes {factor:.4g} times its time for those that are given"
+    return part.slowed(factor * (1.0 + _MARGIN)).noted((note,))
+
+
 def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], list[Audit]]:
     """Parts, and the judgement of each that moves; what exceeds a limit by rounding alone is slowed down by as much."""
     judged, audits = [], []
@@ -163,7 +188,7 @@ def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], 
 def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
     """That a law does not keep limits of jerk, where that shows."""
     jerk = found.jerk
-    if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0:
+    if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
         return ()
     return (f"limits of jerk are not kept: {jerk.joint} comes to {jerk.ratio:.4g} times its own",)
 

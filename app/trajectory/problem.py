@@ -57,6 +57,8 @@ class Segment:
         times: When each is to be reached, after the segment's start; shape (m,), [s].
         boundary: Of a spline.
         blends: Whether a joint spline's waypoints are passed beside, on straight lines with parabolic blends.
+        stated_jerk: Limits of jerk that were asked for, which hold whatever the law; shape (n,), ∞ where none was,
+            [rad/s³ or m/s³].
     """
 
     type: SegmentType
@@ -75,6 +77,7 @@ class Segment:
     times: Array | None = None
     boundary: Boundary = "clamped"
     blends: bool = False
+    stated_jerk: Array | None = None
 
 
 @dataclass(frozen=True, slots=True)

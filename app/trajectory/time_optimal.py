@@ -37,7 +37,9 @@ _LEAST_INTERVALS = 4
 """In each piece of the path, so that there is a way from corner to corner."""
 _NO_LENGTH = 1e-13
 _STILL = 1e-12
-_JUMP = 1e-9
+_JUMP, _EXACT = 1e-9, 1e-12
+"""The jump of q, in fractions of the largest travel, that is no rounding any more; nor is one of less than so many rad
+or m, to which joints follow a way at best."""
 _CORNER = 1e-7
 """The jump of q', in fractions of the largest, that is no rounding any more."""
 _CHANGE = 0.25
@@ -166,7 +168,7 @@ def _task(
             "path", f"stands still from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
         )
     jumps = np.abs(_at_ends(unit)[1][:-1] - _at_ends(unit)[0][1:]).max(axis=1, initial=0.0)
-    if (jumps > _JUMP * travels.max()).any():
+    if (jumps > max(_JUMP * travels.max(), _EXACT)).any():
         raise InvalidField("path", f"jumps at s = {path.breaks[1 + int(np.argmax(jumps))]:g}")
     before, after = _at_ends(unit.derivative())
     steepest = np.abs(np.concatenate((before, after))).max()

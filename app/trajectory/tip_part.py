@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -67,9 +68,9 @@ def tip_part(
     limits = tightest([segment.limits for segment in segments])
     if joints.reached <= 0.0:
         return Part(standing(start), (), Demands(), halt)
-    timing = _timed(chain, way, joints, segments, limits, following, first)
+    timing = _timed(chain, way, joints, segments, limits, first)
     blends = _blends(way, joints, timing.law)
-    demands = _demands(way.path, joints, timing, limits, following, blends)
+    demands = replace(_demands(way.path, joints, timing, limits, following, blends), stated_jerk=_stated(segments))
     comparison = _comparison(chain, way, joints, segments, limits, first) if problem.compares_timing else None
     reports = _reports(way, joints, timing, segments, first, following, blends)
     return Part(timing.motion, reports, demands, halt, comparison)
@@ -86,13 +87,18 @@ def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
     return MotionLimits(velocity, acceleration, jerk, tip)
 
 
+def _stated(segments: Sequence[Segment]) -> Array | None:
+    """The limits of jerk that were asked for."""
+    stated = [one.stated_jerk for one in segments if one.stated_jerk is not None]
+    return np.min(stated, axis=0) if stated else None
+
+
 def _timed(
     chain: Chain,
     way: Way,
     joints: JointWay,
     segments: Sequence[Segment],
     limits: MotionLimits,
-    following: Following,
     first: int,
 ) -> Timed:
     """The law of time; of a way that is not done wholly the fastest there is."""
@@ -108,7 +114,7 @@ def _timed(
             segment.law,
             limits,
             duration=segment.duration if is_whole else None,
-            slow_down=following.near_singularity == "slow_down" or _slows_at_corners(segments),
+            slow_down=_slows_at_corners(segments),
             tip_motion=tip_through(chain),
             corners=way.limited_corners,
         )
@@ -197,7 +203,7 @@ def _reports(
         report = SegmentReport(
             first + i,
             segment.type,
-            segment.law,
+            "time_optimal" if _slows_at_corners(segments) else segment.law,
             begun,
             done,
             length,
