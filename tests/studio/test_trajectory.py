@@ -318,7 +318,7 @@ def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
     studio.type("Velocity scale", "0.8")
     studio.type("joint_3, velocity", "1.5")
     studio.type("Tip velocity", "0.2")
-    studio.field("Near a singularity").select_option("Slow down")
+    studio.field("Near a singularity").select_option("Damp the joints")
     answer = plan(studio)
     assert answer["limits"]["joint_velocity"][2] == pytest.approx(0.8 * 1.5)
     assert answer["limit_sources"]["joint_velocity"][2] == "request"
