@@ -17,9 +17,9 @@ from app.model.arrays import Array
 from app.model.chain import Chain
 from app.model.errors import CertificationFailed
 from app.model.robot import Robot
-from app.trajectory.audit_demands import Demands
+from app.trajectory.audit_demands import Demands, Stretch
 from app.trajectory.audit_pieces import Extremes, Pieces, extremes, largest_jumps, pieces_of
-from app.trajectory.audit_tip import poses_at, smallest_singular_value, tip_peaks
+from app.trajectory.audit_tip import Largest, poses_at, smallest_singular_value, tip_peaks
 from app.trajectory.polynomial import PiecewisePolynomial
 from app.trajectory.words import Check
 
@@ -280,19 +280,24 @@ def _tip(
         (tip if of_tip else deviations)[quantity] = Peak(ratio, found.value, None, found.time)
         if ratio is not None and not ratio <= 1.0 + demands.tolerance:
             reasons.append(_tip_reason(quantity, found.value, limit, found.time))
-    tip["acceleration"] = _in_stretches(tip["acceleration"], pieces, chain, demands, reasons)
+    for stretch in demands.stretches:
+        within = tip_peaks(pieces.between(stretch.begin, stretch.end), chain, None, least=_STRETCH)
+        for quantity in _TIP_UNITS:
+            tip[quantity] = _in_stretch(tip[quantity], quantity, within[quantity], stretch, demands, reasons)
     return tip, deviations
 
 
-def _in_stretches(peak: Peak, pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> Peak:
-    """The largest acceleration of the tip, and the largest ratio to a limit, those of stretches among them."""
-    for stretch in demands.stretches:
-        found = tip_peaks(pieces.between(stretch.begin, stretch.end), chain, None, least=_STRETCH)["acceleration"]
-        ratio = found.value / stretch.acceleration
-        peak = replace(peak, ratio=max(peak.ratio or 0.0, ratio))
-        if not ratio <= 1.0 + demands.tolerance:
-            reasons.append(_tip_reason("acceleration", found.value, stretch.acceleration, found.time))
-    return peak
+def _in_stretch(
+    peak: Peak, quantity: str, found: Largest, stretch: Stretch, demands: Demands, reasons: list[Reason]
+) -> Peak:
+    """The largest value everywhere, and the largest ratio to a limit, that of a stretch among them."""
+    limit = getattr(stretch.tip, quantity)
+    if not math.isfinite(limit):
+        return peak
+    ratio = found.value / limit
+    if not ratio <= 1.0 + demands.tolerance:
+        reasons.append(_tip_reason(quantity, found.value, limit, found.time))
+    return replace(peak, ratio=max(peak.ratio or 0.0, ratio))
 
 
 def _tip_reason(quantity: str, value: float, limit: float, time: float) -> Reason:

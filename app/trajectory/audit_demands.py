@@ -60,17 +60,17 @@ class Ends:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Some time of a motion in which the tip's acceleration has a limit of its own.
+    """Some time of a motion in which the tip has limits of its own, beside those that hold everywhere.
 
     Attributes:
         begin: [s].
         end: [s].
-        acceleration: Of the tip at most, [m/s²].
+        tip: The limits.
     """
 
     begin: float
     end: float
-    acceleration: float
+    tip: TipLimits
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +86,7 @@ class Demands:
         path_tolerance: Allowed distance from it, [m].
         orientation_tolerance: Allowed angle from it, [rad].
         continuous: Derivatives up to this order do not jump; 1 is C¹.
-        stretches: Of time in which the tip's acceleration has a limit of its own; pieces of the motion begin and end
-            there.
+        stretches: Of time in which the tip has limits of its own; pieces of the motion begin and end there.
         keeps_jerk: Whether limits of jerk are kept, or only compared with.
         stated_jerk: Limits of jerk that are kept even so, where acceleration does not jump; shape (n,),
             [rad/s³ or m/s³].

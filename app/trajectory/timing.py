@@ -23,7 +23,7 @@ from app.trajectory.polynomial import PiecewisePolynomial, joined
 from app.trajectory.problem import MotionLimits
 from app.trajectory.time_optimal import time_optimal
 from app.trajectory.tip_rows import tip_rows
-from app.trajectory.way_geometry import Corner, Geometry, TipMotion, geometry_of
+from app.trajectory.way_geometry import Geometry, TipMotion, Zone, geometry_of
 from app.trajectory.way_laws import POLYNOMIALS, polynomial, s_curve, trapezoid
 from app.trajectory.way_peaks import peaks_of
 from app.trajectory.words import Law
@@ -64,7 +64,7 @@ def timed(
     duration: float | None = None,
     slow_down: bool = False,
     tip_motion: TipMotion | None = None,
-    corners: tuple[Corner, ...] = (),
+    zones: tuple[Zone, ...] = (),
 ) -> Timed:
     """The motion of least duration with a law, or one of a given duration: the fastest one, slowed down uniformly.
 
@@ -86,12 +86,12 @@ def timed(
         tip_motion: The tip's motion from that of the joints (`tip_through`), to which its limits are then applied; that
             of the path if left out, from which joints that follow it within a tolerance differ a little. With neither
             the tip has no limits.
-        corners: Blends of the path whose acceleration has a limit of its own.
+        zones: Parts of the path where the tip has limits of its own.
 
     Raises:
         InvalidField: The duration is shorter than the limits allow, or the numbers are too far apart.
     """
-    geometry = geometry_of(path, joints, limits, tip_motion, corners)
+    geometry = geometry_of(path, joints, limits, tip_motion, zones)
     chosen: Law = "time_optimal" if slow_down else law
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
@@ -111,7 +111,7 @@ def compared(
     limits: MotionLimits,
     *,
     tip_motion: TipMotion | None = None,
-    corners: tuple[Corner, ...] = (),
+    zones: tuple[Zone, ...] = (),
 ) -> tuple[float, float, float, float]:
     """A law scaled uniformly so that some limit is just reached, and the time-optimal one, along the same way.
 
@@ -121,18 +121,18 @@ def compared(
         law: The law that is scaled.
         limits: Of joints and tip.
         tip_motion: See `timed`.
-        corners: See `timed`.
+        zones: See `timed`.
 
     Returns:
         The duration of the law; the k that limits of velocity, and those of acceleration, of joints and tip, ask for if
         it lasts 1 s: the duration is the larger one of k_vel and √k_acc, unless jerk binds; the time-optimal duration.
     """
-    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, corners=corners)
-    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, corners=corners)
+    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones)
+    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones)
     lasting = uniform.motion.duration
     if lasting == 0.0:
         return 0.0, 0.0, 0.0, 0.0
-    geometry = geometry_of(path, joints, limits, tip_motion, corners)
+    geometry = geometry_of(path, joints, limits, tip_motion, zones)
     peaks = peaks_of(geometry, uniform.motion, uniform.law, with_jerk=False)
     return lasting, peaks.of_order(1) * lasting, peaks.of_order(2) * lasting**2, optimal.motion.duration
 
@@ -151,7 +151,7 @@ def _fastest(geometry: Geometry, law: Law) -> Timed:
         places = ", ".join(f"{s:.4g}" for s in bends[:4]) + (", …" if len(bends) > 4 else "")
         note = f"the way's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
         notes = (f"{note} holds in between only",)
-    binding = peaks.binding(geometry.limits, in_blends=bool(geometry.corners))
+    binding = peaks.binding(geometry.limits, in_blends=bool(geometry.zones))
     return _scaled(Timed(motion, along, 2 if jerk_holds else 1, jerk_holds, binding, notes), peaks.factor)
 
 

@@ -31,7 +31,7 @@ from app.trajectory.problem import (
 )
 from app.trajectory.spline_paths import PolynomialPath
 from app.trajectory.timing import Timed, compared, timed
-from app.trajectory.way_geometry import tip_through
+from app.trajectory.way_geometry import Zone, tip_through
 from app.trajectory.ways import Way, way_of
 from app.trajectory.words import Law
 
@@ -70,17 +70,18 @@ def tip_part(
         return Part(standing(start), (), Demands(), halt)
     timing = _timed(chain, way, joints, segments, limits, first)
     blends = _blends(way, joints, timing.law)
-    demands = replace(_demands(way.path, joints, timing, limits, following, blends), stated_jerk=_stated(segments))
+    stretches = _stretches(way.zones(segments), joints, timing.law)
+    demands = replace(_demands(way.path, joints, timing, limits, following, stretches), stated_jerk=_stated(segments))
     comparison = _comparison(chain, way, joints, segments, limits, first) if problem.compares_timing else None
     reports = _reports(way, joints, timing, segments, first, following, blends)
     return Part(timing.motion, reports, demands, halt, comparison)
 
 
 def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
-    """What keeps to all of several limits."""
+    """What keeps to all of several limits of joints; of the tip those that all keep to, `Way.zones` has the others."""
     if len(limits) == 1:
         return limits[0]
-    tip = TipLimits(*(min(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
+    tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
     velocity, acceleration, jerk = (
         np.min([getattr(one, name) for one in limits], axis=0) for name in ("velocity", "acceleration", "jerk")
     )
@@ -116,7 +117,7 @@ def _timed(
             duration=segment.duration if is_whole else None,
             slow_down=_slows_at_corners(segments),
             tip_motion=tip_through(chain),
-            corners=way.limited_corners,
+            zones=way.zones(segments),
         )
     except InvalidField as error:
         raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
@@ -134,13 +135,22 @@ def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendR
     return blends
 
 
+def _stretches(zones: Sequence[Zone], joints: JointWay, law: PiecewisePolynomial) -> tuple[Stretch, ...]:
+    """When the motion is where the tip has limits of its own."""
+    return tuple(
+        Stretch(*_times_at(law, zone.begin, min(zone.end, joints.reached)), zone.tip)
+        for zone in zones
+        if zone.begin < joints.reached
+    )
+
+
 def _demands(
     path: Path,
     joints: JointWay,
     timing: Timed,
     limits: MotionLimits,
     following: Following,
-    blends: Sequence[BlendReport],
+    stretches: tuple[Stretch, ...],
 ) -> Demands:
     """What the motion has to keep to; the way at equal times is the way that is wanted."""
     law = timing.law
@@ -158,7 +168,7 @@ def _demands(
         position,
         orientation,
         timing.continuous,
-        tuple(Stretch(one.start_time, one.end_time, one.acceleration) for one in blends if one.acceleration),
+        stretches,
         timing.has_bounded_jerk,
     )
 
@@ -254,7 +264,7 @@ def _comparison(
     # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
     law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law
     uniform, by_velocity, by_acceleration, optimal = compared(
-        way.path, joints.positions, law, limits, tip_motion=tip_through(chain), corners=way.limited_corners
+        way.path, joints.positions, law, limits, tip_motion=tip_through(chain), zones=way.zones(segments)
     )
     numbers = tuple(range(first, first + len(segments)))
     return TimingComparison(numbers, law, uniform, by_velocity, by_acceleration, optimal)

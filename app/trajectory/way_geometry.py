@@ -64,20 +64,18 @@ def tip_through(chain: Chain) -> TipMotion:
 
 
 @dataclass(frozen=True, slots=True)
-class Corner:
-    """A blend of two lines whose acceleration has a limit of its own.
+class Zone:
+    """A part of a way on which the tip has limits of its own, beside those that hold everywhere.
 
     Attributes:
         begin: s at which it begins.
         end: s at which it ends.
-        radius: Distance from the corner at which the first line is left, [m].
-        acceleration: Of the tip between the two at most, beside its limit everywhere, [m/s²].
+        tip: The limits.
     """
 
     begin: float
     end: float
-    radius: float
-    acceleration: float
+    tip: TipLimits
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,14 +111,14 @@ class Geometry:
         limits: That hold on it.
         path: Of the tip; None where there is none.
         tip_motion: Of the tip through the joints, instead of that along the path; None for the path's.
-        corners: Blends of the path whose acceleration has a limit of its own; each begins and ends at a break.
+        zones: Parts of the path where the tip has limits of its own; each begins and ends at a break.
     """
 
     joints: PiecewisePolynomial
     limits: MotionLimits
     path: Path | None
     tip_motion: TipMotion | None
-    corners: tuple[Corner, ...] = ()
+    zones: tuple[Zone, ...] = ()
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -139,15 +137,15 @@ class Geometry:
     def limits_tip(self) -> bool:
         """Whether the tip has a limit that can be told."""
         known = self.path is not None or self.tip_motion is not None
-        return known and (bool(self.corners) or bool(np.isfinite(_of_tip(self.limits.tip)).any()))
+        return known and (bool(self.zones) or bool(np.isfinite(_of_tip(self.limits.tip)).any()))
 
     def tip_bounds(self, piece: Indices) -> Array:
         """The tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
         bounds = np.tile(_of_tip(self.limits.tip), (len(piece), 1))
         middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
-        for corner in self.corners:
-            rows = (middles > corner.begin) & (middles < corner.end)
-            bounds[rows, ACCELERATION] = np.minimum(bounds[rows, ACCELERATION], corner.acceleration)
+        for zone in self.zones:
+            rows = (middles > zone.begin) & (middles < zone.end)
+            bounds[rows] = np.minimum(bounds[rows], _of_tip(zone.tip))
         return bounds
 
     def piece_of(self, s: Array) -> Indices:
@@ -208,7 +206,7 @@ class Geometry:
 
     def _part(self, begin: int, end: int) -> "Geometry":
         joints = PiecewisePolynomial(self.joints.breaks[begin : end + 1], self.joints.coefficients[begin:end])
-        return Geometry(joints, self.limits, self.path, self.tip_motion, self.corners)
+        return Geometry(joints, self.limits, self.path, self.tip_motion, self.zones)
 
 
 def geometry_of(
@@ -216,7 +214,7 @@ def geometry_of(
     joints: PiecewisePolynomial,
     limits: MotionLimits,
     tip_motion: TipMotion | None,
-    corners: tuple[Corner, ...] = (),
+    zones: tuple[Zone, ...] = (),
 ) -> Geometry:
     """A way whose joints' breaks are also those of the path."""
     breaks = joints.breaks
@@ -226,7 +224,7 @@ def geometry_of(
     if len(extra):
         nodes = np.union1d(breaks, extra)
         joints = PiecewisePolynomial(nodes, cut(joints, nodes))
-    return Geometry(joints, limits, path, tip_motion, corners)
+    return Geometry(joints, limits, path, tip_motion, zones)
 
 
 def ratios(slopes: Slopes, limits: MotionLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:

@@ -11,12 +11,30 @@ import numpy as np
 from app.model.arrays import Array
 from app.model.errors import InvalidField
 from app.model.poses import Poses
+from app.trajectory.audit_demands import TipLimits
 from app.trajectory.orientation_paths import OrientationPath, Turn, axis_angle
 from app.trajectory.paths import POINT, Path, PathSequence, ViaOrientation, circle, line, refuse_reversal
 from app.trajectory.problem import Segment
 from app.trajectory.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
-from app.trajectory.way_geometry import Corner
+from app.trajectory.way_geometry import Zone
 from app.trajectory.zyz_paths import zyz_paths, zyz_turns
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """A blend of two lines.
+
+    Attributes:
+        begin: s at which it begins.
+        end: s at which it ends.
+        radius: Distance from the corner at which the first line is left, [m].
+        acceleration: Of the tip between the two at most, ∞ where only its limits everywhere count, [m/s²].
+    """
+
+    begin: float
+    end: float
+    radius: float
+    acceleration: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,10 +54,23 @@ class Way:
     corners: tuple[Corner, ...] = ()
     notes: tuple[str, ...] = ()
 
-    @property
-    def limited_corners(self) -> tuple[Corner, ...]:
-        """Those whose acceleration has a limit of its own."""
-        return tuple(corner for corner in self.corners if math.isfinite(corner.acceleration))
+    def zones(self, segments: Sequence[Segment]) -> tuple[Zone, ...]:
+        """Where the tip has limits of its own: in blends that say so, and on lines with their blends on both sides.
+
+        Args:
+            segments: That make up the way.
+        """
+        own = [
+            Zone(corner.begin, corner.end, TipLimits(acceleration=corner.acceleration))
+            for corner in self.corners
+            if math.isfinite(corner.acceleration)
+        ]
+        if len({segment.limits.tip for segment in segments}) == 1:
+            return tuple(own)
+        begins = [0.0, *(corner.begin for corner in self.corners)]
+        ends = [*(corner.end for corner in self.corners), self.path.extent]
+        lines = zip(begins, ends, segments, strict=True)
+        return (*own, *(Zone(begin, end, one.limits.tip) for begin, end, one in lines if one.limits.tip != TipLimits()))
 
 
 def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:

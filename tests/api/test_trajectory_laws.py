@@ -119,3 +119,33 @@ def test_a_line_may_be_as_short_as_it_likes(client: TestClient, law: str) -> Non
         answer = client.post("/v1/robots/ur5/trajectory", json=call | {"sample_period": 1.0, "tip_poses": False})
         assert (answer.status_code, length) == (200, length), answer.text
         assert answer.json()["completed_fraction"] == 1.0
+
+
+@pytest.mark.parametrize("law", ["trapezoidal", "time_optimal"])
+@pytest.mark.parametrize("speeds", [(0.2, 0.05, 0.2), (0.05, 0.2, 0.1), (0.1, 0.1, 0.02), (None, 0.05, None)])
+def test_of_blended_lines_each_keeps_its_own_speed(
+    client: TestClient, law: str, speeds: tuple[float | None, ...]
+) -> None:
+    """As fast as it may on each line outside of the blends, and nowhere faster; by differences of the tip's poses."""
+    pose, lines = tip(client), []
+    places = [(0.0, 0.0), (0.12, 0.0), (0.12, 0.12), (0.24, 0.12)]
+    for (x, z), speed in zip(places[1:], speeds, strict=True):
+        limit = {} if speed is None else {"limits": {"tip_velocity": speed}}
+        lines.append({"type": "line", "target": shifted(pose, x, z), "blend_radius": 0.01, **limit})
+    del lines[-1]["blend_radius"]
+    limits = {"tip_velocity": 0.3, "joint_velocity": 20.0, "joint_acceleration": 20.0}
+    call = {"start": START, "segments": lines, "law": law, "sample_period": 0.002, "limits": limits}
+    told = client.post("/v1/robots/ur5/trajectory", json=call).json()
+    positions = np.array([one["position"] for one in told["tip_poses"]])
+    times = np.array(told["times"])
+    speed = np.linalg.norm(np.diff(positions, axis=0), axis=1) / np.diff(times)
+    middles = 0.5 * (positions[1:] + positions[:-1])
+    corners = np.array([[x, 0.0, z] for x, z in places]) + pose["position"]
+    for i, bound in enumerate(speed_or or 0.3 for speed_or in speeds):
+        along = corners[i + 1] - corners[i]
+        share = (middles - corners[i]) @ along / (along @ along)
+        off = np.linalg.norm(middles - corners[i] - share[:, None] * along, axis=1)
+        on_line = (off < 1e-4) & (share > 0.0) & (share < 1.0)
+        assert speed[on_line].max() == pytest.approx(bound, rel=0.02)
+    assert told["audit"]["passed"]
+    assert told["audit"]["tip"]["speed"]["ratio"] == pytest.approx(1.0, abs=0.01)
