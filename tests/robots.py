@@ -1,20 +1,42 @@
 """The catalogue's robots as the core sees them, each built once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from typing import Any, Literal
 
 import numpy as np
+import pytest
+from _pytest.mark import ParameterSet
 
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.convert import describe_dh
-from app.model.description import Description
-from app.model.dh import DhJoint, DhTable
-from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.convert import describe_dh
+from gelenk.model.description import Description
+from gelenk.model.dh import DhJoint, DhTable
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue, dh_columns
+
+CLASSES = {
+    "double_pendulum_continuous": "joints without limits",
+    "iris": "no joints",
+    "kinova": "a wrist whose axes do not meet",
+    "panda": "seven joints",
+    "panda_dh": "a modified table",
+    "planar_3r": "planar, a standard table",
+    "scara": "a slide along an axis of a turn",
+    "stanford": "a slide that turns",
+    "tiago": "a tree with a slide, and joints that the chain leaves out",
+    "ur5": "parallel axes",
+}
+"""A robot of the catalogue for each kind that computations may take differently."""
+
+
+def swept(names: Iterable[str], value: Callable[[str], object] = str) -> list[ParameterSet]:
+    """Parameters for a test of many robots: one of each kind, and the others of the catalogue if asked for `slow`."""
+    slow = set(catalogue.NAMES) - set(CLASSES)
+    return [pytest.param(value(name), id=name, marks=[pytest.mark.slow] * (name in slow)) for name in names]
 
 
 @cache

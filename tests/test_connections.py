@@ -14,7 +14,7 @@ from typing import Any, Literal, cast
 import pytest
 import uvicorn
 
-from app.connections import BoundedProtocol, Bounds, Gate
+from gelenk.connections import BoundedProtocol, Bounds, Gate
 
 HOST = "127.0.0.1"
 GET = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"
@@ -139,6 +139,7 @@ def still_answers(port: int) -> None:
             assert answer(connection)[0::2] == (200, b"0")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("start", [b"", b"G", b"GET / HTTP/1.1\r\nHost: x\r\n", b"\r\n"])
 def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
@@ -154,6 +155,7 @@ def test_a_head_that_does_not_come_is_not_waited_for(start: bytes) -> None:
         still_answers(port)
 
 
+@pytest.mark.slow
 def test_a_head_that_trickles_in_gets_no_more_time_for_it() -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
         began = time.monotonic()
@@ -166,6 +168,7 @@ def test_a_head_that_trickles_in_gets_no_more_time_for_it() -> None:
         wait_for(lambda: gate.closed == 1)
 
 
+@pytest.mark.slow
 def test_a_second_request_has_the_same_time() -> None:
     with serving() as (port, _, _, _), connected(port) as connection:
         connection.sendall(GET)
@@ -174,6 +177,7 @@ def test_a_second_request_has_the_same_time() -> None:
         check_problem(answer(connection), 408, "request-too-slow")
 
 
+@pytest.mark.slow
 def test_half_a_body_is_not_waited_for_and_whoever_reads_it_is_told() -> None:
     with serving() as (port, gate, app, _), connected(port) as connection:
         connection.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")
@@ -183,6 +187,7 @@ def test_half_a_body_is_not_waited_for_and_whoever_reads_it_is_told() -> None:
         still_answers(port)
 
 
+@pytest.mark.slow
 def test_a_long_body_has_time_while_it_keeps_coming() -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
         size, count = 16_000, 20
@@ -194,6 +199,7 @@ def test_a_long_body_has_time_while_it_keeps_coming() -> None:
         assert gate.closed == 0
 
 
+@pytest.mark.slow
 def test_who_takes_nothing_of_an_answer_is_cut_off() -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/huge "))
@@ -202,6 +208,7 @@ def test_who_takes_nothing_of_an_answer_is_cut_off() -> None:
         still_answers(port)
 
 
+@pytest.mark.slow
 def test_who_takes_an_answer_slowly_gets_it() -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/huge "))
@@ -212,6 +219,7 @@ def test_who_takes_an_answer_slowly_gets_it() -> None:
         assert gate.closed == 0
 
 
+@pytest.mark.slow
 def test_a_long_computation_is_not_the_clients_fault() -> None:
     with serving() as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/slow "))
@@ -232,6 +240,7 @@ def chunked(trailers: bytes = b"", extension: bytes = b"", body: bytes = b"12345
     return head + b"%x%b\r\n%b\r\n0\r\n%b\r\n" % (len(body), extension, body, trailers)
 
 
+@pytest.mark.slow
 def test_trailers_add_nothing_to_the_headers_whatever_their_name() -> None:
     random = Random(1)
     names = ["Host", "Authorization", "Prefer", "Content-Type", "Origin", "Accept", "Expect"]
@@ -246,6 +255,7 @@ def test_trailers_add_nothing_to_the_headers_whatever_their_name() -> None:
             assert app.headers == plain
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("trickles", [False, True])
 @pytest.mark.parametrize("kind", ["one trailer", "trailers", "extension", "extensions"])
 def test_trailers_and_chunk_extensions_are_bounded_like_a_head(kind: str, trickles: bool) -> None:
@@ -285,6 +295,7 @@ def test_large_bodies_with_the_next_request_behind_them_are_no_large_head() -> N
             assert answer(connection)[0::2] == (200, b"0")
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("target", "host", "path"),
     [
@@ -344,6 +355,7 @@ def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
         wait_for(lambda: 10 <= len(gate.connections) <= 16)
 
 
+@pytest.mark.slow
 def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
     with serving(Bounds(connections=3)) as (port, _, _, _):
         working = [connected(port) for _ in range(3)]
@@ -359,6 +371,7 @@ def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
             connection.close()
 
 
+@pytest.mark.slow
 def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() -> None:
     """Each takes 10 ms of the event loop, and a hundred may wait; whoever watches does not wait for them."""
     with serving(Bounds(waiting=100)) as (port, gate, _, _), connected(port) as watching:
@@ -384,6 +397,7 @@ def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() 
             connection.close()
 
 
+@pytest.mark.slow
 def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() -> None:
     """By an application that says for how long: it is no work to refuse whom nobody listens to."""
     with serving(Bounds()) as (port, _, _, _), connected(port) as connection, connected(port) as other:
@@ -411,6 +425,7 @@ def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
         still_answers(port)
 
 
+@pytest.mark.slow
 def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -> None:
     """The head of that answer did not say that it is the last one of its connection: it must not be."""
     with serving(Bounds()) as (port, gate, _, _), connected(port) as connection:
@@ -424,6 +439,7 @@ def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -
         assert (found[0], found[1]["connection"]) == (200, "close")
 
 
+@pytest.mark.slow
 def test_a_shutdown_waits_for_answers_and_hardly_for_clients() -> None:
     with serving(Bounds()) as (port, gate, app, server):
         idle, slow, half, endless, head = (connected(port) for _ in range(5))

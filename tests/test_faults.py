@@ -123,6 +123,7 @@ def check_whole(pid: int, url: str) -> None:
     wait_for(lambda: len(crew(pid)) == 2, 5.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
 def test_a_crash_fails_its_own_request_alone(running: tuple[int, str], how: signal.Signals) -> None:
     pid, url = running
@@ -142,6 +143,7 @@ def test_a_crash_fails_its_own_request_alone(running: tuple[int, str], how: sign
     wait_for(lambda: victim not in crew(pid), 5.0)
 
 
+@pytest.mark.slow
 def test_a_hang_is_ended_at_its_deadline(running: tuple[int, str]) -> None:
     pid, url = running
     tasks: list[Future[tuple[int, Any]]] = []
@@ -155,6 +157,7 @@ def test_a_hang_is_ended_at_its_deadline(running: tuple[int, str]) -> None:
     wait_for(lambda: victim not in crew(pid), 5.0)
 
 
+@pytest.mark.slow
 def test_a_search_ends_before_its_request_would_be_ended(running: tuple[int, str]) -> None:
     _, url = running
     began = time.monotonic()
@@ -164,6 +167,7 @@ def test_a_search_ends_before_its_request_would_be_ended(running: tuple[int, str
     assert "solved" not in {result["status"] for result in answer["results"]}
 
 
+@pytest.mark.slow
 def test_a_lack_of_memory_fails_its_own_request_alone(running: tuple[int, str], tmp_path: Path) -> None:
     pid, url = running
     np.save(tmp_path / "many.npy", np.zeros((350_000, 7)))
@@ -187,6 +191,7 @@ def post_npy(url: str, body: bytes) -> tuple[int, bytes]:
         return error.code, error.read()
 
 
+@pytest.mark.slow
 def test_who_leaves_takes_the_work_along(running: tuple[int, str]) -> None:
     pid, url = running
     body = json.dumps(slow(60.0)).encode()
@@ -200,6 +205,7 @@ def test_who_leaves_takes_the_work_along(running: tuple[int, str]) -> None:
     check_whole(pid, url)
 
 
+@pytest.mark.slow
 def test_a_robot_is_loaded_here_only_after_another_process_has_lived_through_it(running: tuple[int, str]) -> None:
     """Of an uploaded robot that was not asked for yet the first call is one of the crew's, however quick it is."""
     pid, url = running
@@ -214,6 +220,7 @@ def test_a_robot_is_loaded_here_only_after_another_process_has_lived_through_it(
     wait_for(lambda: get(f"{url}/v1/robots/own/fk", "POST", {"joint_positions": [[0.0]]})[0] == 200)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
 def test_nothing_is_left_when_the_service_ends(tmp_path: Path, how: signal.Signals) -> None:
     """In the middle of a request that takes longer than the end may, which is told so where there is time for that."""

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from http.client import HTTPException
 from pathlib import Path
 
+import pytest
+
 from tests.api.test_hostile_calls import JSON_OPERATIONS, wrong_bodies
 from tests.corpus.bodies import JSON, Call
 from tests.corpus.calls import ALL, NPY, PLANAR, RAW_PATHS
@@ -80,6 +82,7 @@ def corpus() -> Iterator[Call]:
             yield from wrong_bodies(method, path, "panda", example)
 
 
+@pytest.mark.slow
 def test_a_service_survives_the_whole_corpus(tmp_path: Path) -> None:
     log = tmp_path / "log"
     wrong: list[str] = []

@@ -45,7 +45,7 @@ class Service:
 
     def start(self) -> None:
         variables = {"GELENK_DATA_DIR": str(self.data), "GELENK_CREW_PROCESSES": "2", "GELENK_JOB_PROCESSES": "1"}
-        command = [sys.executable, "-m", "app.serve", "--port", str(self._port), "--workers", str(WORKERS)]
+        command = [sys.executable, "-m", "gelenk.serve", "--port", str(self._port), "--workers", str(WORKERS)]
         self._run = subprocess.Popen(command, env={**os.environ, **variables}, stderr=subprocess.DEVNULL, text=True)
         wait_until_ready(self.url, self._run)
 
@@ -206,6 +206,7 @@ def strays(data: Path) -> list[Path]:
     return [path for path in found if path.name.startswith((".new-", ".old-"))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", [5, pytest.param(200, marks=pytest.mark.slow)])
 def test_nothing_acknowledged_is_lost(tmp_path: Path, kills: int) -> None:
     chance = random.Random(kills)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from app.logs import REQUEST_ID, LineHandler, configuration
+from gelenk.logs import REQUEST_ID, LineHandler, configuration
 
 NASTY = "".join(map(chr, range(0xA1))) + "\u2028\u2029\u202e\ud800é\U0001f600"
 
@@ -87,8 +87,9 @@ class Blocked(StringIO):
         return super().write(text)
 
 
+@pytest.mark.slow
 def test_a_slow_reader_holds_up_nobody_and_what_is_lost_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.logs._MOST_WAITING", 50)
+    monkeypatch.setattr("gelenk.logs._MOST_WAITING", 50)
     stream = Blocked()
     handler = LineHandler(stream)
     handler.emit(record("first"))

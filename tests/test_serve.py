@@ -1,6 +1,7 @@
 """The service as a process: it starts, several workers see the same robots, and requests in flight finish."""
 
 import asyncio
+import errno
 import json
 import os
 import signal
@@ -23,10 +24,10 @@ import pytest
 import uvicorn
 import uvloop
 
-from app import serve, supervisor
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
-from app.settings import Settings
+from gelenk import serve, supervisor
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
+from gelenk.settings import Settings
 
 HOST = "127.0.0.1"
 
@@ -61,7 +62,7 @@ def service_that_writes(
     """The same with a place for what it writes."""
     port = free_port()
     environment = {**os.environ, "GELENK_DATA_DIR": str(data_dir), **settings}
-    command = [sys.executable, "-m", "app.serve", "--port", str(port), *arguments]
+    command = [sys.executable, "-m", "gelenk.serve", "--port", str(port), *arguments]
     with subprocess.Popen(command, env=environment, stdout=output, stderr=subprocess.STDOUT, text=True) as run:
         try:
             url = f"http://{HOST}:{port}"
@@ -85,6 +86,7 @@ def wait_until_ready(url: str, run: subprocess.Popen[str]) -> None:
     raise AssertionError("the service does not get ready")
 
 
+@pytest.mark.slow
 def test_every_worker_sees_an_upload_at_once(tmp_path: Path) -> None:
     row = {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}
     with service(tmp_path, "--workers", "2") as (_, url):
@@ -101,6 +103,7 @@ def test_every_worker_sees_an_upload_at_once(tmp_path: Path) -> None:
         assert {get(f"{url}/v1/robots/arm")[0] for _ in range(8)} == {404}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGINT])
 def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> None:
     """Half of a request is sent, the service is told to stop, the other half follows: the answer comes."""
@@ -125,6 +128,7 @@ def test_a_request_in_flight_finishes(tmp_path: Path, stop: signal.Signals) -> N
         run.wait(timeout=8)
 
 
+@pytest.mark.slow
 def test_whoever_asks_while_it_ends_is_told_so_and_not_cut_off(tmp_path: Path) -> None:
     body = json.dumps({"joint_positions": [[0.0] * 7]})
     begun = Semaphore(0)
@@ -199,10 +203,11 @@ def test_what_a_killed_service_has_counted_goes_at_the_next_start(
     assert list(tmp_path.iterdir()) == [foreign]
 
 
+@pytest.mark.slow
 def test_a_crowd_takes_no_more_files_than_there_may_be(tmp_path: Path) -> None:
     port = free_port()
     few = {"GELENK_DATA_DIR": str(tmp_path), "GELENK_CREW_PROCESSES": "2", "GELENK_JOB_PROCESSES": "2"}
-    command = f"ulimit -n 64; exec {sys.executable} -m app.serve --port {port}"
+    command = f"ulimit -n 64; exec {sys.executable} -m gelenk.serve --port {port}"
     with subprocess.Popen(["bash", "-c", command], env={**os.environ, **few}, text=True) as run, ExitStack() as crowd:
         try:
             url = f"http://{HOST}:{port}"
@@ -217,13 +222,14 @@ def test_a_crowd_takes_no_more_files_than_there_may_be(tmp_path: Path) -> None:
 
 
 def test_hardly_any_files_end_it_with_one_line() -> None:
-    command = f"ulimit -n 40; exec {sys.executable} -m app.serve --port {free_port()}"
+    command = f"ulimit -n 40; exec {sys.executable} -m gelenk.serve --port {free_port()}"
     run = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
     assert run.returncode == 1
     assert run.stderr.startswith("only 40 files may be open (`ulimit -n`): the service needs ")
     assert run.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_path_prefix_of_a_proxy(tmp_path: Path) -> None:
     with service(tmp_path, GELENK_ROOT_PATH="/gelenk") as (_, url):
         call = {"joint_positions": [[0.0, 0.0]]}
@@ -257,7 +263,7 @@ def test_the_path_prefix_as_an_argument(monkeypatch: pytest.MonkeyPatch) -> None
 def test_a_wrong_setting_ends_it_with_one_line(tmp_path: Path) -> None:
     environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path), "GELENK_DATA_DRI": "x"}
     run = subprocess.run(
-        [sys.executable, "-m", "app.serve"], env=environment, capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-m", "gelenk.serve"], env=environment, capture_output=True, text=True, timeout=60, check=False
     )
     assert run.returncode == 1
     assert run.stderr.count("\n") == 1
@@ -278,7 +284,7 @@ def test_a_taken_port_is_all_that_it_tells_of(host: str, arguments: list[str], t
         other.bind((HOST, 0))
         other.listen()
         port = other.getsockname()[1]
-        command = [sys.executable, "-m", "app.serve", "--host", host, "--port", str(port), *arguments]
+        command = [sys.executable, "-m", "gelenk.serve", "--host", host, "--port", str(port), *arguments]
         run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60, check=False)
     assert run.returncode != 0
     assert (run.stdout, run.stderr.count("\n")) == ("", 1)
@@ -286,10 +292,11 @@ def test_a_taken_port_is_all_that_it_tells_of(host: str, arguments: list[str], t
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_of_two_that_begin_at_once_one_is_told_at_once(tmp_path: Path) -> None:
     port = free_port()
     environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
-    command = [sys.executable, "-m", "app.serve", "--port", str(port)]
+    command = [sys.executable, "-m", "gelenk.serve", "--port", str(port)]
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as first:
         try:
             assert first.stdout is not None
@@ -367,3 +374,37 @@ def test_keys_over_real_connections(tmp_path: Path) -> None:
             except urllib.error.HTTPError as error:
                 assert error.code == status
                 assert json.loads(error.read())["missing_scope"] == "write"
+
+
+def test_a_home_that_cannot_be_written_is_told_with_what_to_do() -> None:
+    environment = {
+        name: value for name, value in os.environ.items() if name not in {"GELENK_DATA_DIR", "XDG_DATA_HOME"}
+    }
+    command = [sys.executable, "-m", "gelenk.serve", "--port", str(free_port())]
+    with subprocess.Popen(command, env={**environment, "HOME": "/proc/none"}, stderr=subprocess.PIPE, text=True) as run:
+        try:
+            assert run.stderr is not None
+            assert "GELENK_DATA_DIR names another folder" in run.stderr.readline()
+        finally:
+            run.terminate()
+            run.communicate(timeout=60)
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (OSError(errno.EACCES, "Permission denied"), "Permission denied; --port names another one than 80"),
+        (OSError(errno.EADDRNOTAVAIL, "Cannot assign"), "Cannot assign; --host takes an address of this machine"),
+        (socket.gaierror(socket.EAI_NONAME, "unknown"), "unknown; --host takes an address of this machine"),
+    ],
+)
+def test_why_it_cannot_listen_is_told_with_what_to_do(
+    monkeypatch: pytest.MonkeyPatch, error: OSError, words: str
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("sys.argv", ["gelenk serve", "--port", "80"])
+    monkeypatch.setattr("socket.create_server", refuse)
+    with pytest.raises(SystemExit, match=words):
+        serve.main()

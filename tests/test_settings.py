@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from app.settings import InvalidSetting, Settings
+from gelenk.settings import InvalidSetting, Settings
 
 
 def test_defaults_and_values() -> None:
@@ -37,6 +37,7 @@ def test_settings_of_several_values() -> None:
     assert settings.open_access
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(
     ("variable", "value"),
     [

@@ -1,4 +1,4 @@
-/** Bundles the studio into dist/, to the same bytes from the same lock file. */
+/** Bundles the studio into the package, to the same bytes from the same lock file. */
 
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const out = process.argv[2] ?? join(here, "dist");
+const out = process.argv[2] ?? join(here, "..", "gelenk", "studio");
 const FONTS_THAT_EVERY_BROWSER_READS = /,url\([^)]*\.(?:woff|ttf)\) format\("[a-z]+"\)/g;
 
 const katexStyle = {

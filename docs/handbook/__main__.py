@@ -1,4 +1,4 @@
-"""`./dev handbook`: build it, then look through what was built."""
+"""`./dev handbook`: compare the pages with what their calls give, build them, look through what was built."""
 
 import argparse
 import shutil
@@ -8,16 +8,24 @@ from pathlib import Path
 from sphinx.cmd.build import build_main
 
 from docs.handbook import site
+from docs.handbook.committed import renew
+from docs.handbook.session import end_service
 
 ROOT = Path(__file__).resolve().parents[2]
 OUTPUT = ROOT / "build" / "handbook"
 
 
 def main() -> None:
-    """Exit with 0 only where every call was answered as its page says, and every page is sound."""
+    """Exit with 0 only where every call is answered as its page says, and every page is sound."""
     parser = argparse.ArgumentParser(prog="./dev handbook", description=__doc__)
     parser.add_argument("pages", nargs="*", help="build these alone, such as docs/course/statics.md; all if left out")
-    pages = parser.parse_args().pages
+    parser.add_argument("--write", action="store_true", help="write what the calls give into the pages")
+    arguments = parser.parse_args()
+    pages = arguments.pages
+    found = list(renew([Path(page) for page in pages] or sorted(Path("docs").rglob("*.md")), arguments.write))
+    end_service()
+    if found:
+        sys.exit("\n".join(found))
     if not pages:
         shutil.rmtree(OUTPUT, ignore_errors=True)  # what an earlier page left behind would hide a dead link
     if build(ROOT / "docs", OUTPUT, pages) != 0:
@@ -38,7 +46,6 @@ def build(pages: Path, output: Path, only: list[str] | None = None) -> int:
         only: Sources that are read and written; all if empty.
     """
     options = ["--fail-on-warning", "--nitpicky", "--quiet", "--conf-dir", str(Path(__file__).resolve().parent)]
-    # Every page anew, as its numbers come from the code and not from the page.
     if not only:
         options += ["--fresh-env", "--write-all"]
     return build_main([*options, str(pages), str(output), *(only or [])])

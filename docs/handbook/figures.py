@@ -1,9 +1,23 @@
 """Pictures that a page draws of its own numbers with matplotlib, in the style of those that the service draws."""
 
+import re
+
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from app.plots.figure import INK, QUIET, RULE, TEXT, as_bytes, font
+from gelenk.plots.figure import INK, QUIET, RULE, TEXT, as_bytes, font
+
+_LONG = re.compile(r"(?<![\w.])-?\d+\.\d{2,}(?!\w)")
+_HASHED = re.compile(r"\b([mp])([0-9a-f]{10})\b")
+_METADATA = re.compile(r"<metadata>.*?</metadata>", re.DOTALL)
+
+
+def compact(drawing: str) -> str:
+    """An SVG of matplotlib with as many digits as can be seen, without metadata, and with names that do not change."""
+    names: dict[str, str] = {}
+    short = _LONG.sub(lambda number: f"{float(number[0]):.1f}" if abs(float(number[0])) > 2 else number[0], drawing)
+    short = _HASHED.sub(lambda name: names.setdefault(name[2], f"{name[1]}{len(names)}"), _METADATA.sub("", short))
+    return " ".join(short.split()).replace("> <g", ">\n<g") + "\n"
 
 
 def svg(figure: Figure) -> bytes:

@@ -8,9 +8,9 @@ from functools import cache
 from typing import Any
 from urllib.parse import unquote
 
-from app.calls.call import Sent
-from app.calls.operations import Operations
-from docs.handbook.schema_words import Objects, Schema, anchor, component, field, fields, linked, words
+from docs.handbook.schema_words import Objects, Schema, anchor, component, field, fields, linked, place, words
+from gelenk.calls.call import Sent
+from gelenk.calls.operations import Operations
 
 _LINE = 72
 """Letters of a line of an example; what is longer is written over several."""
@@ -64,7 +64,7 @@ def entries(schema: Mapping[str, Any]) -> list[Entry]:
 def described(entry: Entry, objects: Objects) -> str:
     """An operation below a heading, without the fields of the objects that it names."""
     paragraphs = [
-        f"({anchor('operation', entry.id)})=\n## {entry.content['summary']}",
+        f"{place(anchor('operation', entry.id))}\n\n## {entry.content['summary']}",
         f"`{entry.method} {entry.path}`",
         _access(entry),
         entry.content.get("description", ""),

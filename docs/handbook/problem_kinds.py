@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, fields
 from http import HTTPStatus
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from app.api.problems import status_of
-from app.model.errors import KinematicsError, kinds
-from docs.handbook.schema_words import anchor
+from docs.handbook.schema_words import anchor, place
+from gelenk.api.problems import status_of
+from gelenk.model.errors import KinematicsError, kinds
 
 _WORDS: Mapping[Any, str] = {str: "text", int: "whole number", float: "number", tuple[str, ...]: "list of texts"}
 """What a fact is, by its type."""
@@ -121,8 +121,8 @@ def _paragraphs(found: list[Kind]) -> Iterator[str]:
     for kind in found:
         if kind.status != status:
             status = kind.status
-            yield f"(status-{status.value})=\n## {status.value} {status.phrase}"
-        yield f"({anchor('problem', kind.name)})=\n### {kind.name}"
+            yield f"{place(f'status-{status.value}')}\n\n## {status.value} {status.phrase}"
+        yield f"{place(anchor('problem', kind.name))}\n\n### {kind.name}"
         raised = "" if kind.exception is None else f" In Python `{kind.exception}`."
         yield f"{kind.meaning}{raised}"
         if kind.facts:

@@ -9,7 +9,7 @@ from http import HTTPStatus
 from typing import Any
 
 from docs.handbook.operations import Entry, described, entries
-from docs.handbook.schema_words import anchor, component, fields, shown, words
+from docs.handbook.schema_words import anchor, component, fields, place, shown, words
 
 GROUPS = ("Kinematics", "DH tables", "Robots", "Course", "Jobs", "Service")
 """In the order in which objects are looked for: the first group that uses one has it."""
@@ -35,7 +35,7 @@ class Reference:
     def object(self, name: str, level: int = 3) -> str:
         """The fields of an object below its name, a heading of a level."""
         schema = self._objects[name]
-        head = f"({anchor('object', name)})=\n{'#' * level} {shown(name)}"
+        head = f"{place(anchor('object', name))}\n\n{'#' * level} {shown(name)}"
         content = fields(name, schema, self._objects) if "properties" in schema else f"A value of it: {words(schema)}."
         return "\n\n".join([head, schema.get("description", ""), content])
 

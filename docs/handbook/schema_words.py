@@ -38,6 +38,16 @@ def anchor(kind: str, *names: str) -> str:
     return joined.replace("__", "-").replace("_", "-").lower()
 
 
+def place(name: str) -> str:
+    """What a link can lead to."""
+    return f'<a id="{name}"></a>'
+
+
+def defined(anchor: str, name: str, kind: str, meaning: str) -> str:
+    """An entry of a list of definitions."""
+    return f"- {place(anchor)}**`{name}`** {kind}" + (f"\\\n  {meaning}" if meaning else "")
+
+
 def linked(name: str) -> str:
     """The name of an object as a link to its fields."""
     return f"[{shown(name)}](#{anchor('object', name)})"
@@ -140,7 +150,7 @@ def _code(value: object) -> str:
 
 
 def fields(owner: str, schema: Schema, objects: Objects) -> str:
-    """The fields of an object as a list of definitions.
+    """The fields of an object as a list.
 
     Args:
         owner: Name of the object.
@@ -169,7 +179,7 @@ def field(owner: str, name: str, schema: Schema, objects: Objects, is_required: 
     elif is_required:
         told.append("required")
     meaning = " ".join(_meaning(schema, objects).split())
-    return f"[`{name}`]{{#{anchor('field', owner, name)}}} {'; '.join(told)}\n: {meaning}"
+    return defined(anchor("field", owner, name), name, "; ".join(told), meaning)
 
 
 def _meaning(schema: Schema, objects: Objects) -> str:

@@ -2,28 +2,20 @@
 
 import ast
 import json
-import shlex
 import time
 from contextlib import redirect_stdout
-from dataclasses import dataclass
 from functools import cache
 from io import StringIO
-from typing import Any, TypeVar
-from urllib.parse import urlencode
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-from app.calls.call import JSON, Call
-from app.calls.refusals import Refused
-from app.cli.local import InProcess
-from app.client import DEFAULT_URL, Client
 from docs.handbook.written import DIGITS, in_line, written
-
-T = TypeVar("T")
-
-_SHOWN_BYTES = 2000
-"""Of a request in a command; a larger one would be in a file."""
+from gelenk.calls.call import Call
+from gelenk.calls.refusals import Refused
+from gelenk.cli.local import InProcess
+from gelenk.client import Client
 
 _READY_SECONDS = 900.0
 """How long kernels may take to compile, on a slow and busy machine."""
@@ -33,27 +25,10 @@ class Unexpected(Exception):
     """A call is not answered as its page says."""
 
 
-class RecordingClient(Client):
-    """The service, and what it was asked."""
-
-    def __init__(self) -> None:
-        super().__init__(transport=InProcess())
-        self.calls: list[Call[Any]] = []
-
-    def send(self, call: Call[T]) -> T:
-        """The answer to a call."""
-        self.calls.append(call)
-        return super().send(call)
-
-    def schema(self) -> Any:
-        """The service's description of itself (OpenAPI)."""
-        return super().send(Call("GET", "openapi.json", lambda reply: json.loads(reply.body)))
-
-
 @cache
-def service() -> RecordingClient:
+def service() -> Client:
     """The one service of a build, started when it is first needed, and ready."""
-    client = RecordingClient()
+    client = Client(transport=InProcess())
     wait_until_ready(client)
     return client
 
@@ -74,24 +49,16 @@ def wait_until_ready(client: Client) -> None:
                 raise
 
 
+def schema() -> Any:
+    """The service's description of itself (OpenAPI)."""
+    return service().send(Call("GET", "openapi.json", lambda reply: json.loads(reply.body)))
+
+
 def end_service() -> None:
     """Close it, if there is one."""
     if service.cache_info().currsize:
         service().close()
         service.cache_clear()
-
-
-@dataclass(frozen=True, slots=True)
-class Ran:
-    """What a piece of a page has done.
-
-    Attributes:
-        output: What it printed, and its last value.
-        calls: What it has asked.
-    """
-
-    output: str
-    calls: tuple[Call[Any], ...]
 
 
 class Session:
@@ -101,13 +68,12 @@ class Session:
         client: Stands in the page as `gelenk`.
     """
 
-    def __init__(self, client: RecordingClient) -> None:
-        self._client = client
+    def __init__(self, client: Client) -> None:
         self._names: dict[str, Any] = {"gelenk": client, "np": np, "pi": np.pi, "plt": plt, "print": self._print}
         self._digits = DIGITS
 
-    def run(self, code: str, digits: int = DIGITS, refusal: str | None = None) -> Ran:
-        """Run a piece.
+    def run(self, code: str, digits: int = DIGITS, refusal: str | None = None) -> str:
+        """Run a piece: what it prints, and its last value.
 
         Args:
             code: Statements; the value of a last expression is written out.
@@ -117,7 +83,6 @@ class Session:
         Raises:
             Unexpected: It is refused where it should not be, or not where it should, or fails.
         """
-        self._client.calls.clear()
         self._digits = digits
         printed = StringIO()
         try:
@@ -130,7 +95,7 @@ class Session:
         if refusal is not None:
             raise Unexpected(f"it is answered where {refusal} should refuse it")
         output = printed.getvalue() + ("" if value is None else written(value, digits))
-        return Ran(output.rstrip("\n"), tuple(self._client.calls))
+        return output.rstrip("\n")
 
     def value(self, expression: str) -> Any:
         """The value of an expression.
@@ -143,14 +108,12 @@ class Session:
         except Exception as error:
             raise Unexpected(_told(error)) from error
 
-    def recorded(self, code: str) -> tuple[Any, tuple[Call[Any], ...]]:
-        """The last value of a piece, and what it has asked; raises as `value` does."""
-        self._client.calls.clear()
+    def last(self, code: str) -> Any:
+        """The last value of a piece; raises as `value` does."""
         try:
-            value = self._execute(code)
+            return self._execute(code)
         except Exception as error:
             raise Unexpected(_told(error)) from error
-        return value, tuple(self._client.calls)
 
     def _execute(self, code: str) -> Any:
         statements = ast.parse(code).body
@@ -172,26 +135,3 @@ def _told(error: Exception) -> str:
     if isinstance(error, Refused):
         return f"the service refuses it, {error.kind}: {error.detail}"
     return f"{type(error).__name__}: {error}"
-
-
-def curl(call: Call[Any]) -> str:
-    """The same call in a shell."""
-    query = f"?{urlencode(call.query, doseq=True)}" if call.query else ""
-    words = ["curl", "-s", f"{DEFAULT_URL}/{call.path}{query}"]
-    if call.method not in {"GET", "POST"}:
-        words[1:1] = ["-X", call.method]
-    if call.accept != JSON:
-        words += ["-H", f"Accept: {call.accept}"]
-    if call.accept.startswith("image/"):
-        words += ["-o", f"picture.{call.accept.removeprefix('image/').partition('+')[0]}"]
-    words += [word for name, text in call.form.items() for word in ("-F", f"{name}={text}")]
-    words += [word for name in call.files for word in ("-F", f"{name}=@FILE")]
-    if call.body:
-        words += ["-H", f"Content-Type: {call.media_type}", *_content(call)]
-    return shlex.join(words)
-
-
-def _content(call: Call[Any]) -> list[str]:
-    if call.media_type != JSON:
-        return ["--data-binary", "@array.npy"]
-    return ["-d", call.body.decode() if len(call.body) <= _SHOWN_BYTES else "@request.json"]

@@ -5,13 +5,13 @@ import re
 from collections.abc import Iterator
 from dataclasses import MISSING, fields
 
-from app.api import remote
-from app.api.access import keyring
-from app.model import dh, tree, urdf, xml
-from app.schemas import ik
-from app.settings import Settings
-from app.store import archive
-from docs.handbook.schema_words import anchor
+from docs.handbook.schema_words import anchor, defined
+from gelenk.api import remote
+from gelenk.api.access import keyring
+from gelenk.model import dh, tree, urdf, xml
+from gelenk.schemas import ik
+from gelenk.settings import Settings
+from gelenk.store import archive
 
 _OF_THE_MACHINE = {
     "data_dir": "the user's data folder",
@@ -51,7 +51,7 @@ _BOUNDS = (
 
 
 def settings() -> str:
-    """The environment variables as a list of definitions."""
+    """The environment variables as a list."""
     return "\n\n".join(_settings())
 
 
@@ -68,7 +68,7 @@ def _settings() -> Iterator[str]:
         meaning, variable = meanings[entry.name], f"GELENK_{entry.name.upper()}"
         default = _OF_THE_MACHINE[entry.name] if entry.default is MISSING else _written(entry.name, entry.default)
         named = _VARIABLE.sub(".", meaning)
-        yield f"[`{variable}`]{{#{anchor('setting', entry.name)}}} default: {default}\n: {named}"
+        yield defined(anchor("setting", entry.name), variable, f"default: {default}", named)
 
 
 def _written(name: str, value: object) -> str:

@@ -14,6 +14,8 @@ _ROUNDING = 1e-12
 """Beside the largest number of a list, what is smaller by this factor is written as 0."""
 _NUMBER = re.compile(r"(?<![\w.^])[-−+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
+_SIGNED = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
 
 def written(value: Any, digits: int = DIGITS) -> str:
     """A value in lines of text: numbers to significant digits, matrices in columns, an answer by its fields.
@@ -53,6 +55,20 @@ def disagreement(stated: str, value: Any) -> str | None:
     if len(tokens) == len(numbers) and all(_is_rounded(*pair) for pair in zip(tokens, numbers, strict=True)):
         return None
     return f"stated is {stated!r}, and the call gives {written(plain, 12)}"
+
+
+def same(committed: str, made: str, apart: float = 1e-9) -> bool:
+    """Whether two texts have the same words, and the same numbers but for what differs between processors.
+
+    Args:
+        committed: The one.
+        made: The other.
+        apart: How far numbers may differ in any case, beside a thousandth of themselves.
+    """
+    if _SIGNED.sub("#", committed).split() != _SIGNED.sub("#", made).split():
+        return False
+    pairs = zip(_SIGNED.findall(committed), _SIGNED.findall(made), strict=True)
+    return all(math.isclose(float(a), float(b), rel_tol=1e-3, abs_tol=apart) for a, b in pairs)
 
 
 def _is_rounded(token: str, number: float) -> bool:

@@ -1,4 +1,4 @@
-"""One application for all tests of a module, with a data folder of its own."""
+"""One application for the tests of all modules; a module that changes more than robots of its own makes another."""
 
 import time
 from collections.abc import Iterator
@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
-from app.kinematics.warm import warm_up
-from app.main import create_app
-from app.settings import Settings
+from gelenk.kinematics.warm import warm_up
+from gelenk.main import create_app
+from gelenk.settings import Settings
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -18,7 +18,7 @@ def kernels() -> None:
     warm_up()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     """A client of an application that is ready."""
     yield from ready_client(tmp_path_factory.mktemp("data"))

@@ -9,6 +9,7 @@ from starlette.testclient import TestClient
 
 from tests.api.test_inverse import ik, poses, positions, refused, result, within
 from tests.api.test_kinematics import NPY, Array, npy
+from tests.kinematics.ik import six_joint_arms
 from tests.robots import robot
 
 SEVEN = "simple_humanoid"
@@ -42,6 +43,7 @@ def reached(client: TestClient, name: str, qs: Array) -> Array:
     return np.array([pose["matrix"] for pose in poses(client, name, qs)])
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", NAMES)
 def test_one_solution_by_closed_form(client: TestClient, name: str) -> None:
     qs = within(name, 30)
@@ -63,6 +65,7 @@ def test_one_solution_by_closed_form(client: TestClient, name: str) -> None:
         assert positions(ik(client, name, targets=targets)).tolist() == positions(answer).tolist()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", [name for name in NAMES if name != SEVEN])
 def test_all_branches_each_with_a_name_of_its_own(client: TestClient, name: str) -> None:
     qs = within(name, 20)
@@ -211,6 +214,29 @@ def test_an_arm_without_closed_form_is_refused(client: TestClient, name: str) ->
         assert "closed form" in problem["detail"]
         assert problem["pointer"] == "#/method"
     assert ik(client, name, targets=targets)["closed_form"] is None
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("name", ["crx 0", "jaco 2, 60 degrees", "gen3 lite", "axes 1 2 3 parallel, 0"])
+def test_six_joints_without_a_closed_form_are_solved_by_continuation(client: TestClient, name: str) -> None:
+    arm = six_joint_arms.arm(name)
+    numbers = ("a", "alpha", "d", "theta")
+    joints = [{"type": "revolute", **dict(zip(numbers, row, strict=True))} for row in arm.table.rows]
+    stored = {"name": "counted", "dh": {"convention": "standard", "joints": joints}}
+    assert client.post("/v1/robots", json=stored).status_code == 201
+    qs = arm.configurations(4, seed=3)
+    call = {"targets": [{"matrix": arm.table.pose(q).tolist()} for q in qs], "respect_limits": False}
+    one = ik(client, "counted", seeds=qs.tolist(), method="analytic", **call)
+    np.testing.assert_allclose(positions(one), qs, atol=1e-9)
+    every = ik(client, "counted", method="analytic", solutions="all", **call)
+    assert every["results"] == ik(client, "counted", solutions="all", **call)["results"]
+    for answer in (one, every):
+        assert answer["closed_form"] == "six joints, by continuation"
+        assert {s["method"] for entry in answer["results"] for s in entry["solutions"]} == {"continuation"}
+    for q, entry in zip(qs, every["results"], strict=True):
+        assert entry["complete"]
+        assert holds(table(entry), q)
+    assert client.delete("/v1/robots/counted").status_code == 204
 
 
 @pytest.mark.parametrize(

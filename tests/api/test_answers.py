@@ -165,6 +165,7 @@ def arm(client: TestClient, request: pytest.FixtureRequest) -> Arm:
     return Arm(client, request.param)
 
 
+@pytest.mark.quick(2)
 def test_poses_in_all_notations(arm: Arm) -> None:
     qs = arm.configurations(6)
     for notation in FORMATS:
@@ -180,6 +181,7 @@ def test_poses_in_all_notations(arm: Arm) -> None:
             assert np.abs(np.linalg.norm(array[:, 3:], axis=1) - 1).max() < TOLERANCE
 
 
+@pytest.mark.quick(2)
 def test_jacobians_forces_and_motions(arm: Arm) -> None:
     qs = arm.configurations(4)
     count = len(qs)
@@ -200,6 +202,7 @@ def test_jacobians_forces_and_motions(arm: Arm) -> None:
         arm.ask_array(operation, joint_positions=qs)
 
 
+@pytest.mark.quick(1)
 def test_solutions_of_random_targets(arm: Arm) -> None:
     """Some are out of reach; what is nearest must be finite as well."""
     poses = arm.ask("fk", joint_positions=arm.configurations(3))["poses"]
@@ -213,6 +216,7 @@ def test_solutions_of_random_targets(arm: Arm) -> None:
         arm.ask("ik", targets=[*poses, *far], method=method, trace=True, max_iterations=50)
 
 
+@pytest.mark.slow
 def test_motions_between_random_places(arm: Arm) -> None:
     start, middle, end = arm.configurations(3)[:3]
     tip = arm.ask("fk", joint_positions=[middle])["poses"][0]
@@ -221,13 +225,13 @@ def test_motions_between_random_places(arm: Arm) -> None:
         for segments in ([joint], [line], [joint, line]):
             call = {"start": start, "segments": segments, "law": law, "sample_period": 0.1}
             answer = arm.client.post(f"/v1/robots/{arm.name}/trajectory", json=call)
-            assert answer.status_code in {200, 422}, answer.text[:1000]
-            if answer.status_code == 200:
-                checked(arm.client, "trajectory", answer.content)
+            assert answer.status_code == 200, answer.text[:1000]
+            checked(arm.client, "trajectory", answer.content)
     spline = {"type": "spline", "waypoints": [middle, end, start]}
     arm.ask("trajectory", start=start, segments=[spline], sample_period=0.1)
 
 
+@pytest.mark.quick(2)
 def test_workspaces(arm: Arm) -> None:
     for kind in ("cloud", "grid"):
         job = f"{arm.name}-{kind}"
@@ -240,6 +244,7 @@ def test_workspaces(arm: Arm) -> None:
         assert np.isfinite(array).all()
 
 
+@pytest.mark.quick(2)
 def test_conversions_of_real_chains(arm: Arm) -> None:
     for convention in ("standard", "modified"):
         answer = arm.client.get(f"/v1/robots/{arm.name}/dh", params={"convention": convention})

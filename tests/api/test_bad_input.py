@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from app.api.payloads import read_json
-from app.schemas.dh import FromUrdfRequest
+from gelenk.api.payloads import read_json
+from gelenk.schemas.dh import FromUrdfRequest
 from tests.corpus.dh import GOOD_BODY, REFUSED_DH, REFUSED_JSON, TABLE, RefusedDh
 from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid
 
@@ -47,6 +47,7 @@ def check_refusal(client: TestClient, body: Any, mentions: tuple[str, ...], stat
         assert word in answer.text.lower(), problem["detail"]
 
 
+@pytest.mark.quick(40)
 @pytest.mark.parametrize("case", REFUSED, ids=lambda case: case.name)
 def test_a_urdf_that_is_no_robot(client: TestClient, case: Refused) -> None:
     body = b'{"name": "refused", "urdf": ' + to_json(case.text) + b"}"
@@ -75,6 +76,7 @@ def test_an_odd_robot_is_accepted_with_a_warning(client: TestClient, case: Odd) 
     assert client.delete(answer.headers["location"]).status_code == 204
 
 
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("case", VALID, ids=lambda case: case.name)
 def test_a_good_robot_is_accepted_and_moves(client: TestClient, case: Valid) -> None:
     answer = client.post("/v1/robots", json={"name": "good", "urdf": case.text})

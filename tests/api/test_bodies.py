@@ -13,12 +13,12 @@ from fastapi.testclient import TestClient
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
-from app.api import problems
-from app.api.bodies import SMALL, Bodies
-from app.api.payloads import BoundedRequest
-from app.connections import Bounds, Gate
-from app.main import create_app
-from app.settings import Settings
+from gelenk.api import problems
+from gelenk.api.bodies import SMALL, Bodies
+from gelenk.api.payloads import BoundedRequest
+from gelenk.connections import Bounds, Gate
+from gelenk.main import create_app
+from gelenk.settings import Settings
 from tests.test_connections import answer, connected, served, wait_for
 
 MIB = 1024 * 1024
@@ -67,6 +67,7 @@ def check_refused(found: tuple[int, dict[str, str], bytes]) -> None:
     assert (problem["type"], problem["allowed"]) == ("urn:gelenk:no-room-for-body", ROOM)
 
 
+@pytest.mark.slow
 def test_many_who_send_largest_bodies_slowly_take_no_more_than_there_is() -> None:
     with measuring() as (port, app):
         clients, piece = [begun(port) for _ in range(40)], bytes(SMALL)

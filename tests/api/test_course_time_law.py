@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.schemas.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer
+from gelenk.schemas.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer
 
 PATH = "/v1/course/time-law"
 LIMITS = {"joint_velocity": 0.8, "joint_acceleration": 1.6}
@@ -150,6 +150,7 @@ def test_extreme_trapezoids_are_answered_or_refused(
         assert answer.json()["field"] == "limits.joint_acceleration"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("accept", ["image/svg+xml", "image/png"])
 @pytest.mark.parametrize("body", [CUBIC, TRAPEZOID, LIFT, BLENDS, {**TRAPEZOID, "target": 0.0}], ids=lambda b: b["law"])
 def test_pictures(client: TestClient, body: dict[str, Any], accept: str) -> None:

@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.api import derive
-from app.kinematics.derive.check import Checks
-from app.main import create_app
-from app.model.errors import CertificationFailed
-from app.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
-from app.schemas.lagrangian import EXAMPLE_MOTION
-from app.settings import Settings
+from gelenk.api import derive
+from gelenk.kinematics.derive.check import Checks
+from gelenk.main import create_app
+from gelenk.model.errors import CertificationFailed
+from gelenk.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
+from gelenk.schemas.lagrangian import EXAMPLE_MOTION
+from gelenk.settings import Settings
 from tests.oracles import catalogue, dh_columns, expressions
+from tests.robots import swept
 
 PATH = "/v1/dh/derive"
 PANDA = catalogue.dh_table("panda_dh")
@@ -56,7 +57,8 @@ def test_the_anthropomorphic_arm(client: TestClient) -> None:
     assert answer["notes"] == []
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.quick(3)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 @pytest.mark.parametrize("options", [{}, {"notation": "full", "symbolic": False}], ids=str)
 def test_the_catalogue_by_its_text(client: TestClient, name: str, options: dict[str, Any]) -> None:
     dh = catalogue.dh_table(name)
@@ -302,9 +304,12 @@ def test_without_time_the_numbers_are_answered_all_the_same(
 def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestClient) -> None:
     dh = catalogue.dh_table("ur5_dh")
     posted(client, {"dh": dh})
-    started = time.monotonic()
-    posted(client, {"dh": {**dh, "tool": {"position": [0, 0, 0.1], "rpy": [0, 0, 0]}}})
-    assert time.monotonic() - started < 3
+    seconds = []
+    for length in (0.1, 0.2, 0.3):  # others each time, so that none is remembered
+        started = time.monotonic()
+        posted(client, {"dh": {**dh, "tool": {"position": [0, 0, length], "rpy": [0, 0, 0]}}})
+        seconds.append(time.monotonic() - started)
+    assert min(seconds) < 1.0, seconds
 
 
 def test_no_process_is_left_behind(tmp_path: Path) -> None:
@@ -325,7 +330,7 @@ def wait_for(condition: Callable[[], bool]) -> None:
 def workers() -> set[str]:
     """Processes that come from this one, zombies too; but for the one that they are copies of."""
     found = {pid for child in children("self") for pid in children(child)}
-    return found | {pid for pid in children("self") if b"app.processes" not in command(pid)}
+    return found | {pid for pid in children("self") if b"gelenk.processes" not in command(pid)}
 
 
 def children(pid: str) -> set[str]:

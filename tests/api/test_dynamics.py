@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.schemas.dynamics import DynamicsAnswer
+from gelenk.schemas.dynamics import DynamicsAnswer
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 MOVING = {"joint_positions": [READY], "joint_velocities": [[0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.7]]}
@@ -203,6 +203,10 @@ def test_the_largest_numbers_that_are_allowed(client: TestClient, robot: str, n:
         assert np.isfinite(answer["torques"]).all()
         forward = {**body, "payload": payload, "torques": [[1e6] * n]}
         reply = client.post(f"/v1/robots/{robot}/dynamics", json=forward)
-        assert reply.status_code in {200, 422}, reply.text
-        if reply.status_code == 200:
+        if payload is heavy and robot in {"panda", "scara"}:
+            # A thousand tons on a wrist of a few kilogrammes: no digit is left of the lighter joints' inertia.
+            assert (reply.status_code, reply.json()["field"]) == (422, "torques"), reply.text
+            assert "singular" in reply.json()["detail"]
+        else:
+            assert reply.status_code == 200, reply.text
             assert np.isfinite(reply.json()["joint_accelerations"]).all()

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from app.api.elsewhere import Elsewhere
-from app.crew.crew import Crew
-from app.model.errors import ServiceBusy
+from gelenk.api.elsewhere import Elsewhere
+from gelenk.crew.crew import Crew
+from gelenk.model.errors import ServiceBusy
 from tests.crew import calls
 from tests.crew.test_crew import LONG, at_work, with_crew
 

@@ -18,10 +18,10 @@ import orjson
 import pytest
 from starlette.testclient import TestClient
 
-from app.api.payloads import NPY
-from app.connections import Bounds, Gate
-from app.main import create_app
-from app.settings import Settings
+from gelenk.api.payloads import NPY
+from gelenk.connections import Bounds, Gate
+from gelenk.main import create_app
+from gelenk.settings import Settings
 from tests.api.test_openapi import OPERATIONS
 from tests.test_connections import HOST, served
 
@@ -122,6 +122,7 @@ def test_batches(client: TestClient, longest_step: Steps, path: str, content: di
     assert best(longest_step, lambda: client.post(f"/v1/robots/{path}", content=body, headers=headers)) < LONGEST
 
 
+@pytest.mark.slow
 def test_large_arrays(longest_step: Steps, tmp_path: Path) -> None:
     """Over a real connection, on which a body comes in pieces and an answer leaves in pieces."""
     np.save(tmp_path / "many.npy", np.zeros((200_000, 7)))

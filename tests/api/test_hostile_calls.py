@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from app.api.remote import PARSED_HERE_BYTES
+from gelenk.api.remote import PARSED_HERE_BYTES
 from tests.api.test_openapi import OPERATIONS
 from tests.corpus.bodies import Call, of_json
 from tests.corpus.calls import FORMS, HEADERS, NPY, PATHS, PLANAR, QUERIES
@@ -70,6 +70,7 @@ def check(client: TestClient, calls: Iterable[Call]) -> None:
     assert not found, "\n".join(found)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("method", "path", "example"), JSON_OPERATIONS, ids=[f"{method} {path}" for method, path, _ in JSON_OPERATIONS]
 )
@@ -86,6 +87,7 @@ def test_a_body_that_an_operation_does_not_take(
             client.delete(f"/v1/robots/{added}")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.filterwarnings("ignore:Exception ignored in. <function SpooledTemporaryFile")  # of a form that is cut
 @pytest.mark.parametrize(
     "calls", [FIELDS, PATHS, QUERIES, FORMS, HEADERS], ids=["fields", "paths", "queries", "forms", "headers"]
@@ -106,6 +108,7 @@ def test_an_array_that_is_none(client: TestClient, case: RefusedNpy) -> None:
     check(client, [call])
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "operation", ["jacobian", "ik", "statics", "dynamics", "manipulability", "velocity", "singularities"]
 )
@@ -123,6 +126,7 @@ def test_an_array_of_any_kind_of_number(client: TestClient, case: GoodNpy) -> No
     assert answer.json()["poses"] == wanted.json()["poses"]
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize("case", REFUSED_ZIPS, ids=lambda case: case.name)
 def test_an_archive_that_is_no_robot(client: TestClient, case: RefusedZip) -> None:
     content = case.make()

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.kinematics import configuration
-from app.kinematics.ik import branch_kernels, branches, judge, kernels, task
-from app.kinematics.ik.closed_form import closed_form
-from app.main import create_app
-from app.schemas.ik import InverseAnswer
-from app.schemas.pose import ORIENTATIONS
-from app.settings import Settings
+from gelenk.kinematics import configuration
+from gelenk.kinematics.ik import branch_kernels, branches, judge, kernels, task
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.main import create_app
+from gelenk.schemas.ik import InverseAnswer
+from gelenk.schemas.pose import ORIENTATIONS
+from gelenk.settings import Settings
 from tests.api.test_kinematics import NPY, Array, fk, npy
 from tests.robots import robot
 

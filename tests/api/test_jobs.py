@@ -15,9 +15,9 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from app.api import jobs as jobs_module
-from app.main import create_app
-from app.settings import Settings
+from gelenk.api import jobs as jobs_module
+from gelenk.main import create_app
+from gelenk.settings import Settings
 from tests.test_faults import called
 from tests.test_serve import get, service
 
@@ -70,6 +70,7 @@ def test_a_job_from_its_beginning_to_its_end(client: TestClient) -> None:
     assert job["finished"].endswith("Z")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jump", [-365 * 86400.0, -86400.0, 86400.0, 365 * 86400.0])
 def test_a_clock_that_is_set_disturbs_no_job(client: TestClient, monkeypatch: pytest.MonkeyPatch, jump: float) -> None:
     """In the middle of a job that is watched: it goes on, its events come, and its result stays."""
@@ -101,6 +102,7 @@ def test_the_same_name_is_the_same_job(client: TestClient) -> None:
     assert client.post("/v1/robots/ur5/workspace", json=call).status_code == 409
 
 
+@pytest.mark.slow
 def test_a_stream_tells_of_a_job_to_its_end(client: TestClient) -> None:
     location = posted(client, {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.2, "orientations": 10})
     answer = client.get(f"{location}/events")
@@ -263,6 +265,7 @@ def refused(url: str) -> tuple[int, str]:
             return error.code, error.headers["Retry-After"]
 
 
+@pytest.mark.slow
 def test_every_worker_knows_every_job_and_the_service_leaves_nothing(tmp_path: Path) -> None:
     limits = {"GELENK_UNFINISHED_JOBS": "2", "GELENK_JOB_PROCESSES": "1"}
     with service(tmp_path, "--workers", "2", **limits) as (run, url):

@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from app.kinematics import configuration, kernels
-from app.schemas.kinematics import ForwardAnswer, JacobianAnswer
-from app.schemas.pose import ORIENTATIONS, Pose
+from gelenk.kinematics import configuration, kernels
+from gelenk.schemas.kinematics import ForwardAnswer, JacobianAnswer
+from gelenk.schemas.pose import ORIENTATIONS, Pose
 
 Array = npt.NDArray[np.float64]
 NPY = "application/x-npy"

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from app.crew.crew import Crew
-from app.model.errors import ServiceBusy
+from gelenk.crew.crew import Crew
+from gelenk.model.errors import ServiceBusy
 from tests.api.conftest import ready_client
 
 UR5 = [0.1, -1.2, 1.4, -0.6, 0.5, 0.2]
@@ -21,6 +21,7 @@ def fresh_client(tmp_path: Path) -> Iterator[TestClient]:
     yield from ready_client(tmp_path)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("path", "content"),
     [

@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
-from app.api.preference import wants_answer_later
-from app.crew.crew import Crew
-from app.kinematics.ik import search, solve
-from app.main import create_app
-from app.model.arrays import Array
-from app.schemas.trajectory import TrajectoryRequest
-from app.settings import Settings
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
+from gelenk.api.preference import wants_answer_later
+from gelenk.crew.crew import Crew
+from gelenk.kinematics.ik import search, solve
+from gelenk.main import create_app
+from gelenk.model.arrays import Array
+from gelenk.schemas.trajectory import TrajectoryRequest
+from gelenk.settings import Settings
 
 JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
 SVG, PNG = "image/svg+xml", "image/png"
@@ -94,6 +94,7 @@ def poses(client: TestClient, robot: str, count: int, joints: int, tip: str | No
     return Ts
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("robot", "joints", "options"),
     [
@@ -125,6 +126,7 @@ def told_poses(Ts: Array) -> list[dict[str, Any]]:
 POSTURE = [0.1, -0.4, 0.2, -1.9, 0.1, 1.5, 0.3]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("robot", "joints", "options"),
     [
@@ -164,6 +166,7 @@ MOTION: dict[str, Any] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options",
     [
@@ -215,6 +218,7 @@ class Here(Crew):
         return await asyncio.to_thread(function, argument)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "options",
     [{}, {"objective": "mid_range"}, {"solutions": "all"}, {"method": "newton", "max_iterations": 3}],
@@ -247,6 +251,7 @@ def test_a_solution_that_time_kept_from_its_objective_says_so(
     assert (result["status"], result["stop_reason"]) == ("solved", "time_limit")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("path", ["workspace", "ik", "trajectory"])
 def test_a_job_and_its_result_say_for_which_version_of_a_robot(client: TestClient, path: str) -> None:
     """The digest of its description, as it was when the job was asked for; whatever stands under the name by now."""

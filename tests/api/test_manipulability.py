@@ -9,8 +9,8 @@ import pytest
 from scipy.linalg import null_space
 from starlette.testclient import TestClient
 
-from app.api.payloads import JSON, NPY, PNG, SVG, preferred_type
-from app.schemas.manipulability import MAX_DETAILED, ManipulabilityAnswer
+from gelenk.api.payloads import JSON, NPY, PNG, SVG, preferred_type
+from gelenk.schemas.manipulability import MAX_DETAILED, ManipulabilityAnswer
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 PATH = "/v1/robots/{}/manipulability"
@@ -287,6 +287,7 @@ def test_a_long_header_is_read_in_no_time() -> None:
     assert time.process_time() - started < 0.1
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("kind", "start"), [(SVG, b"<?xml"), (PNG, b"\x89PNG")])
 @pytest.mark.parametrize(("robot", "q"), [("planar_2r", [0.3, 0.8]), ("panda", READY)])
 def test_pictures(client: TestClient, robot: str, q: list[float], kind: str, start: bytes) -> None:

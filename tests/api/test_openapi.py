@@ -1,24 +1,22 @@
 """The schema is complete: each operation has a summary, an id, and an example that runs; no page names another host."""
 
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.schemas.kinematics import MAX_CONFIGURATIONS
-from app.settings import Settings
+from gelenk.schemas.kinematics import MAX_CONFIGURATIONS
 from tests.corpus import npy
+from tests.openapi import document
 
 Operation = tuple[str, str, dict[str, Any]]
 _ORDER = {"post": 0, "get": 1, "put": 2, "delete": 3}
 
 
 def operations() -> list[Operation]:
-    schema = create_app(Settings(data_dir=Path("unused"))).openapi()
+    schema = document()
     found = [(path, method, entry) for path, entries in schema["paths"].items() for method, entry in entries.items()]
     return sorted(found, key=lambda operation: _ORDER[operation[1]])
 
@@ -43,7 +41,7 @@ def test_ids_are_unique() -> None:
 
 def test_a_generated_client_finds_a_name_for_everything() -> None:
     """Two models of one name would be told apart by their modules; what cannot be written is not offered."""
-    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    schemas = document()["components"]["schemas"]
     assert [name for name in schemas if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)] == []
     null = {"type": "null"}
     for _, _, operation in OPERATIONS:
@@ -78,6 +76,8 @@ def query_examples(field: dict[str, Any]) -> list[Any]:
         if kind.get("type") == "array":
             (inner,) = query_examples(kind["items"])
             found.append([inner] * kind.get("minItems", 1))
+        elif kind.get("type") == "object":
+            found.append('{"panda_joint7": 0.5}')
         else:
             found.append(words[0] if words else simple[kind["type"]])
     return found
@@ -85,7 +85,7 @@ def query_examples(field: dict[str, Any]) -> list[Any]:
 
 def test_what_the_schema_has_for_a_query_beside_an_array_can_stand_there(client: TestClient) -> None:
     """And beside JSON none is offered, and none taken."""
-    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    schemas = document()["components"]["schemas"]
     ready = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
     pose = [0.4, 0.1, 0.5, 1.0, 0.0, 0.0, 0.0]
     arrays = {"inverse_kinematics": [pose], "velocity": [[ready, [0.1] * 7]]}
@@ -142,7 +142,7 @@ def holds_numbers(schema: dict[str, Any]) -> bool:
 
 
 def test_every_numeric_field_says_what_it_is_and_in_which_unit() -> None:
-    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    schemas = document()["components"]["schemas"]
     numeric = [
         (name, field, schema)
         for name, entry in schemas.items()
@@ -155,7 +155,7 @@ def test_every_numeric_field_says_what_it_is_and_in_which_unit() -> None:
 
 def test_every_operation_on_a_robot_bounds_its_configurations() -> None:
     """A list beyond the bound takes long to send, so only one operation is sent any."""
-    schemas = create_app(Settings(data_dir=Path("unused"))).openapi()["components"]["schemas"]
+    schemas = document()["components"]["schemas"]
     bounds = {}
     for path, _, operation in OPERATIONS:
         body = operation.get("requestBody", {}).get("content", {}).get("application/json")

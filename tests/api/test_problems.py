@@ -13,29 +13,29 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
-from app.api.bodies import Bodies
-from app.api.npy import read_npy
-from app.api.operations import Setup
-from app.api.problems import status_of
-from app.api.remote import Remote
-from app.crew.crew import Crew
-from app.jobs.job import Failure
-from app.jobs.runner import Runner
-from app.jobs.shelf import Limits, Shelf
-from app.jobs.workers import Workers
-from app.kinematics.certify import certify_poses
-from app.model import errors
-from app.model.chain import build_chain
-from app.model.poses import Poses
-from app.model.urdf import read_urdf
-from app.store.archive import unpacked
-from app.store.folders import writing
-from app.store.library import Library, Quota, RobotUpload
-from app.store.records import read_record
-from app.trajectory.audit import audit
-from app.trajectory.audit_demands import Demands
-from app.trajectory.plan import refuse_failed
-from app.trajectory.polynomial import PiecewisePolynomial
+from gelenk.api.bodies import Bodies
+from gelenk.api.npy import read_npy
+from gelenk.api.operations import Setup
+from gelenk.api.problems import status_of
+from gelenk.api.remote import Remote
+from gelenk.crew.crew import Crew
+from gelenk.jobs.job import Failure
+from gelenk.jobs.runner import Runner
+from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.workers import Workers
+from gelenk.kinematics.certify import certify_poses
+from gelenk.model import errors
+from gelenk.model.chain import build_chain
+from gelenk.model.poses import Poses
+from gelenk.model.urdf import read_urdf
+from gelenk.store.archive import unpacked
+from gelenk.store.folders import writing
+from gelenk.store.library import Library, Quota, RobotUpload
+from gelenk.store.records import read_record
+from gelenk.trajectory.audit import audit
+from gelenk.trajectory.audit_demands import Demands
+from gelenk.trajectory.plan import refuse_failed
+from gelenk.trajectory.polynomial import PiecewisePolynomial
 from tests.crew import calls
 from tests.robots import robot
 

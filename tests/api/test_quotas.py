@@ -8,13 +8,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import pytest
 from starlette.testclient import TestClient
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
-from app.main import create_app
-from app.settings import Settings
-from app.store.library import Library, RobotUpload
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
+from gelenk.main import create_app
+from gelenk.settings import Settings
+from gelenk.store.library import Library, RobotUpload
 from tests.corpus.zips import URDF, zipped
 
 CATALOGUE = Path("robots")
@@ -50,6 +51,7 @@ def status(client: TestClient, method: str, name: str, key: str | None, height: 
     return answer.status_code
 
 
+@pytest.mark.slow
 def test_each_key_has_its_own_room_and_a_restart_forgets_nothing(tmp_path: Path) -> None:
     (tmp_path / "robots" / "by_hand").mkdir(parents=True)
     (tmp_path / "robots" / "by_hand" / "r.urdf").write_text(urdf())

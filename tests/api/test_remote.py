@@ -10,11 +10,11 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
-from app.api.remote import client_of
-from app.main import create_app
-from app.settings import Settings
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
+from gelenk.api.remote import client_of
+from gelenk.main import create_app
+from gelenk.settings import Settings
 
 SLOW = {"targets": [{"position": [9.0, 0.0, 0.0], "rotation_vector": [0, 0, 0]}] * 2000, "solutions": "all"}
 
@@ -38,6 +38,7 @@ def test_a_client_is_its_key_or_its_address(more: dict[str, Any], client: str) -
     assert client_of(scope(**more)) == client
 
 
+@pytest.mark.slow
 def test_a_client_with_its_share_at_work_is_told_so(tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path, client_requests=1, crew_processes=2)
     answers: list[Any] = []

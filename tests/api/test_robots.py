@@ -1,17 +1,19 @@
 """Robots over HTTP: the catalogue, uploads as URDF, DH table and zip, replacing, removing, meshes."""
 
 import errno
+import gzip
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 from starlette.testclient import TestClient
 
-from app.crew.crew import Crew
-from app.schemas.robots import EXAMPLE_DH, RobotInfo, RobotList
+from gelenk import prune
+from gelenk.crew.crew import Crew
+from gelenk.schemas.robots import EXAMPLE_DH, RobotInfo, RobotList
 from tests.api.conftest import ready_client
 from tests.corpus.zips import URDF, zipped
 
@@ -38,6 +40,7 @@ def test_the_list_holds_the_catalogue(client: TestClient) -> None:
     assert robots["scara"]["format"] == "dh"
 
 
+@pytest.mark.quick(9)
 @pytest.mark.parametrize("name", CATALOGUE)
 def test_every_robot_of_the_catalogue_is_described_and_moves(client: TestClient, name: str) -> None:
     answer = client.get(f"/v1/robots/{name}")
@@ -73,6 +76,42 @@ def test_a_mesh_of_the_catalogue(client: TestClient) -> None:
     assert answer.status_code == 200
     assert answer.headers["x-content-type-options"] == "nosniff"
     assert b"COLLADA" in answer.content[:2000]
+
+
+@pytest.mark.parametrize(
+    ("accepted", "encoding"),
+    [
+        *[(accepted, "gzip") for accepted in ("gzip", "br, GZIP;q=0.5", "deflate,gzip ; q=1.0, *;q=0")],
+        *[(accepted, None) for accepted in ("identity", "", "br", "gzip;q=0", "gzip; q=0.000, br", "x-gzip")],
+    ],
+)
+def test_a_compressed_mesh_is_sent_so_where_the_client_takes_it(
+    compressed: tuple[TestClient, bytes], accepted: str, encoding: str | None
+) -> None:
+    client, mesh = compressed
+    path = client.get("/v1/robots/arm").json()["meshes"][0]["path"]
+    with client.stream("GET", f"/v1/robots/arm/meshes/{path}", headers={"Accept-Encoding": accepted}) as answer:
+        assert answer.status_code == 200
+        assert answer.headers.get("content-encoding") == encoding
+        assert answer.headers["content-type"] == "model/stl"
+        assert answer.headers["vary"] == "Accept-Encoding"
+        raw = b"".join(answer.iter_raw())
+    assert (gzip.decompress(raw) if encoding else raw) == mesh
+    assert len(raw) == int(answer.headers.get("content-length", len(mesh)))
+
+
+@pytest.fixture(scope="module")
+def compressed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[TestClient, bytes]]:
+    """A client of an application whose robot has its mesh compressed as in an image, and the mesh itself."""
+    data = tmp_path_factory.mktemp("compressed")
+    file, mesh = data / "robots" / "arm" / "meshes" / "arm.stl", bytes(range(256)) * 4000
+    file.parent.mkdir(parents=True)
+    file.write_bytes(mesh)
+    prune.compress(file)
+    assert [path.name for path in file.parent.iterdir()] == ["arm.stl.gz"]
+    (data / "robots" / "arm" / "arm.urdf").write_text(URDF)
+    for client in ready_client(data):
+        yield client, mesh
 
 
 @pytest.mark.parametrize(
@@ -157,6 +196,7 @@ def test_a_default_chain_must_exist(own: TestClient) -> None:
     assert own.get("/v1/robots/arm").status_code == 404
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("top", ["", "arm_description/"])
 def test_a_zip_of_urdf_and_meshes(own: TestClient, top: str) -> None:
     mesh = b"solid arm\nendsolid arm\n"
@@ -238,6 +278,7 @@ def test_an_edit_by_hand_is_seen(own: TestClient, tmp_path: Path) -> None:
     assert answer.json()["poses"][0]["position"] == [0, 0, 7]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("number", "status"), [(errno.ENOSPC, 507), (errno.EROFS, 503), (errno.EIO, 503)])
 def test_a_disk_that_refuses_is_said_and_leaves_nothing(
     own: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, status: int
@@ -254,7 +295,7 @@ def test_a_disk_that_refuses_is_said_and_leaves_nothing(
     def refuse(_: int) -> None:
         raise OSError(number, os.strerror(number))
 
-    monkeypatch.setattr("app.store.folders.os.fsync", refuse)
+    monkeypatch.setattr("gelenk.store.folders.os.fsync", refuse)
     other = URDF.replace("0 0 1", "0 0 2", 1)
     new = own.post("/v1/robots", json={"name": "new", "urdf": other})
     replaced = own.put("/v1/robots/arm", json={"urdf": other})

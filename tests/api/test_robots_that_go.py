@@ -26,6 +26,7 @@ def heights(answer: Any) -> set[float]:
     return {pose["position"][2] for pose in answer.json()["poses"]}
 
 
+@pytest.mark.slow
 def test_a_robot_that_goes_meanwhile_is_the_old_one_or_unknown(own: TestClient) -> None:
     seen: dict[str, set[int]] = {}
     found: set[float] = set()

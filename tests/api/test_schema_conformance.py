@@ -5,7 +5,6 @@ No answer may be a 5xx, of an undocumented status, or of another media type or s
 
 import time
 from collections import Counter
-from pathlib import Path
 from typing import Any
 
 import jsonschema_rs
@@ -17,12 +16,11 @@ from schemathesis import GenerationMode
 from schemathesis.core.failures import FailureGroup
 from starlette.testclient import TestClient
 
-from app.main import create_app
-from app.settings import Settings
 from tests.api.schema_cases import CHECKS, JOB, NEW_JOB, UPLOADED, make_real, sent
 from tests.corpus import dh
+from tests.openapi import document
 
-SCHEMA = schemathesis.openapi.from_dict(create_app(Settings(data_dir=Path("unused"))).openapi())
+SCHEMA = schemathesis.openapi.from_dict(document())
 OPERATIONS: list[Any] = [found.ok() for found in SCHEMA.get_all_operations()]  # type: ignore[union-attr]
 CHOOSY = [operation for operation in OPERATIONS if operation.body or operation.query]
 """Those of which the schema can forbid anything but another path."""
@@ -86,11 +84,13 @@ def test_the_schema_allows_its_own_examples() -> None:
             jsonschema_rs.validator_for(schema).validate(content["example"])
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.label)
 def test_a_request_that_the_schema_allows(client: TestClient, operation: Any) -> None:
     assert try_out(client, operation, GenerationMode.POSITIVE, _FEW)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("operation", CHOOSY, ids=lambda operation: operation.label)
 def test_a_request_that_the_schema_forbids(client: TestClient, operation: Any) -> None:
     assert try_out(client, operation, GenerationMode.NEGATIVE, _FEW)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from app.schemas.singularity import SingularityAnswer
+from gelenk.schemas.singularity import SingularityAnswer
 
 NPY = "application/x-npy"
 Q = [0.1, -1.2, 1.4, -0.7, 0.5, 0.3]
@@ -273,6 +273,7 @@ def test_numbers_that_are_none(client: TestClient, text: str) -> None:
     assert answer.headers["content-type"] == "application/problem+json"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("robot", ["ur5_dh", "panda", "scara", "stanford", "planar_3r"])
 def test_the_largest_numbers_give_numbers(client: TestClient, robot: str) -> None:
     names = ask(client, robot, joint_positions=[])["joint_names"]

@@ -5,7 +5,7 @@ import re
 import pytest
 from starlette.testclient import TestClient
 
-from app.api.studio import FILES, POLICY
+from gelenk.api.studio import FILES, POLICY
 
 
 def test_the_page_and_all_that_it_loads_come_from_here(client: TestClient) -> None:

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from app.jobs import workspace
-from app.kinematics.voxels import merged
-from app.kinematics.workspace import PART, Wish, plan, sampled
-from app.main import create_app
-from app.settings import Settings
-from app.store.library import Library
+from gelenk.jobs import workspace
+from gelenk.kinematics.voxels import merged
+from gelenk.kinematics.workspace import PART, Wish, plan, sampled
+from gelenk.main import create_app
+from gelenk.settings import Settings
+from gelenk.store.library import Library
 from tests.api.test_jobs import ended
 
 CATALOGUE = Path("robots")
@@ -43,6 +43,7 @@ def asked(client: TestClient, path: str, call: dict[str, Any]) -> dict[str, Any]
     return refusal
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("robot", "kind"), list(product(("planar_2r", "panda", "scara"), ("cloud", "grid", "dexterity")))
 )
@@ -88,8 +89,9 @@ def test_a_fine_grid_for_which_there_is_room_is_taken(client: TestClient, robot:
     assert asked(client, f"{robot}/workspace", call) == {}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("law", ["quintic", "cubic", "jerk_limited", "trapezoidal", "time_optimal"])
-@pytest.mark.parametrize("period", [1e-6, 3e-6, 1e-5])
+@pytest.mark.parametrize("period", [3e-6, 1e-6, 1e-5])
 def test_samples_of_a_motion(client: TestClient, law: str, period: float) -> None:
     move = {"start": [0.0, 0.0], "segments": [{"type": "joint", "target": [1.0, 0.5]}], "law": law}
     refusal = asked(client, "planar_2r/trajectory", move | {"sample_period": period})
@@ -103,6 +105,7 @@ def test_samples_of_a_motion(client: TestClient, law: str, period: float) -> Non
         assert ended(lambda: client.get(location).json(), 120.0)["state"] != "failed"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [{}, {"solutions": "all"}, {"trace": True, "method": "newton"}])
 def test_results_of_inverse_kinematics(tmp_path: Path, options: dict[str, Any]) -> None:
     with served(tmp_path, 20_000_000) as client:

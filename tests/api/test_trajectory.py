@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from app.schemas.trajectory_answer import TrajectoryAnswer
+from gelenk.schemas.trajectory_answer import TrajectoryAnswer
 from tests.oracles.catalogue import NAMES
 from tests.robots import robot as robot_of
 
@@ -287,7 +287,7 @@ def test_out_of_reach_is_an_answer(client: TestClient, here: dict[str, Any]) -> 
     away = {"type": "line", "target": moved(here, 2.0)}
     answer = panda(client, JOINT, {**JOINT, "target": READY}, away, JOINT)
     failure = answer["failure"]
-    assert failure["reason"] in {"out_of_reach", "joint_limit", "singularity"}
+    assert failure["reason"] == "out_of_reach"
     assert failure["segment"] == 2
     assert failure["time"] == answer["duration"] == answer["times"][-1]
     assert 0.5 < answer["completed_fraction"] < 0.75
@@ -302,7 +302,7 @@ def test_every_format_says_what_is_missing(client: TestClient) -> None:
     away = {"type": "line", "target": {"position": [1.0, 3.7, 0.0], "rpy": [0.0, 0.0, 0.0]}}
     call: dict[str, Any] = {"start": [0.0, math.pi / 2], "segments": [away], "task": ["x", "y"]}
     answer = trajectory(client, "planar_2r", **call)
-    assert answer["failure"]["reason"] in {"singularity", "out_of_reach"}
+    assert answer["failure"]["reason"] == "out_of_reach"
     reached = answer["tip_poses"][-1]["position"]
     assert reached[0] == pytest.approx(1.0, abs=1e-4)
     assert 0.7 < reached[1] <= math.sqrt(1.7**2 - 1.0) + 1e-4
@@ -336,6 +336,7 @@ def test_nothing_at_all_is_an_answer(client: TestClient) -> None:
     assert post(client, accept=PNG, **call).content.startswith(b"\x89PNG")
 
 
+@pytest.mark.quick(16)
 @pytest.mark.parametrize("name", sorted(NAMES))
 def test_every_robot_moves_its_joints(client: TestClient, name: str) -> None:
     chain = robot_of(name).chain(None, None)
@@ -349,6 +350,7 @@ def test_every_robot_moves_its_joints(client: TestClient, name: str) -> None:
         assert max(velocity, acceleration) == pytest.approx(1.0, abs=1e-6)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", [SVG, PNG])
 def test_pictures(client: TestClient, here: dict[str, Any], kind: str) -> None:
     line = {"type": "line", "target": moved(here, 0.1, 0.2)}

@@ -6,12 +6,12 @@ import numpy as np
 import orjson
 import pytest
 
-from app.api.trajectory_limits import Bounds, Layer, bounds_of, limit_notes, own_velocities
-from app.api.trajectory_samples import check_samples, sample_count, sample_times
-from app.model.errors import InvalidField
-from app.schemas.trajectory import MotionOptions
+from gelenk.api.trajectory_limits import Bounds, Layer, bounds_of, limit_notes, own_velocities
+from gelenk.api.trajectory_samples import check_samples, sample_count, sample_times
+from gelenk.model.errors import InvalidField
+from gelenk.schemas.trajectory import MotionOptions
 from tests.oracles import catalogue
-from tests.robots import robot
+from tests.robots import robot, swept
 
 PANDA = [2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]
 
@@ -33,7 +33,7 @@ def test_what_is_left_out_is_the_robots_or_assumed() -> None:
     assert found.sources["joint_acceleration"] == found.sources["joint_jerk"] == ("assumed",) * 7
 
 
-@pytest.mark.parametrize("name", catalogue.URDFS)
+@pytest.mark.parametrize("name", swept(catalogue.URDFS))
 def test_velocities_are_those_of_the_document(name: str) -> None:
     chain = robot(name).chain(None, None)
     limits = {

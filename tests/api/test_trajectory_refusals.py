@@ -44,7 +44,7 @@ def places(problem: dict[str, Any]) -> list[str]:
 @pytest.mark.parametrize(
     ("changes", "pointer", "words"),
     [
-        ({"start": None}, "#/start", "a list of one number a joint"),
+        ({"start": None}, "#/start", "a list of one number per joint"),
         ({"start": READY[:6]}, "#/start", "'panda_joint1', 'panda_joint2'"),
         ({"start": dict.fromkeys(JOINTS[:6], 0.0)}, "#/start", "'panda_joint7'"),
         ({"start": {**dict.fromkeys(JOINTS, 0.0), "nose": 0.0}}, "#/start", "'nose'"),

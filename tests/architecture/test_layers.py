@@ -10,27 +10,36 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 WITHOUT_PINOCCHIO = [
-    *(f"app.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
-    *(f"app.model.{name}" for name in ("notations", "appearance", "dh_from_chain", "origins")),
-    *(f"app.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "bodies", "configuration", "subspaces")),
-    *(f"app.kinematics.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
-    *(f"app.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
-    *(f"app.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
-    *(f"app.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
-    *(f"app.trajectory.{name}" for name in ("polynomial", "extremes", "time_laws", "phases", "trapezoid", "splines")),
-    *(f"app.trajectory.{name}" for name in ("parabolic_blends", "tridiagonal", "time_scaling", "certify", "formulas")),
+    *(f"gelenk.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
+    *(f"gelenk.model.{name}" for name in ("notations", "appearance", "dh_from_chain", "origins")),
+    *(f"gelenk.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "bodies", "configuration", "subspaces")),
+    *(f"gelenk.kinematics.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
+    *(f"gelenk.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
+    *(f"gelenk.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
+    *(f"gelenk.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
     *(
-        f"app.trajectory.{name}"
+        f"gelenk.trajectory.{name}"
+        for name in ("polynomial", "extremes", "time_laws", "phases", "trapezoid", "splines")
+    ),
+    *(
+        f"gelenk.trajectory.{name}"
+        for name in ("parabolic_blends", "tridiagonal", "time_scaling", "certify", "formulas")
+    ),
+    *(
+        f"gelenk.trajectory.{name}"
         for name in ("fly_over", "blended_motion", "fly_over_check", "fly_over_steps", "curves")
     ),
-    *(f"app.trajectory.{name}" for name in ("paths", "spline_paths", "orientation_paths", "rotation_splines", "so3")),
-    *(f"app.trajectory.{name}" for name in ("audit_pieces", "audit_peaks", "audit_tip", "audit_demands")),
-    *(f"app.course.{path.stem}" for path in sorted((ROOT / "app" / "course").glob("[a-z]*.py"))),
+    *(
+        f"gelenk.trajectory.{name}"
+        for name in ("paths", "spline_paths", "orientation_paths", "rotation_splines", "so3")
+    ),
+    *(f"gelenk.trajectory.{name}" for name in ("audit_pieces", "audit_peaks", "audit_tip", "audit_demands")),
+    *(f"gelenk.course.{path.stem}" for path in sorted((ROOT / "app" / "gelenk" / "course").glob("[a-z]*.py"))),
 ]
 CORE = [
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
     for package in ("model", "kinematics", "course", "plots")
-    for path in sorted((ROOT / "app" / package).rglob("*.py"))
+    for path in sorted((ROOT / "app" / "gelenk" / package).rglob("*.py"))
     if path.stem != "__init__"
 ]
 OF_THE_SERVER = (
@@ -39,10 +48,10 @@ OF_THE_SERVER = (
     "pydantic",
     "orjson",
     "uvicorn",
-    "app.settings",
-    "app.api",
-    "app.schemas",
-    "app.store",
+    "gelenk.settings",
+    "gelenk.api",
+    "gelenk.schemas",
+    "gelenk.store",
 )
 
 
@@ -65,16 +74,26 @@ def test_the_core_knows_neither_http_nor_settings() -> None:
 
 def test_a_client_carries_numbers_and_computes_none() -> None:
     """What computes takes seconds to load, for which nobody at a shell wants to wait."""
-    computing = {"pinocchio", "numba", "scipy", "sympy", "matplotlib", "app.kinematics.kernels", "app.model.notations"}
-    assert not loaded("app.cli.main", "app.client") & computing
+    computing = {
+        "pinocchio",
+        "numba",
+        "scipy",
+        "sympy",
+        "matplotlib",
+        "gelenk.kinematics.kernels",
+        "gelenk.model.notations",
+    }
+    assert not loaded("gelenk.cli.main", "gelenk.client") & computing
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "tests" / "oracles").glob("*.py")), ids=lambda path: path.stem)
 def test_oracles_share_no_code_with_what_they_judge(path: Path) -> None:
-    assert not re.search(r"^\s*(from|import) (app|tests\.(?!oracles))", path.read_text(), re.MULTILINE)
+    assert not re.search(r"^\s*(from|import) (gelenk|tests\.(?!oracles))", path.read_text(), re.MULTILINE)
 
 
-@pytest.mark.parametrize("package", sorted(path.parent for path in (ROOT / "app").rglob("__init__.py")), ids=str)
+@pytest.mark.parametrize(
+    "package", sorted(path.parent for path in (ROOT / "app" / "gelenk").glob("*/**/__init__.py")), ids=str
+)
 def test_packages_hold_a_docstring_and_nothing_else(package: Path) -> None:
     code = compile((package / "__init__.py").read_text(), str(package), "exec")
     assert code.co_consts[0]

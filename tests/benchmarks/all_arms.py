@@ -11,10 +11,10 @@ from itertools import accumulate
 
 import numpy as np
 
-from app.model.arrays import Array, Flags
-from app.model.chain import Chain
-from app.model.poses import transform
-from app.model.robot import Robot
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.chain import Chain
+from gelenk.model.poses import transform
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arm_classes import CLASSES, general
 from tests.kinematics.ik.arms import IRB, catalogue_arm, table_arm
 

@@ -15,10 +15,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from app.kinematics.ik.closed_form import closed_form, elimination
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.model.arrays import Array, Flags
-from app.model.poses import Poses, transform
+from gelenk.kinematics.ik.closed_form import closed_form, elimination
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.poses import Poses, transform
 from tests.benchmarks.all_arms import CASES, ELBOW_ANGLE, LOCKED, arm_of, frames, placements, sliding
 
 GENERAL_FAMILY = "ikgeo.general_6r"

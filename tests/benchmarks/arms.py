@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from app.model.arrays import Array
-from app.model.chain import Chain, rotation_to_axis
-from app.model.description import Description, Joint, Link
-from app.model.notations import placement
-from app.model.origins import origin_of
-from app.model.poses import inverse, transform
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain, rotation_to_axis
+from gelenk.model.description import Description, Joint, Link
+from gelenk.model.notations import placement
+from gelenk.model.origins import origin_of
+from gelenk.model.poses import inverse, transform
 from tests.robots import robot
 
 BASE, TIP = "base", "tip"

@@ -11,11 +11,11 @@ from collections.abc import Callable
 import numpy as np
 import pinocchio as pin
 
-from app.kinematics.kernels import chain_jacobians, chain_poses
-from app.model.arrays import Array
-from app.model.robot import Robot
-from app.settings import Settings
-from app.store.library import Library
+from gelenk.kinematics.kernels import chain_jacobians, chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.robot import Robot
+from gelenk.settings import Settings
+from gelenk.store.library import Library
 from tests.benchmarks.table import Row
 
 COUNT = 10_000

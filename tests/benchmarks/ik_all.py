@@ -15,10 +15,10 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from app.kinematics.ik.closed_form import closed_form
-from app.model.arrays import Array, Flags, Indices
-from app.model.chain import Chain
-from app.model.poses import Poses
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
 from tests.benchmarks.all_arms import CASES, CLOSED, ELBOW_ANGLE, GENERAL, REDUNDANT, arm_of, drawn, sliding
 from tests.benchmarks.all_peers import LISTERS, EaikForms, GelenkForms, Lister, Ssik
 from tests.benchmarks.ik import digits

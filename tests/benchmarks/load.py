@@ -180,7 +180,7 @@ def serving(workers: int = WORKERS, token: str = "", **settings: str) -> Iterato
     """The service, warm: its address, and its process."""
     port = free_port()
     with tempfile.TemporaryDirectory() as data_dir:
-        command = [sys.executable, "-m", "app.serve", "--port", str(port), "--workers", str(workers)]
+        command = [sys.executable, "-m", "gelenk.serve", "--port", str(port), "--workers", str(workers)]
         environment = {**os.environ, "GELENK_DATA_DIR": data_dir, **settings}
         with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as process:
             try:

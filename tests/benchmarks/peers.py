@@ -15,14 +15,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from app.kinematics.ik import kernels
-from app.kinematics.ik.search import MAX_ITERATIONS, make_goal, search, target_rows
-from app.kinematics.ik.task import FULL_POSE
-from app.model.arrays import Array
-from app.model.description import Limits
-from app.model.notations import placement, quaternions_xyzw_from_rotations
-from app.model.poses import Poses
-from app.model.urdf import write_urdf
+from gelenk.kinematics.ik import kernels
+from gelenk.kinematics.ik.search import MAX_ITERATIONS, make_goal, search, target_rows
+from gelenk.kinematics.ik.task import FULL_POSE
+from gelenk.model.arrays import Array
+from gelenk.model.description import Limits
+from gelenk.model.notations import placement, quaternions_xyzw_from_rotations
+from gelenk.model.poses import Poses
+from gelenk.model.urdf import write_urdf
 from tests.benchmarks.arms import BASE, TIP, Arm, alone
 
 TOLERANCE = 1e-5

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from app.kinematics.ik.branches import all_branches
-from app.kinematics.ik.search import search, target_rows
-from app.kinematics.ik.task import FULL_POSE
-from app.model.arrays import Array
-from app.model.poses import Poses
+from gelenk.kinematics.ik.branches import all_branches
+from gelenk.kinematics.ik.search import search, target_rows
+from gelenk.kinematics.ik.task import FULL_POSE
+from gelenk.model.arrays import Array
+from gelenk.model.poses import Poses
 from tests.benchmarks.arms import ARMS, poses
 from tests.benchmarks.table import Row
 from tests.kinematics.ik.arms import IRB, PUMA, UR5, table_arm

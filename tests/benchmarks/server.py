@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from fastapi import FastAPI
 
-from app.main import from_environment
+from gelenk.main import from_environment
 from tests.test_serve import HOST, free_port
 
 

@@ -46,5 +46,5 @@ def seconds_of_dev() -> float:
     subprocess.run([sys.executable, "dev", "serve", "--help"], check=True, stdout=subprocess.DEVNULL)
     with_dev = time.perf_counter() - started
     started = time.perf_counter()
-    subprocess.run([sys.executable, "-m", "app.serve", "--help"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, "-m", "gelenk.serve", "--help"], check=True, stdout=subprocess.DEVNULL)
     return max(0.0, with_dev - (time.perf_counter() - started))

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array
-from app.model.poses import Poses
-from app.schemas.pose_arrays import pose_array
-from app.settings import Settings
-from app.store.library import Library
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.poses import Poses
+from gelenk.schemas.pose_arrays import pose_array
+from gelenk.settings import Settings
+from gelenk.store.library import Library
 from tests.benchmarks.server import Running, running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST

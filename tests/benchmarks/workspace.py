@@ -14,12 +14,12 @@ from io import BytesIO
 import numpy as np
 import pinocchio as pin
 
-from app.kinematics.kernels import chain_measures
-from app.kinematics.workspace import Plan, Wish, plan, sampled
-from app.model.arrays import Array, Indices
-from app.model.robot import Robot
-from app.settings import Settings
-from app.store.library import Library
+from gelenk.kinematics.kernels import chain_measures
+from gelenk.kinematics.workspace import Plan, Wish, plan, sampled
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.robot import Robot
+from gelenk.settings import Settings
+from gelenk.store.library import Library
 from tests.benchmarks.server import running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from app.cli import local
-from app.cli.main import main
-from app.kinematics.warm import warm_up
+from gelenk.cli import local
+from gelenk.cli.main import main
+from gelenk.kinematics.warm import warm_up
 from tests.test_serve import service
 
 
@@ -57,6 +57,6 @@ class Shell:
 @pytest.fixture
 def shell(own: local.InProcess, capfdbinary: pytest.CaptureFixture[bytes], monkeypatch: pytest.MonkeyPatch) -> Shell:
     monkeypatch.delenv("GELENK_SERVER", raising=False)
-    monkeypatch.setattr("app.cli.local.InProcess", lambda: own)
+    monkeypatch.setattr("gelenk.cli.local.InProcess", lambda: own)
     monkeypatch.setattr(own, "close", lambda: None)
     return Shell(capfdbinary, monkeypatch)

@@ -53,6 +53,7 @@ CALLS: dict[str, tuple[list[str], str, str, Any]] = {
 }
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", CALLS)
 def test_core_server_and_api_say_the_same(shell: Shell, url: str, name: str) -> None:
     arguments, method, path, body = CALLS[name]
@@ -247,11 +248,12 @@ def test_what_is_wrong_is_said_in_a_sentence(shell: Shell, arguments: list[str],
 
 
 def test_nobody_there(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.client.time.sleep", lambda _: None)
+    monkeypatch.setattr("gelenk.client.time.sleep", lambda _: None)
     url = f"http://127.0.0.1:{free_port()}"
     assert f"no answer from {url}" in shell("--server", url, "robots", code=3)[1]
 
 
+@pytest.mark.slow
 def test_a_workspace_with_its_picture(shell: Shell, tmp_path: Path) -> None:
     shell("-o", tmp_path / "points.npy", "workspace", "planar_2r", "--samples", 2000, "--plot", tmp_path / "reach.svg")
     points = np.load(tmp_path / "points.npy")
@@ -261,9 +263,10 @@ def test_a_workspace_with_its_picture(shell: Shell, tmp_path: Path) -> None:
     assert "samples" in shell("workspace", "planar_2r", "--samples", 2000)[0]
 
 
+@pytest.mark.slow
 def test_as_a_program() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "GELENK_SERVER"}
-    command = [sys.executable, "-m", "app.cli.main", "--format", "csv", "fk", "planar_2r", "-q", "0 0"]
+    command = [sys.executable, "-m", "gelenk.cli.main", "--format", "csv", "fk", "planar_2r", "-q", "0 0"]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True, env=environment)
     assert run.stdout.splitlines()[1].startswith("1.7,0.0,0.0,")
     assert run.stderr == ""
@@ -279,3 +282,11 @@ def test_the_readme_prints_what_a_command_does(shell: Shell) -> None:
 def words(line: str) -> list[str]:
     """What a line says, but for errors: these are rounding, and a machine's own."""
     return [word for word in line.split() if "e-1" not in word]
+
+
+def test_a_joint_is_held_by_its_field(shell: Shell) -> None:
+    held = json.dumps({"fixed_joints": {"panda_joint7": 0.6}, "solutions": "all"})
+    to = ["--to", "0.4 0.1 0.5 3.1 0 0", "--tip", "panda_link8"]
+    (result,) = shell.json("ik", "panda", *to, "--fields", held)["results"]
+    assert {solution["joint_positions"][6] for solution in result["solutions"]} == {0.6}
+    assert result["complete"]

@@ -14,13 +14,13 @@ import httpx2
 import numpy as np
 import pytest
 
-from app.cli.local import InProcess
-from app.cli.main import EXIT_CODES
-from app.client import Client
+from gelenk.cli.local import InProcess
+from gelenk.cli.main import EXIT_CODES
+from gelenk.client import Client
 from tests.cli.conftest import Shell
 from tests.test_serve import free_port, get, wait_until_ready
 
-COMMAND = [sys.executable, "-m", "app.cli.main"]
+COMMAND = [sys.executable, "-m", "gelenk.cli.main"]
 
 
 def refusing(status: int, kind: str, **headers: str) -> Callable[..., Client]:
@@ -50,7 +50,7 @@ def refusing(status: int, kind: str, **headers: str) -> Callable[..., Client]:
 def test_a_refusal_ends_with_its_code(
     shell: Shell, monkeypatch: pytest.MonkeyPatch, status: int, kind: str, code: int
 ) -> None:
-    monkeypatch.setattr("app.client.Client", refusing(status, kind))
+    monkeypatch.setattr("gelenk.client.Client", refusing(status, kind))
     out, err = shell("--server", "http://gelenk.invalid", "robots", code=code)
     how = " (gelenk sends the one in GELENK_KEY)" if status == 401 else ""
     assert (out, err) == ("", f"gelenk: the service says {kind}{how}\n")
@@ -72,9 +72,9 @@ def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.Mo
     def interrupted(*_: object) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("app.calls.jobs.Job.result", interrupted)
+    monkeypatch.setattr("gelenk.calls.jobs.Job.result", interrupted)
     ended: list[str] = []
-    monkeypatch.setattr("app.calls.jobs.Job.cancel", lambda job, _: ended.append(job.id))
+    monkeypatch.setattr("gelenk.calls.jobs.Job.cancel", lambda job, _: ended.append(job.id))
     shell("workspace", "planar_2r", "--samples", 1000, code=130)
     assert len(ended) == 1
 
@@ -105,6 +105,7 @@ def test_a_job_that_nobody_would_do_is_not_begun(shell: Shell) -> None:
     assert "needs --server" in shell("workspace", "planar_2r", "--job", code=2)[1]
 
 
+@pytest.mark.slow
 def test_progress_is_told_as_it_goes_on(own: InProcess) -> None:
     """Without a server too, where an answer comes as a whole."""
     told: list[tuple[float, float]] = []
@@ -128,10 +129,11 @@ def test_pictures_into_files(shell: Shell, tmp_path: Path, kind: str) -> None:
 
 
 def test_what_cannot_be_drawn_is_refused_before_the_work(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.cli.local.InProcess", lambda: pytest.fail("it was asked"))
+    monkeypatch.setattr("gelenk.cli.local.InProcess", lambda: pytest.fail("it was asked"))
     assert "must end in .svg or .png" in shell("workspace", "planar_2r", "--plot", "reach.gif", code=2)[1]
 
 
+@pytest.mark.slow
 def test_the_benchmark_measures_what_it_says(shell: Shell, url: str) -> None:
     for options in ((), ("--server", url)):
         told = shell.json(*options, "bench", "planar_2r", "--batch", "200", "--seconds", "0.1")
@@ -172,8 +174,8 @@ def test_names_of_robots_are_completed(url: str) -> None:
 
 
 def test_help_and_completion_need_not_wait_for_what_computes() -> None:
-    heavy = "{'pinocchio', 'numba', 'numpy', 'fastapi', 'pydantic', 'matplotlib', 'app.client'} & set(sys.modules)"
-    script = f"import sys, app.cli.main; print({heavy})"
+    heavy = "{'pinocchio', 'numba', 'numpy', 'fastapi', 'pydantic', 'matplotlib', 'gelenk.client'} & set(sys.modules)"
+    script = f"import sys, gelenk.cli.main; print({heavy})"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
     assert run.stdout == "set()\n"
 
@@ -206,9 +208,9 @@ def test_an_error_of_the_command_itself_is_no_verdict(shell: Shell, monkeypatch:
     def interrupted(*_: object) -> Any:
         raise ValueError("Error calling function `_given_alone`: KeyboardInterrupt: ")
 
-    monkeypatch.setattr("app.cli.arms._pose_row", fails)
+    monkeypatch.setattr("gelenk.cli.arms._pose_row", fails)
     out, err = shell("fk", "planar_2r", "-q", "0 0", code=4)
     assert "ZeroDivisionError" in err
     assert err.endswith("gelenk: something went wrong in the command itself: see above\n")
-    monkeypatch.setattr("app.cli.arms._pose_row", interrupted)
+    monkeypatch.setattr("gelenk.cli.arms._pose_row", interrupted)
     assert shell("fk", "planar_2r", "-q", "0 0", code=130) == (out, "")

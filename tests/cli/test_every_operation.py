@@ -17,14 +17,13 @@ import typer
 from pydantic import BaseModel
 from typer.core import TyperGroup
 
-from app.calls.operations import Operations
-from app.calls.refusals import Refused
-from app.cli.main import cli
-from app.client import Client
-from app.main import create_app
-from app.settings import Settings
+from gelenk.calls.operations import Operations
+from gelenk.calls.refusals import Refused
+from gelenk.cli.main import cli
+from gelenk.client import Client
 from tests.cli.conftest import Shell
 from tests.client.test_operations import NAMES as METHODS
+from tests.openapi import document
 from tests.test_serve import get
 
 NAMES = {**METHODS, "watch_job": "watch", "get_job_result": "workspace_result"}
@@ -57,7 +56,7 @@ class Question:
         return NAMES.get(self.id, self.id)
 
 
-SCHEMA = create_app(Settings(data_dir=Path("unused"))).openapi()
+SCHEMA = document()
 
 
 def questions() -> Iterator[Question]:
@@ -201,7 +200,7 @@ COMMANDS: dict[str, Callable[[dict[str, Any], Files], Arguments]] = {
 """Each operation that has a command of its own, with the arguments that say what its example does."""
 ON_A_SERVER = {"workspace"}
 """Whose command begins a job for others to look at, which ends with the process that does it."""
-NO_OPERATION = {"ask", "serve", "bench"}
+NO_OPERATION = {"ask", "serve", "bench", "keys"}
 
 
 def by_commands(shell: Shell, folder: Path, *options: str) -> Way:
@@ -239,11 +238,13 @@ def expected(url: str) -> dict[str, Any]:
     return answers(by_api(url))
 
 
+@pytest.mark.slow
 def test_the_client_says_what_the_api_does(url: str, expected: dict[str, Any]) -> None:
     with Client(url) as gelenk:
         assert answers(by_client(gelenk)) == expected
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("where", ["here", "there"])
 @pytest.mark.parametrize("how", ["fields as JSON", "commands"])
 def test_the_command_line_says_what_the_api_does(
@@ -316,6 +317,7 @@ WRONG: dict[str, tuple[str, str, dict[str, Any]]] = {
 }
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("name", WRONG)
 def test_what_is_wrong_is_said_in_the_sentence_of_the_api(shell: Shell, url: str, name: str) -> None:
     operation, robot, fields = WRONG[name]

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.cli.rows import rows_of
+from gelenk.cli.rows import rows_of
 from tests.cli.conftest import Shell
 
 TABLE = b"type,a,alpha,d,theta\nrevolute,1.0,0,0,0\nrevolute,0.7,0,0,0\n"
@@ -203,7 +203,7 @@ def test_a_file_that_cannot_be_is_refused_before_the_work(
     shell: Shell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("app.cli.local.InProcess", lambda: pytest.fail("it was asked"))
+    monkeypatch.setattr("gelenk.cli.local.InProcess", lambda: pytest.fail("it was asked"))
     err = shell(*arguments, code=2)[1]
     assert "No such file or directory" in err or "Is a directory" in err
 
@@ -220,10 +220,11 @@ def test_npy_is_nothing_for_a_terminal(shell: Shell, monkeypatch: pytest.MonkeyP
     assert "give it a file with --output" in shell("-f", "npy", "fk", "planar_2r", "-q", "0 0", code=2)[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["table", "json"])
 def test_who_has_read_enough_is_no_error(url: str, form: str) -> None:
     """`gelenk … | head -1`: no code that means something else, and not a word."""
-    command = [sys.executable, "-m", "app.cli.main", "--server", url, "--format", form, "robots"]
+    command = [sys.executable, "-m", "gelenk.cli.main", "--server", url, "--format", form, "robots"]
     reading, writing = os.pipe()
     with subprocess.Popen(command, stdout=writing, stderr=subprocess.PIPE) as run:
         os.close(writing)

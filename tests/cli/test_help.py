@@ -9,12 +9,12 @@ from typing import Any, get_args
 
 import pytest
 
-from app.cli import completion
-from app.cli.completion import one_of
-from app.cli.examples import EXAMPLES
-from app.schemas.ik import InverseOptions
-from app.schemas.kinematics import JacobianOptions
-from app.trajectory.words import Law
+from gelenk.cli import completion
+from gelenk.cli.completion import one_of
+from gelenk.cli.examples import EXAMPLES
+from gelenk.schemas.ik import InverseOptions
+from gelenk.schemas.kinematics import JacobianOptions
+from gelenk.trajectory.words import Law
 from tests.cli.conftest import Shell
 from tests.cli.test_ends import ran
 
@@ -57,11 +57,12 @@ def completed(words: str, server: str = "") -> list[str]:
     return ran(**typed, **({"GELENK_SERVER": server} if server else {})).split()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "fish"])
 def test_completion_is_installed(tmp_path: Path, shell_name: str) -> None:
     """And bash, which is everywhere, completes with it."""
     program = tmp_path / "gelenk"
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m app.cli.main "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m gelenk.cli.main "$@"\n')
     program.chmod(0o755)
     ran("--install-completion", shell_name, HOME=str(tmp_path), _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1")
     written = "".join(path.read_text() for path in tmp_path.rglob("*") if path.is_file() and path != program)
@@ -78,6 +79,7 @@ def test_completion_is_installed(tmp_path: Path, shell_name: str) -> None:
         assert run.stdout.split() == ["trapezoidal", "time_optimal"]
 
 
+@pytest.mark.slow
 def test_frames_are_completed(url: str, tmp_path: Path) -> None:
     """Those of the server; without one the ends of chains, and the links of a file."""
     assert completed("gelenk fk panda --tip panda_h", url) == ["panda_hand", "panda_hand_tcp"]

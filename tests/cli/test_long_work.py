@@ -11,11 +11,11 @@ import numba
 import numpy as np
 import pytest
 
-from app.calls.refusals import Refused
-from app.cli.batches import in_calls
-from app.cli.local import InProcess
-from app.client import Client
-from app.schemas.kinematics import ForwardAnswer
+from gelenk.calls.refusals import Refused
+from gelenk.cli.batches import in_calls
+from gelenk.cli.local import InProcess
+from gelenk.client import Client
+from gelenk.schemas.kinematics import ForwardAnswer
 from tests.cli.conftest import Shell
 from tests.test_serve import get
 
@@ -45,12 +45,13 @@ def cut(fields: dict[str, Any], part: slice) -> dict[str, Any]:
     return {name: value[part] if is_each[name] else value for name, value in fields.items()}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("operation", BATCHES)
 def test_the_numbers_are_those_of_one_call(
     shell: Shell, url: str, rows: Path, operation: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And more of them are recomputed: as many of each call as of the only one."""
-    monkeypatch.setattr("app.cli.batches._SECONDS", 1e3)  # two calls, however slow the machine is
+    monkeypatch.setattr("gelenk.cli.batches._SECONDS", 1e3)  # two calls, however slow the machine is
     further = BATCHES[operation]
     there = ("--server", url)
     found = shell.json(*there, operation, "planar_2r", "--from", rows, "--fields", json.dumps(further))
@@ -147,9 +148,9 @@ def test_a_bar_is_shown_on_a_terminal_alone_and_only_of_long_work(
     out, err = shell(*arguments)
     assert err == "", "in a pipe"
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setattr("app.cli.session._LONG_SECONDS", 100.0)
+    monkeypatch.setattr("gelenk.cli.session._LONG_SECONDS", 100.0)
     assert shell(*arguments) == (out, ""), "of what is over soon"
-    monkeypatch.setattr("app.cli.session._LONG_SECONDS", 0.0)
+    monkeypatch.setattr("gelenk.cli.session._LONG_SECONDS", 0.0)
     shown, bar = shell(*arguments)
     assert name in bar
     assert shown == out

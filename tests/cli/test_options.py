@@ -11,8 +11,8 @@ import pytest
 import typer
 from typer.core import TyperGroup
 
-from app.cli.main import cli
-from app.client import Client
+from gelenk.cli.main import cli
+from gelenk.client import Client
 from tests.cli.conftest import Shell
 from tests.oracles import catalogue
 from tests.test_serve import get

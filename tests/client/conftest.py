@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from app.client import Client
+from gelenk.client import Client
 from tests.test_serve import service
 
 

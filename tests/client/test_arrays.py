@@ -9,17 +9,17 @@ import httpx2
 import numpy as np
 import pytest
 
-from app.calls.call import Reply
-from app.calls.npy import packed, unpacked
-from app.calls.operations import Operations
-from app.client import Client
-from app.model.errors import InvalidArray, InvalidField
-from app.schemas.ik import InverseRequest
-from app.schemas.kinematics import ForwardAnswer, ForwardRequest
-from app.schemas.pose import Pose
-from app.schemas.statics import PayloadInfo, StaticsRequest
-from app.schemas.trajectory import JointSegment
-from app.schemas.velocity import NullSpace
+from gelenk.calls.call import Reply
+from gelenk.calls.npy import packed, unpacked
+from gelenk.calls.operations import Operations
+from gelenk.client import Client
+from gelenk.model.errors import InvalidArray, InvalidField
+from gelenk.schemas.ik import InverseRequest
+from gelenk.schemas.kinematics import ForwardAnswer, ForwardRequest
+from gelenk.schemas.pose import Pose
+from gelenk.schemas.statics import PayloadInfo, StaticsRequest
+from gelenk.schemas.trajectory import JointSegment
+from gelenk.schemas.velocity import NullSpace
 
 QS = np.array([[0.3, 0.8], [-0.2, 0.1]])
 
@@ -99,6 +99,7 @@ def test_a_request_is_made_of_arrays_too() -> None:
         InverseRequest(targets=QS)
 
 
+@pytest.mark.slow
 def test_poses_are_an_array_at_once(gelenk: Client) -> None:
     answer = gelenk.fk("planar_2r", joint_positions=QS)
     matrices = gelenk.arrays.fk("planar_2r", QS, pose_format="matrix")

@@ -11,11 +11,11 @@ from typing import Any
 import httpx2
 import pytest
 
-from app.calls.call import Call
-from app.calls.operations import Operations
-from app.calls.refusals import NotAnswering, Refused
-from app.client import AsyncClient, Client
-from app.model import errors
+from gelenk.calls.call import Call
+from gelenk.calls.operations import Operations
+from gelenk.calls.refusals import NotAnswering, Refused
+from gelenk.client import AsyncClient, Client
+from gelenk.model import errors
 from tests.client.scripted import (
     Scripted,
     Step,
@@ -72,10 +72,11 @@ def ask(request: pytest.FixtureRequest) -> Ask:
 
 @pytest.fixture(autouse=True)
 def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.calls.patience._FIRST_PAUSE", 0.001)
-    monkeypatch.setattr("app.client._BETWEEN_STREAMS", 0.001)
+    monkeypatch.setattr("gelenk.calls.patience._FIRST_PAUSE", 0.001)
+    monkeypatch.setattr("gelenk.client._BETWEEN_STREAMS", 0.001)
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("fault", [hangs_up, stops_halfway, says("502 Bad Gateway", b"<html>", "text/html")])
 @pytest.mark.parametrize(
     ("call", "done", "is_repeatable"),
@@ -99,7 +100,7 @@ def test_what_breaks_off_is_sent_again_where_it_leaves_nothing_new(
                 ask(service.url, call)
             assert len(service.visits) == 1
             if isinstance(gone.value, NotAnswering):
-                assert str(gone.value).endswith("; whether the call was done is not known")
+                assert str(gone.value).endswith("; whether the call was executed is not known")
         elif done is None:
             with pytest.raises(errors.RobotExists):
                 ask(service.url, call)
@@ -142,8 +143,8 @@ def test_how_long_it_would_have_been_is_told(ask: Ask) -> None:
 
 def test_what_takes_too_long_is_given_up_once(ask: Ask, monkeypatch: pytest.MonkeyPatch) -> None:
     short = httpx2.Timeout(5.0, read=0.2)
-    monkeypatch.setattr("app.client.TIMEOUT", short)
-    monkeypatch.setattr("app.calls.patience.TIMEOUT", short)
+    monkeypatch.setattr("gelenk.client.TIMEOUT", short)
+    monkeypatch.setattr("gelenk.calls.patience.TIMEOUT", short)
     with scripted(keeps_silent) as service:
         with pytest.raises(NotAnswering, match=r"it took longer than 0\.2 s$"):
             ask(service.url, READ)
@@ -204,7 +205,7 @@ def test_an_array_that_is_none_is_called_so() -> None:
 
 
 def test_a_call_that_is_cancelled_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.client.AT_ONCE", 1)
+    monkeypatch.setattr("gelenk.client.AT_ONCE", 1)
 
     async def ask(service: Scripted) -> None:
         async with AsyncClient(service.url) as gelenk:

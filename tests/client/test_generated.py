@@ -12,10 +12,9 @@ from typing import Any
 
 import pytest
 
-from app.client import Client
-from app.main import create_app
-from app.settings import Settings
+from gelenk.client import Client
 from tests.corpus import zips
+from tests.openapi import document
 
 HERE = Path(__file__).parent
 TYPESCRIPT = HERE / "typescript"
@@ -54,7 +53,7 @@ print(json.dumps({
 def schema(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The schema in a file."""
     file = tmp_path_factory.mktemp("schema") / "openapi.json"
-    file.write_text(json.dumps(create_app(Settings(data_dir=Path("unused"))).openapi()))
+    file.write_text(json.dumps(document()))
     return file
 
 

@@ -6,14 +6,14 @@ from typing import Any, assert_type
 import numpy as np
 import pytest
 
-from app.calls.jobs import AsyncJob, Job
-from app.calls.refusals import Refused
-from app.client import AsyncClient, Client
-from app.model import errors
-from app.model.arrays import Array
-from app.schemas.ik import InverseAnswer
-from app.schemas.trajectory_answer import TrajectoryAnswer
-from app.schemas.workspace import WorkspaceAnswer
+from gelenk.calls.jobs import AsyncJob, Job
+from gelenk.calls.refusals import Refused
+from gelenk.client import AsyncClient, Client
+from gelenk.model import errors
+from gelenk.model.arrays import Array
+from gelenk.schemas.ik import InverseAnswer
+from gelenk.schemas.trajectory_answer import TrajectoryAnswer
+from gelenk.schemas.workspace import WorkspaceAnswer
 from tests.robots import robot, samples
 
 MOTION: dict[str, Any] = {"start": [0.3, 0.8], "segments": [{"type": "joint", "target": [0.5, 0.2]}]}
@@ -36,6 +36,16 @@ def test_a_job_answers_what_the_call_does_at_once(gelenk: Client) -> None:
     assert told[-1] == 1.0
     with pytest.raises(errors.UnknownJob):
         gelenk.job(job.id)
+
+
+def test_a_joint_is_held_in_a_job_as_in_a_call(gelenk: Client) -> None:
+    there = gelenk.fk("panda", joint_positions=[[0.1, -0.5, 0.2, -1.9, 0.3, 1.5, 0.6]]).poses
+    held: dict[str, Any] = {"targets": there, "solutions": "all", "fixed_joints": {"panda_joint7": 0.6}}
+    with gelenk.jobs.ik("panda", **held) as job:
+        answer = job.result()
+    assert answer == gelenk.ik("panda", **held)
+    assert {solution.joint_positions[6] for solution in answer.results[0].solutions} == {0.6}
+    assert answer.results[0].complete
 
 
 def test_motions_and_workspaces(gelenk: Client) -> None:

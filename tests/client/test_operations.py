@@ -9,14 +9,14 @@ from typing import Any, assert_type
 import numpy as np
 import pytest
 
-from app.calls.arrays import ArrayOperations, Reached
-from app.calls.call import Call, Sent
-from app.calls.operations import Operations
-from app.client import AsyncClient, Client
-from app.model.arrays import Array
-from app.schemas.jobs import JobInfo
-from app.schemas.kinematics import ForwardAnswer
-from app.schemas.pose import Pose
+from gelenk.calls.arrays import ArrayOperations, Reached
+from gelenk.calls.call import Call, Sent
+from gelenk.calls.operations import Operations
+from gelenk.client import AsyncClient, Client
+from gelenk.model.arrays import Array
+from gelenk.schemas.jobs import JobInfo
+from gelenk.schemas.kinematics import ForwardAnswer
+from gelenk.schemas.pose import Pose
 from tests.corpus import zips
 from tests.robots import robot, samples
 from tests.test_serve import get
@@ -135,6 +135,7 @@ def test_a_robot_with_its_meshes(gelenk: Client, tmp_path: Path) -> None:
     gelenk.remove_robot("packed")
 
 
+@pytest.mark.slow
 def test_a_job_tells_how_far_it_is(gelenk: Client) -> None:
     seen: list[float] = []
     job = gelenk.workspace("panda", samples=200_000, tip_frame="panda_link8")

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from app.calls.refusals import Refused
-from app.client import AsyncClient, Client
-from app.model.errors import InvalidField
-from app.schemas.pose import Pose
+from gelenk.calls.refusals import Refused
+from gelenk.client import AsyncClient, Client
+from gelenk.model.errors import InvalidField
+from gelenk.schemas.pose import Pose
 from tests.corpus import zips
 
 
@@ -17,7 +17,7 @@ def test_help_is_to_be_read(gelenk: Client) -> None:
     told = pydoc.plain(pydoc.render_doc(gelenk.fk))
     assert "fk(robot: str, /, *, joint_positions: Sequence[Sequence[float] | Mapping[str, float] | ndarray]" in told
     assert "pose_format: 'quaternion_xyzw' | 'quaternion_wxyz'" in told
-    assert "tip_frame: Frame whose pose is meant" in told
+    assert "tip_frame: Frame whose pose is computed" in told
     for method in (gelenk.fk, gelenk.arrays.ik, gelenk.jobs.trajectory, gelenk.dc_motor):
         signature = str(inspect.signature(method))
         assert not any(word in signature for word in ("FieldInfo", "Annotated", "OnTheWire", "metadata"))
@@ -41,12 +41,12 @@ def test_what_is_given_by_place_but_goes_by_name_is_no_silent_loss(gelenk: Clien
 
 
 def test_a_robot_goes_by_its_name(gelenk: Client) -> None:
-    with pytest.raises(TypeError, match="told by its name, a text, not by None"):
+    with pytest.raises(TypeError, match="given by its name, a string, not by None"):
         gelenk.fk(None, joint_positions=[[0.3, 0.8]])  # type: ignore[arg-type]
 
 
 def test_one_configuration_in_the_place_of_a_batch_is_told(gelenk: Client) -> None:
-    with pytest.raises(Refused, match="#/joint_positions/0: a configuration is a list of one number a joint"):
+    with pytest.raises(Refused, match="#/joint_positions/0: a configuration is a list of one number per joint"):
         gelenk.fk("planar_2r", joint_positions=[0.3, 0.8])  # type: ignore[list-item]
 
 
@@ -83,7 +83,7 @@ def test_clients_and_jobs_say_who_they_are(gelenk: Client) -> None:
     "url", ["localhost:8000", "127.0.0.1:8000", "http://", "ftp://host", "http://host:99999", "x y"]
 )
 def test_what_is_no_address_is_said_at_once(url: str) -> None:
-    with pytest.raises(InvalidField, match="is no address of a service, such as http://"):
+    with pytest.raises(InvalidField, match="is not the address of a service, such as http://"):
         Client(url)
 
 

@@ -7,21 +7,21 @@ from pathlib import Path
 
 import pytest
 
-import app
+import gelenk
 
 PROGRAM = """
 import asyncio
 from typing import assert_type
 import numpy as np
 import numpy.typing as npt
-from app.calls.arrays import Reached
-from app.calls.jobs import Job
-from app.client import AsyncClient, Client
-from app.schemas.ik import InverseAnswer
-from app.schemas.kinematics import ForwardAnswer
-from app.schemas.pose import Pose
-from app.schemas.statics import PayloadInfo
-from app.schemas.trajectory import JointSegment
+from gelenk.calls.arrays import Reached
+from gelenk.calls.jobs import Job
+from gelenk.client import AsyncClient, Client
+from gelenk.schemas.ik import InverseAnswer
+from gelenk.schemas.kinematics import ForwardAnswer
+from gelenk.schemas.pose import Pose
+from gelenk.schemas.statics import PayloadInfo
+from gelenk.schemas.trajectory import JointSegment
 
 Array = npt.NDArray[np.float64]
 
@@ -80,7 +80,7 @@ def test_what_can_be_sent_passes_and_nothing_else(tmp_path: Path) -> None:
     checked = subprocess.run(
         [sys.executable, "-m", "mypy", *options, "--no-error-summary", program.name],
         cwd=tmp_path,
-        env={**os.environ, "MYPYPATH": str(Path(app.__file__).parents[1])},
+        env={**os.environ, "MYPYPATH": str(Path(gelenk.__file__).parents[1])},
         capture_output=True,
         text=True,
         timeout=500,

@@ -6,13 +6,13 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from app.course.mechanism import GivenPair, Mechanism, Node, mechanism, mechanism_of_tree
-from app.course.mobility import NodeCount, certify_mobility, tally, tally_of_counts, verdict, warnings
-from app.course.mobility_steps import steps
-from app.course.pairs import FREEDOMS, KINDS, LETTERS, Space, allowed_kinds
-from app.course.topology import topology
-from app.model.errors import InvalidField
-from app.model.urdf import read_urdf, write_urdf
+from gelenk.course.mechanism import GivenPair, Mechanism, Node, mechanism, mechanism_of_tree
+from gelenk.course.mobility import NodeCount, certify_mobility, tally, tally_of_counts, verdict, warnings
+from gelenk.course.mobility_steps import steps
+from gelenk.course.pairs import FREEDOMS, KINDS, LETTERS, Space, allowed_kinds
+from gelenk.course.topology import topology
+from gelenk.model.errors import InvalidField
+from gelenk.model.urdf import read_urdf, write_urdf
 from tests.course import linkages
 from tests.oracles.catalogue import NAMES
 from tests.robots import robot
@@ -273,6 +273,7 @@ def test_every_formula_on_the_board_is_true() -> None:
 # Robots
 
 
+@pytest.mark.quick(39)
 @pytest.mark.parametrize("name", NAMES)
 def test_mobility_of_a_robot_is_pinocchios(name: str) -> None:
     """Pinocchio's own reading of the same XML: a mimic joint is a joint of its own there, unless asked otherwise."""

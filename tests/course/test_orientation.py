@@ -7,12 +7,12 @@ import pytest
 from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 
-from app.course.composition import About, Motion, composed
-from app.course.orientation import Notations, notations, wrapped
-from app.course.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
-from app.model.arrays import Array
-from app.model.errors import CertificationFailed
-from app.model.poses import transform
+from gelenk.course.composition import About, Motion, composed
+from gelenk.course.orientation import Notations, notations, wrapped
+from gelenk.course.rotations import DEGENERATE, AxisName, about_axis, elementary, validated
+from gelenk.model.arrays import Array
+from gelenk.model.errors import CertificationFailed
+from gelenk.model.poses import transform
 
 PRINTED = 5e-13
 """Half of the last of twelve printed digits."""

@@ -5,7 +5,7 @@ from math import acos, atan2, cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from app.course.planar import (
+from gelenk.course.planar import (
     Interval,
     area,
     orientations,
@@ -16,8 +16,8 @@ from app.course.planar import (
     tried,
     workspace_steps,
 )
-from app.model.arrays import Array, Flags
-from app.model.errors import CertificationFailed
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.errors import CertificationFailed
 
 LECTURE = {
     (1.0, 0.7): ([(0.3, 1.7)], []),

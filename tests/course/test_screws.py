@@ -6,13 +6,13 @@ from math import atan, cos, pi, sin, tan
 import numpy as np
 import pytest
 
-from app.course.mechanism import GivenPair, Mechanism, Node, mechanism
-from app.course.mobility import tally, verdict, warnings
-from app.course.mobility_steps import steps
-from app.course.pairs import LETTERS, Geometry, Space
-from app.course.screws import MAX_LINKS, Posture, posture
-from app.model.arrays import Array
-from app.model.errors import InvalidField, TooLarge
+from gelenk.course.mechanism import GivenPair, Mechanism, Node, mechanism
+from gelenk.course.mobility import tally, verdict, warnings
+from gelenk.course.mobility_steps import steps
+from gelenk.course.pairs import LETTERS, Geometry, Space
+from gelenk.course.screws import MAX_LINKS, Posture, posture
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField, TooLarge
 from tests.oracles import closure
 
 Placed = tuple[str, str, str, Geometry]

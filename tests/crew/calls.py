@@ -10,7 +10,7 @@ from pickle import PickleBuffer
 
 import numpy as np
 
-from app.crew.wire import pieces_of
+from gelenk.crew.wire import pieces_of
 
 
 def double(value: int) -> int:
@@ -72,7 +72,7 @@ def reversed_bytes(pieces: list[PickleBuffer]) -> list[PickleBuffer]:
 def loaded_modules(_: object) -> set[str]:
     import sys
 
-    return {"app.main", "numba", "pinocchio", "sympy", "matplotlib"} & set(sys.modules)
+    return {"gelenk.main", "numba", "pinocchio", "sympy", "matplotlib"} & set(sys.modules)
 
 
 def log(text: str) -> None:

@@ -14,10 +14,10 @@ from typing import Any
 
 import pytest
 
-from app.crew.crew import Crew
-from app.crew.wire import PIECE
-from app.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
-from app.processes import copies
+from gelenk.crew.crew import Crew
+from gelenk.crew.wire import PIECE
+from gelenk.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from gelenk.processes import copies
 from tests.crew import calls
 from tests.jobs.parts import gone
 
@@ -55,11 +55,12 @@ async def seconds_to_whole(crew: Crew) -> float:
     return seconds
 
 
+@pytest.mark.slow
 def test_processes_have_everything_loaded_and_stay() -> None:
     async def test(crew: Crew) -> None:
         assert len(crew.pids) == 2
         found = await crew.run(calls.loaded_modules, None, LONG)
-        assert found >= {"app.main", "numba", "pinocchio"}
+        assert found >= {"gelenk.main", "numba", "pinocchio"}
         pids = {await crew.run(calls.own_pid, None, LONG) for _ in range(5)}
         assert pids <= set(crew.pids)
         assert os.getpid() not in pids
@@ -68,6 +69,7 @@ def test_processes_have_everything_loaded_and_stay() -> None:
     with_crew(test)
 
 
+@pytest.mark.slow
 def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
     """It is loaded when nobody has asked for a process for a while, not while the service begins."""
 
@@ -85,7 +87,7 @@ def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
 def test_processes_of_the_start_make_room_for_those_that_have_everything() -> None:
     """Half a minute later; in a service of its own, whose processes are not copies of one that is long there."""
     program = (
-        "import asyncio; from app.crew.crew import Crew; from tests.crew import calls\n"
+        "import asyncio; from gelenk.crew.crew import Crew; from tests.crew import calls\n"
         "async def run():\n"
         "    crew = Crew(1, 1, 10**9)\n"
         "    for seconds in (0.0, 25.0):\n"
@@ -101,10 +103,11 @@ def test_processes_of_the_start_make_room_for_those_that_have_everything() -> No
     assert "sympy" in later[1]
 
 
+@pytest.mark.slow
 def test_what_a_process_logs_is_a_line_of_json(tmp_path: Path) -> None:
     """On the standard error stream of a service, whose log it is part of."""
     program = (
-        "import asyncio; from app.crew.crew import Crew; from tests.crew import calls\n"
+        "import asyncio; from gelenk.crew.crew import Crew; from tests.crew import calls\n"
         "async def run():\n"
         "    crew = Crew(1, 1, 10**9)\n"
         "    await crew.run(calls.log, 'two\\nlines', 60.0)\n"
@@ -134,6 +137,7 @@ def test_large_bytes_come_through(size: int) -> None:
     with_crew(test, 1)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
 def test_a_crash_fails_its_own_call_alone(how: signal.Signals) -> None:
     async def test(crew: Crew) -> None:
@@ -156,6 +160,7 @@ def test_an_exit_is_a_crash() -> None:
     with_crew(test, 1)
 
 
+@pytest.mark.slow
 def test_capacity_is_whole_within_a_second_whatever_happened() -> None:
     """The best of three of each: the machine that this runs on has other work too."""
 
@@ -245,6 +250,7 @@ def test_a_process_killed_between_calls_costs_no_call() -> None:
     with_crew(test)
 
 
+@pytest.mark.slow
 def test_who_leaves_takes_the_work_along(tmp_path: Path) -> None:
     mark = tmp_path / "done"
 
@@ -278,6 +284,7 @@ def test_who_leaves_the_queue_costs_nothing() -> None:
     with_crew(test, 1)
 
 
+@pytest.mark.slow
 def test_a_full_queue_refuses_at_once_and_says_when() -> None:
     async def test(crew: Crew) -> None:
         running = [asyncio.create_task(crew.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
@@ -293,6 +300,7 @@ def test_a_full_queue_refuses_at_once_and_says_when() -> None:
     with_crew(test, 1, waiting=2)
 
 
+@pytest.mark.slow
 def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is() -> None:
     async def test(crew: Crew) -> None:
         for _ in range(5):
@@ -337,6 +345,7 @@ def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
     with_crew(test, 1)
 
 
+@pytest.mark.slow
 def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where kernels are compiled it takes a minute or two."""
     begin = copies.started
@@ -345,7 +354,7 @@ def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pyt
         time.sleep(1.0)
         return begin(*arguments)
 
-    monkeypatch.setattr("app.crew.crew.started", slow)
+    monkeypatch.setattr("gelenk.crew.crew.started", slow)
 
     async def run() -> None:
         crew = Crew(1, 10, MEMORY)
@@ -393,6 +402,7 @@ def test_who_comes_late_need_not_wait_for_who_has_all_processes() -> None:
     with_crew(test, 2)
 
 
+@pytest.mark.slow
 def test_a_process_that_is_kept_for_a_client_who_has_left_is_taken() -> None:
     async def test(crew: Crew) -> None:
         assert await crew.run(calls.double, 1, LONG, "light") == 2

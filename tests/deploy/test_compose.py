@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.settings import Settings
+from gelenk.settings import Settings
 from tests.deploy.monitoring import PROMETHEUS, read_yaml
 
 ALONE, LAB = read_yaml(Path("compose.yaml")), read_yaml(Path("deploy/compose.lab.yaml"))

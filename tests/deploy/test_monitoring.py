@@ -15,8 +15,8 @@ import yaml  # type: ignore[import-untyped]
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.testclient import TestClient
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
 from tests.api.conftest import ready_client
 from tests.deploy.monitoring import PROMETHEUS, alerts, dashboard_queries, panels, program, read_yaml, selectors
 from tests.test_serve import HOST, free_port, get, service
@@ -35,6 +35,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     yield from ready_client(tmp_path_factory.mktemp("data"))
 
 
+@pytest.mark.slow
 def test_every_metric_and_label_that_is_asked_for_is_there(client: TestClient) -> None:
     for path, call in CALLS:
         assert client.post(f"/v1/robots/{path}", json=call).is_success

@@ -15,7 +15,7 @@ import httpx2
 import numpy as np
 import pytest
 
-from app.client import Client
+from gelenk.client import Client
 from tests.deploy.nginx import NAME, in_front_of, nginx, trusting
 from tests.test_serve import HOST, service
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
 from tests.deploy import unit
 from tests.test_serve import get, service
 
@@ -55,7 +55,7 @@ def test_what_it_runs_is_the_service_with_its_settings(tmp_path: Path) -> None:
     token, key = new_key("anna", [Scope.READ, Scope.WRITE])
     (tmp_path / "keys").write_text(key.entry() + "\n")
     found = unit.read(tmp_path, tmp_path / "state", tmp_path / "cache")
-    assert found.command[:3] == [f"{unit.FOLDER}/.venv/bin/python", "-m", "app.serve"]
+    assert found.command[:3] == [f"{unit.FOLDER}/.venv/bin/python", "-m", "gelenk.serve"]
     data_dir = Path(found.environment.pop("GELENK_DATA_DIR"))
     del found.environment["NUMBA_CACHE_DIR"]  # there are kernels already, which take a minute to compile
     with service(data_dir, *found.command[3:], **found.environment) as (_, url):

@@ -1,5 +1,6 @@
-"""A project of one small wheel is carried to where there is no network, and installed there: by the real `dev`."""
+"""The real `dev` installs a project of one small wheel in a folder with a space, also where there is no network."""
 
+import ast
 import base64
 import hashlib
 import os
@@ -8,7 +9,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +20,32 @@ import pytest
 LOCKS = ("requirements", "requirements-tracing", "requirements-ray", "requirements-dev", "requirements-bench")
 WHEEL = "gelenk_probe-1.0-py3-none-any.whl"
 INFO = "gelenk_probe-1.0.dist-info"
+PROJECT = """
+[project]
+name = "probe"
+version = "1.0"
+[build-system]
+requires = []
+build-backend = "backend"
+backend-path = ["app"]
+"""
+BACKEND = """
+import zipfile
+
+import time
+from pathlib import Path
+
+def build_editable(folder, config_settings=None, metadata_directory=None):
+    while Path("wait").exists():
+        Path("waits").touch()
+        time.sleep(0.05)
+    info, name = "probe-1.0.dist-info", "probe-1.0-py3-none-any.whl"
+    with zipfile.ZipFile(f"{folder}/{name}", "w") as wheel:
+        wheel.writestr(f"{info}/METADATA", "Metadata-Version: 2.1\\nName: probe\\nVersion: 1.0\\n")
+        wheel.writestr(f"{info}/WHEEL", "Wheel-Version: 1.0\\nRoot-Is-Purelib: true\\nTag: py3-none-any\\n")
+        wheel.writestr(f"{info}/RECORD", "")
+    return name
+"""
 FILES = {
     "gelenk_probe.py": "ANSWER = 42\n",
     f"{INFO}/METADATA": "Metadata-Version: 2.1\nName: gelenk-probe\nVersion: 1.0\n",
@@ -38,38 +67,48 @@ def make_wheel(folder: Path) -> str:
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """A folder with `dev` and all that it looks for, and an index of packages beside it."""
-    index, project = tmp_path / "index", tmp_path / "project"
+    index, project = tmp_path / "index", tmp_path / "a project"
     index.mkdir()
-    (project / "app").mkdir(parents=True)
+    (project / "app" / "gelenk").mkdir(parents=True)
+    (project / "pyproject.toml").write_text(PROJECT)
+    (project / "app" / "backend.py").write_text(BACKEND)
     digest = make_wheel(index)
     for lock in LOCKS:
         (project / f"{lock}.lock").write_text(f"gelenk-probe==1.0 \\\n    --hash=sha256:{digest}\n")
     shutil.copy("dev", project)
-    (project / "app" / "__init__.py").touch()
-    (project / "app" / "__pycache__").mkdir()
+    (project / "app" / "gelenk" / "__init__.py").touch()
+    (project / "app" / "gelenk" / "__pycache__").mkdir()
     (project / "docs" / "handbook").mkdir(parents=True)
     (project / "docs" / "index.md").touch()
     return project
 
 
-def dev(folder: Path, *arguments: str, index: Path | None = None) -> subprocess.CompletedProcess[str]:
+def begin(folder: Path, *arguments: str, index: Path | None = None, **variables: str) -> subprocess.Popen[str]:
     """`dev` where pip knows no other index than a folder, or none at all."""
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PIP_")}
-    environment |= {"PIP_CONFIG_FILE": os.devnull, "PIP_NO_INDEX": "1"}
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PIP_", "PYTHON"))}
+    environment |= {"PIP_CONFIG_FILE": os.devnull, "PIP_NO_INDEX": "1", **variables}
     if index is not None:
         environment["PIP_FIND_LINKS"] = str(index)
     command = [sys.executable, str(folder / "dev"), *arguments]
-    return subprocess.run(
-        command, cwd=folder.parent, env=environment, capture_output=True, text=True, timeout=600, check=False
+    return subprocess.Popen(
+        command, cwd=folder.parent, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
 
 
+def dev(folder: Path, *arguments: str, index: Path | None = None, **variables: str) -> subprocess.CompletedProcess[str]:
+    """The same to its end."""
+    with begin(folder, *arguments, index=index, **variables) as run:
+        out, err = run.communicate(timeout=600)
+    return subprocess.CompletedProcess(run.args, run.returncode, out, err)
+
+
+@pytest.mark.slow
 def test_what_was_carried_over_is_installed(project: Path) -> None:
     made = dev(project, "wheelhouse", "carried", index=project.parent / "index")
     carried = project.parent / "carried"
     assert made.returncode == 0, made.stderr
     assert {path.name for path in (carried / "wheels").iterdir()} == {WHEEL}
-    assert not (carried / "app" / "__pycache__").exists()
+    assert not (carried / "app" / "gelenk" / "__pycache__").exists()
     assert [path.name for path in (carried / "docs").iterdir()] == ["index.md"], "the handbook is built elsewhere"
     run = dev(carried, "install")
     assert run.returncode == 0, run.stderr
@@ -95,7 +134,7 @@ def test_a_wheel_that_is_another_one_is_not_installed(project: Path) -> None:
 def test_nothing_is_left_of_one_that_could_not_be_made(project: Path) -> None:
     run = dev(project, "wheelhouse", "carried")
     assert run.returncode != 0
-    assert {path.name for path in project.parent.iterdir()} == {"index", "project"}
+    assert {path.name for path in project.parent.iterdir()} == {"index", "a project"}
 
 
 def test_the_real_project_has_all_parts_that_are_carried() -> None:
@@ -128,3 +167,65 @@ def test_where_nothing_can_be_written_it_says_what_is_missing(project: Path, has
     missing = "requirements.lock is not installed in .venv" if has_environment else "there is no .venv"
     assert run.stderr.startswith(missing)
     assert f"{tree} cannot be written to: run ./dev install there" in run.stderr
+
+
+def test_a_killed_installation_starts_over(project: Path) -> None:
+    """What it leaves may be half of a package, and its pip may go on: the next one waits for that, and begins anew."""
+    index, environment, wait = project.parent / "index", project / ".venv", project / "wait"
+    wait.touch()
+    try:
+        with begin(project, "install", index=index) as killed:
+            wait_for((project / "waits").exists)
+            killed.kill()
+        (environment / "left over").touch()
+        second = begin(project, "install", index=index)
+        assert second.stderr is not None
+        first = second.stderr.readline()
+    finally:
+        wait.unlink()
+    told = second.communicate(timeout=600)[1]
+    assert first.startswith("waiting for another installation")
+    assert second.returncode == 0, told
+    assert told.startswith("making .venv")
+    assert not (environment / "left over").exists()
+    assert list(environment.glob("lib/*/site-packages/gelenk_probe.py"))
+    assert dev(project, "install").stderr == "", "it is installed, and needs no index"
+
+
+def wait_for(is_so: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 300
+    while not is_so():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize(
+    ("machine", "words"),
+    [
+        ("sys.version_info = (3, 10, 2, 'final', 0)", "Python 3.11 to 3.14 is needed"),
+        ("sys.version_info = (3, 15, 0, 'final', 0)", "Python 3.11 to 3.14 is needed"),
+        ("platform.machine = lambda: 'armv7l'", "Linux with glibc 2.28 or newer on x86_64 and aarch64"),
+        ("platform.libc_ver = lambda: ('', '')", "Linux with glibc 2.28 or newer on x86_64 and aarch64"),
+        ("platform.libc_ver = lambda: ('glibc', '2.17')", "glibc 2.17"),
+        ("sys.platform = 'win32'", "Linux with glibc 2.28 or newer on x86_64 and aarch64"),
+        ("importlib.util.find_spec = lambda name: None", "apt-get install python3-pip"),
+    ],
+)
+def test_a_machine_that_will_not_do_is_told_in_one_line(project: Path, machine: str, words: str) -> None:
+    (project / "sitecustomize.py").write_text(f"import importlib.util, platform, sys\n{machine}\n")
+    run = dev(project, "serve", PYTHONPATH=str(project))
+    assert (run.returncode, run.stdout, run.stderr.count("\n")) == (1, "", 1), run.stderr
+    assert words in run.stderr
+    assert not (project / ".venv").exists()
+
+
+def test_an_old_python_can_read_far_enough_to_say_so() -> None:
+    """Python 3.6 has no `:=`, and no `list[str]`, which it does not evaluate before it ends."""
+    text = Path("dev").read_text()
+    ast.parse(text, feature_version=(3, 6))
+    assert text.index("sys.version_info") < text.index("def ")
+
+
+def test_a_home_that_cannot_be_written_is_not_needed(project: Path) -> None:
+    run = dev(project, "install", index=project.parent / "index", HOME="/proc/no home")
+    assert run.returncode == 0, run.stderr

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from app.kinematics.ik import branches, search
-from app.main import create_app
-from app.model import urdf
-from app.settings import Settings
+from gelenk.kinematics.ik import branches, search
+from gelenk.model import urdf
+from gelenk.settings import Settings
 from tests.documents.blocks import PAGES, README
+from tests.openapi import document
 
 OF_CLIENTS = {"GELENK_SERVER", "GELENK_KEY"}
 
@@ -48,7 +48,7 @@ def test_where_the_service_has_a_copy_of_the_keys_the_page_says_so() -> None:
 
 def test_all_calculators_but_one_write_their_steps_down() -> None:
     """As the page on conventions has it."""
-    schemas = create_app(Settings()).openapi()
+    schemas = document()
     without = set()
     for path, item in schemas["paths"].items():
         if path.startswith("/v1/course/"):

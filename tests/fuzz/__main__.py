@@ -20,7 +20,7 @@ from tests.fuzz import NAMES
 
 FOLDER = Path(".fuzz")
 _MEMORY = Path("/dev/shm")  # noqa: S108 - where archives are unpacked, if it is there: a disk would be what is timed
-_COMPILED = ("app.model.poses", "app.kinematics.kernels", "app.kinematics.lanes")
+_COMPILED = ("gelenk.model.poses", "gelenk.kinematics.kernels", "gelenk.kinematics.lanes")
 """Modules of functions that numba compiles: with traces in them it cannot."""
 _TELL_EVERY = 50_000
 
@@ -58,7 +58,7 @@ def fuzz_led(name: str, runs: int, seconds: int, seed: int) -> None:
     """Let libFuzzer choose the inputs by what they reach; it ends the process."""
     import atheris
 
-    with atheris.instrument_imports(include=["app"], exclude=_COMPILED):
+    with atheris.instrument_imports(include=["gelenk"], exclude=_COMPILED):
         from tests.fuzz.targets import TARGETS
     target = TARGETS[name]
     target.warm()

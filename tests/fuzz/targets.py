@@ -11,21 +11,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.api.npy import npy_response, read_npy
-from app.api.payloads import read_json
-from app.api.problems import InvalidPayload, status_of
-from app.kinematics.certify import certify_table
-from app.kinematics.forward import forward_kinematics
-from app.model.convert import describe_dh
-from app.model.description import Description
-from app.model.errors import KinematicsError
-from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
-from app.schemas.robots import NewRobot
-from app.store.archive import UnpackedRobot, unpacked
-from app.store.folders import pieces
-from app.store.meshes import KEPT_SUFFIXES
-from app.store.records import describe
+from gelenk.api.npy import npy_response, read_npy
+from gelenk.api.payloads import read_json
+from gelenk.api.problems import InvalidPayload, status_of
+from gelenk.kinematics.certify import certify_table
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.model.convert import describe_dh
+from gelenk.model.description import Description
+from gelenk.model.errors import KinematicsError
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf, write_urdf
+from gelenk.schemas.robots import NewRobot
+from gelenk.store.archive import UnpackedRobot, unpacked
+from gelenk.store.folders import pieces
+from gelenk.store.meshes import KEPT_SUFFIXES
+from gelenk.store.records import describe
 from tests.fuzz import seeds
 from tests.fuzz.mutation import ArchiveMutator, Mutator
 from tests.fuzz.seeds import Seeds

@@ -19,11 +19,11 @@ def test_a_chapter_has_idea_formula_call_picture_and_exercises(chapter: Path) ->
     text = chapter.read_text(encoding="utf-8")
     assert re.search(r"^# .+\n\n## The idea\n", text)
     assert text.count("$$") >= 2
-    assert text.count("```{run}") >= 2
-    assert "```{picture}" in text
-    exercises = text.partition("\n## Exercises\n")[2].split("::::{exercise}")[1:]
+    assert text.count("<!-- run") >= 2
+    assert "<!-- picture" in text
+    exercises = text.partition("\n## Exercises\n")[2].split("\n### Exercise ")[1:]
     assert len(exercises) >= 3
-    assert all(exercise.count(":::{answer}") == 1 and "\n:is: " in exercise for exercise in exercises)
+    assert all(exercise.count("<summary>Answer</summary>") == 1 and " = " in exercise for exercise in exercises)
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)

@@ -58,6 +58,6 @@ def test_a_field_says_what_it_is_or_what_it_holds() -> None:
         },
     }
     assert fields("Call", schema, objects) == (
-        "[`targets`]{#field-call-targets} list of [Pose](#object-pose); required\n: A pose.\n\n"
-        "[`seed`]{#field-call-seed} whole number; default `0`\n: Of the search."
+        '- <a id="field-call-targets"></a>**`targets`** list of [Pose](#object-pose); required\\\n  A pose.\n\n'
+        '- <a id="field-call-seed"></a>**`seed`** whole number; default `0`\\\n  Of the search.'
     )

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from docs.handbook.written import disagreement, in_line, written
+from docs.handbook.written import disagreement, in_line, same, written
 
 
 def test_numbers_have_significant_digits() -> None:
@@ -69,3 +69,11 @@ def test_anything_else_does_not(stated: str, value: object) -> None:
     difference = disagreement(stated, value)
     assert difference is not None
     assert repr(stated) in difference
+
+
+def test_texts_are_the_same_up_to_rounding() -> None:
+    assert same("error: 1.1e-16 m\n[1.2729  0]", "error: -2.2e-16 m\n[1.2730    0]")
+    assert not same("error: 1.1e-16 m", "error: 1.1e-6 m")
+    assert not same("x: 1.27", "x: 1.28")
+    assert not same("x: 1.27", "y: 1.27")
+    assert not same("1 2", "1")

@@ -7,8 +7,8 @@ import time
 from pathlib import Path
 from typing import Any
 
-from app.jobs.run import Files, Run
-from app.jobs.runner import Work
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Work
 
 
 def double(value: int) -> int:
@@ -88,7 +88,7 @@ def fatal(_: Path) -> Work:
     """The kind of jobs that bring their process of the service down."""
 
     def work(run: Run) -> Files:
-        list(run.map("all", told, lambda k: ("double", k), 2))
+        run.map("all", told, lambda k: ("double", k), 2)
         os.kill(os.getpid(), signal.SIGKILL)
         return {}
 
@@ -100,7 +100,8 @@ def of_parts(folder: Path) -> Work:
     name, values = json.loads((folder / "call.json").read_text())
 
     def work(run: Run) -> Files:
-        results = b", ".join(run.map("all", told, lambda k: (name, values[k]), len(values)))
+        run.map("all", told, lambda k: (name, values[k]), len(values))
+        results = b", ".join(run.parts.of("all", len(values)))
         return {"result.txt": lambda target: target.write(b"[" + results + b"]")}
 
     return work

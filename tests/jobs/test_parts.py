@@ -5,24 +5,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.jobs.parcel import packed, unpacked
-from app.jobs.parts import Parts
-from app.model.errors import StorageFailed, TooLarge, UnknownJob
+from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.parts import Parts, computed
+from gelenk.model.errors import StorageFailed, TooLarge, UnknownJob
+
+DIGEST, OTHER = "ab" * 32, "cd" * 32
 
 
 def test_a_part_is_read_as_it_was_written(tmp_path: Path) -> None:
-    parts = Parts(tmp_path, 1000)
+    parts = Parts(tmp_path, DIGEST, 1000)
     assert parts.read("all-0") is None
     parts.write("all-0", b"some bytes")
     parts.write("all-1", b"")
     assert (parts.read("all-0"), parts.read("all-1"), parts.read("all-10")) == (b"some bytes", b"", None)
-    assert Parts(tmp_path, 1000).read("all-0") == b"some bytes"
+    assert Parts(tmp_path, DIGEST, 1000).read("all-0") == b"some bytes"
     parts.clear()
     assert list(tmp_path.iterdir()) == []
 
 
 def test_no_part_that_is_not_whole_is_read(tmp_path: Path) -> None:
-    parts = Parts(tmp_path, 1000)
+    parts = Parts(tmp_path, DIGEST, 1000)
     parts.write("all-0", b"some bytes")
     (path,) = tmp_path.iterdir()
     whole = path.read_bytes()
@@ -32,8 +34,8 @@ def test_no_part_that_is_not_whole_is_read(tmp_path: Path) -> None:
 
 
 def test_they_take_no_more_than_they_may(tmp_path: Path) -> None:
-    Parts(tmp_path, 200).write("all-0", bytes(100))
-    parts = Parts(tmp_path, 200)
+    Parts(tmp_path, DIGEST, 200).write("all-0", bytes(100))
+    parts = Parts(tmp_path, DIGEST, 200)
     with pytest.raises(TooLarge) as refused:
         parts.write("all-1", bytes(100))
     assert refused.value.allowed == 200
@@ -42,15 +44,36 @@ def test_they_take_no_more_than_they_may(tmp_path: Path) -> None:
     parts.write("all-1", bytes(100))
 
 
+def test_what_others_have_written_counts_too(tmp_path: Path) -> None:
+    parts = Parts(tmp_path, DIGEST, 200)
+    parts.count(computed((bytes, 100, parts, "all-0")))
+    assert parts.read("all-0") == bytes(100)
+    with pytest.raises(TooLarge):
+        parts.write("all-1", bytes(100))
+
+
+def test_what_is_left_of_another_request_is_none_of_this_one(tmp_path: Path) -> None:
+    Parts(tmp_path, OTHER, 1000).write("all-0", b"of a job that was removed")
+    parts = Parts(tmp_path, DIGEST, 1000)
+    assert parts.read("all-0") is None
+    with pytest.raises(FileNotFoundError):
+        list(parts.of("all", 1))
+    parts.write("all-0", b"its own")
+    assert list(parts.of("all", 1)) == [b"its own"]
+    parts.clear()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_cannot_be_kept_says_so(tmp_path: Path) -> None:
     folder = tmp_path / "job"
     folder.mkdir()
-    parts = Parts(folder, 1000)
-    (folder / "part-all-0").mkdir()
+    parts = Parts(folder, DIGEST, 1000)
+    part = folder / f"part-{DIGEST[:16]}-all-0"
+    part.mkdir()
     with pytest.raises(StorageFailed):
         parts.write("all-0", b"x")
-    assert [path.name for path in folder.iterdir()] == ["part-all-0"]
-    (folder / "part-all-0").rmdir()
+    assert [path.name for path in folder.iterdir()] == [part.name]
+    part.rmdir()
     folder.rmdir()
     with pytest.raises(UnknownJob):
         parts.write("all-0", b"x")

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from app.jobs.runner import Runner
-from app.jobs.shelf import Limits, Shelf
-from app.jobs.workers import Order, Workers
-from app.model.errors import JobInterrupted
+from gelenk.jobs.runner import Runner
+from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.workers import Order, Workers
+from gelenk.model.errors import JobInterrupted
 from tests.jobs.parts import fatal, made_by, of_parts
 
 PARTS = 16
@@ -80,6 +80,7 @@ def left(folder: Path, kind: str, request: dict[str, bytes]) -> None:
     shelf.close()
 
 
+@pytest.mark.slow
 def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     jobs, notes = tmp_path / "jobs", tmp_path / "notes"
     left(jobs, "parts", made_by("note", [f"{notes}:{k}" for k in range(PARTS)]))
@@ -102,18 +103,21 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     assert max(counts.values()) <= 3
 
 
+@pytest.mark.slow
 def test_a_part_that_the_machine_has_lost_is_computed_again(tmp_path: Path) -> None:
     jobs, notes = tmp_path / "jobs", tmp_path / "notes"
     left(jobs, "parts", made_by("note", [f"{notes}:{k}" for k in range(PARTS)]))
     killed(jobs, 0.5)
-    (jobs / "mine" / "part-all-0").write_bytes(b"")
-    (jobs / "mine" / "part-all-2").unlink()
+    lost, missing = (next((jobs / "mine").glob(f"part-*-all-{k}")) for k in (0, 2))
+    lost.write_bytes(b"")
+    missing.unlink()
     runner = finished(jobs)
     assert runner.result("mine", "result.txt").read_text().startswith("['0', '1', '2', '3', ")
     counts = Counter(notes.read_text().split())
     assert [counts[str(k)] for k in range(4)] == [2, 1, 2, 1]
 
 
+@pytest.mark.slow
 def test_a_job_that_brings_the_service_down_is_given_up(tmp_path: Path) -> None:
     left(tmp_path, "fatal", {"call.json": b""})
     for attempt in (1, 2, 3):
@@ -121,6 +125,6 @@ def test_a_job_that_brings_the_service_down_is_given_up(tmp_path: Path) -> None:
         assert Shelf(tmp_path, Limits()).get("mine").attempts == attempt
     runner = finished(tmp_path)
     assert runner.shelf.get("mine").state == "failed"
-    with pytest.raises(JobInterrupted, match="begun 3 times"):
+    with pytest.raises(JobInterrupted, match="started 3 times"):
         runner.result("mine", "result.txt")
     assert [path.name for path in (tmp_path / "mine").iterdir()] == ["job.json"]

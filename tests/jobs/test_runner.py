@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from app.jobs.job import Job
-from app.jobs.run import Files, Run
-from app.jobs.runner import Runner, Work
-from app.jobs.shelf import Limits, Shelf
-from app.jobs.workers import Workers
-from app.model.errors import (
+from gelenk.jobs.job import Job
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Runner, Work
+from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.workers import Workers
+from gelenk.model.errors import (
     InvalidField,
     JobCancelled,
     JobFailed,
@@ -90,6 +90,7 @@ def test_a_name_that_stands_is_not_done_again(runner: Runner) -> None:
     assert runner.result("mine", "result.txt").read_text() == "[2]"
 
 
+@pytest.mark.slow
 def test_a_cancelled_job_ends_at_once_and_the_next_one_runs(runner: Runner) -> None:
     hanging = submitted(runner, "sleep", [60.0] * 4)
     time.sleep(0.5)
@@ -125,6 +126,7 @@ def test_a_job_that_is_cancelled_before_its_turn_is_never_begun(runner: Runner) 
     assert (runner.shelf.get(last.id).state, runner.shelf.get(last.id).started) == ("cancelled", None)
 
 
+@pytest.mark.slow
 def test_turns_go_round_the_clients(tmp_path: Path) -> None:
     runner = opened(tmp_path)
 
@@ -166,6 +168,7 @@ def test_a_finished_job_is_removed(runner: Runner) -> None:
             ask(job.id)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("kind", "request_files", "error"),
     [

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs import shelf as shelf_module
-from app.jobs.job import Failure
-from app.jobs.shelf import JOB_FILE, Limits, Shelf
-from app.model import errors
-from app.model.errors import JobExists, TooManyJobs, UnknownJob
+from gelenk.jobs import shelf as shelf_module
+from gelenk.jobs.job import Failure
+from gelenk.jobs.shelf import JOB_FILE, Limits, Shelf
+from gelenk.model import errors
+from gelenk.model.errors import JobExists, TooManyJobs, UnknownJob
 from tests.model.test_errors import CONCRETE, example
 
 
@@ -78,7 +78,7 @@ def test_unknown_names(shelf: Shelf, name: str) -> None:
 def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path) -> None:
     job, _ = shelf.add("workspace", "digest", {})
     code = (
-        "import sys; from pathlib import Path; from app.jobs.shelf import *\n"
+        "import sys; from pathlib import Path; from gelenk.jobs.shelf import *\n"
         "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
         "assert shelf.get(sys.argv[2]).state == 'queued'\n"
         "shelf.change(sys.argv[2], state='cancelled')"
@@ -88,14 +88,14 @@ def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path)
 
 
 LEAVES = (
-    "import os, sys; from pathlib import Path; from app.jobs.shelf import *\n"
+    "import os, sys; from pathlib import Path; from gelenk.jobs.shelf import *\n"
     "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
     "job, _ = shelf.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
     "shelf.change(shelf.begin(job), progress=0.5)\n"
     "os.kill(os.getpid(), 9)"
 )
 TAKES = (
-    "import sys, time; from pathlib import Path; from app.jobs.shelf import *\n"
+    "import sys, time; from pathlib import Path; from gelenk.jobs.shelf import *\n"
     "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
     "print('ready', flush=True); sys.stdin.readline()\n"
     "print(len(shelf.take_up()), flush=True); sys.stdin.readline()"
@@ -120,6 +120,7 @@ def test_a_job_whose_process_is_gone_waits_to_be_taken_up(shelf: Shelf, tmp_path
     assert (begun.state, begun.attempts, begun.started) == ("running", 2, job.started)
 
 
+@pytest.mark.slow
 def test_of_many_processes_one_takes_a_job_up(tmp_path: Path) -> None:
     root = tmp_path / "jobs"
     subprocess.run([sys.executable, "-c", LEAVES, str(root)], check=False)
@@ -211,7 +212,7 @@ def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.Monkey
     with opened(tmp_path, Limits(kept_seconds=100.0)) as shelf:
         old, rested, new = (shelf.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
         for job in (old, rested, new):
-            shelf.parts(job.id).write("all-0", b"part")
+            shelf.parts(job).write("all-0", b"part")
             shelf.change(job, state="cancelled")
         for job, age in ((old, 101.0), (rested, 99.0)):
             aged = replace(shelf.get(job.id), finished=time.time() - age)

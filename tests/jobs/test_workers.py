@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs import workers as workers_module
-from app.jobs.workers import Cancelled, Order, OutOfTime, Workers
+from gelenk.jobs import workers as workers_module
+from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
 from tests.jobs.parts import double, fail, gone, killed, own_pid, sleep
 
 SOON = 20.0

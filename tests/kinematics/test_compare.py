@@ -9,14 +9,14 @@ from typing import Literal, NamedTuple
 import numpy as np
 import pytest
 
-from app.kinematics.compare import Comparison, compare
-from app.kinematics.comparison import screws
-from app.kinematics.comparison.alignment import Freedom
-from app.model.arrays import Array
-from app.model.description import Mimic
-from app.model.dh import DhJoint, DhTable
-from app.model.errors import InvalidField
-from app.model.robot import Robot
+from gelenk.kinematics.compare import Comparison, compare
+from gelenk.kinematics.comparison import screws
+from gelenk.kinematics.comparison.alignment import Freedom
+from gelenk.model.arrays import Array
+from gelenk.model.description import Mimic
+from gelenk.model.dh import DhJoint, DhTable
+from gelenk.model.errors import InvalidField
+from gelenk.model.robot import Robot
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.dh_columns import Table, shift, turn
 from tests.oracles.urdf_product import UrdfProduct
@@ -133,6 +133,7 @@ def each_row(dh: DhTable, change: Callable[[DhJoint], dict[str, float]]) -> DhTa
 # Published tables
 
 
+@pytest.mark.quick(23)
 @pytest.mark.parametrize("case", PUBLISHED, ids=lambda case: f"{case.table}-{case.chain[1]}-{case.chain[2]}")
 @pytest.mark.parametrize(
     "freedom", [NOTHING, PLACES, SENSES, ZEROS, EVERYTHING], ids=["held", "places", "s", "o", "all"]
@@ -286,12 +287,13 @@ MISTAKES: dict[str, tuple[DhTable, tuple[str, str, str], str, list[tuple[int, st
 }  # fmt: skip
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", [name for name, case in MISTAKES.items() if case[2]])
 def test_a_mistake_is_diagnosed(name: str) -> None:
     dh, chain, mistake, places = MISTAKES[name]
     comparison = verdict(dh, chain)
     assert not comparison.equivalent
-    assert comparison.diagnoses[0].mistake == mistake
+    assert comparison.diagnoses[0].mistakes[0] == mistake
     found = [(each.row, each.parameter) for each in comparison.diagnoses[0].differences]
     if places:
         assert found == places
@@ -305,7 +307,7 @@ def test_all_rows_in_reverse_are_diagnosed() -> None:
     types = [row.type for row in dh.joints]
     expected = "rows" if types == types[::-1] else None
     assert not comparison.equivalent
-    assert expected is None or comparison.diagnoses[0].mistake == expected
+    assert expected is None or comparison.diagnoses[0].mistakes[0] == expected
 
 
 def test_craigs_numbers_read_as_standard_differ_first_where_a_standard_table_would() -> None:
@@ -328,8 +330,8 @@ def test_a_joint_that_turns_the_other_way() -> None:
     dh = rebuilt(published("ur5_dh"), wrong)
     held = verdict(dh, UR5)
     assert not held.equivalent
-    assert "joint_sense" in [each.mistake for each in held.diagnoses]
-    sense = next(each for each in held.diagnoses if each.mistake == "joint_sense")
+    assert "joint_sense" in [each.mistakes[0] for each in held.diagnoses]
+    sense = next(each for each in held.diagnoses if each.mistakes == ("joint_sense",))
     assert [(each.row, each.parameter, each.expected) for each in sense.differences] == [(3, "sign", -1.0)]
     free = verdict(dh, UR5, SENSES)
     assert free.equivalent
@@ -341,7 +343,7 @@ def test_a_base_that_is_not_as_given() -> None:
     crooked = turn(0, 0.3) @ shift(1, 0.2)
     comparison = verdict(replace(published("ur5_dh"), base=crooked), UR5, NOTHING)
     assert not comparison.equivalent
-    assert [each.mistake for each in comparison.diagnoses] == ["base"]
+    assert [each.mistakes[0] for each in comparison.diagnoses] == ["base"]
     assert comparison.diagnoses[0].placement.table.base == pytest.approx(HALF_TURN, abs=1e-9)
     assert comparison.first_difference is not None
     assert comparison.first_difference.parameter == "base"
@@ -351,13 +353,13 @@ def test_a_tool_that_is_not_as_given() -> None:
     crooked = turn(0, 0.3) @ turn(2, 0.4) @ shift(1, 0.2)
     comparison = verdict(replace(published("ur5_dh"), base=HALF_TURN, tool=crooked), UR5, NOTHING)
     assert not comparison.equivalent
-    assert [each.mistake for each in comparison.diagnoses] == ["tool"]
+    assert [each.mistakes[0] for each in comparison.diagnoses] == ["tool"]
     assert comparison.diagnoses[0].placement.table.tool == pytest.approx(np.eye(4), abs=1e-9)
 
 
 @pytest.mark.parametrize("freedom", [PLACES, Freedom(base=False, tool=True, offsets=False, signs=False), NOTHING])
 def test_of_several_wrong_numbers_the_first_is_named(freedom: Freedom) -> None:
-    dh = replace(changed(published("ur5_dh"), (2, "a", -0.42), (5, "d", 0.1)), base=HALF_TURN)
+    dh = replace(changed(published("ur5_dh"), (2, "a", -0.42), (3, "a", -0.39), (5, "d", 0.1)), base=HALF_TURN)
     comparison = verdict(dh, UR5, freedom)
     difference = comparison.first_difference
     assert comparison.diagnoses == ()
@@ -566,9 +568,10 @@ def moved(rng: np.random.Generator, dh: DhTable, freedom: Freedom) -> tuple[DhTa
     return rebuilt(dh, oracle), flipped
 
 
+@pytest.mark.quick(19)
 @pytest.mark.parametrize("freedom", [PLACES, ZEROS, SENSES, EVERYTHING], ids=["places", "zeros", "senses", "all"])
 @pytest.mark.parametrize("convention", ["standard", "modified"])
-@pytest.mark.parametrize("seed", [*range(30), 1134])
+@pytest.mark.parametrize("seed", [1134, *range(75)])
 def test_tables_that_differ_by_the_convention_are_equivalent(
     seed: int, convention: Literal["standard", "modified"], freedom: Freedom
 ) -> None:
@@ -584,6 +587,7 @@ def test_tables_that_differ_by_the_convention_are_equivalent(
     assert poses_found(comparison, qs) == pytest.approx(expected, abs=1e-8)
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("freedom", [NOTHING, NOTHING._replace(tool=True), NOTHING._replace(base=True)])
 def test_what_is_held_is_held(seed: int, freedom: Freedom) -> None:
@@ -618,9 +622,10 @@ def same_number(parameter: str, value: object, expected: float) -> bool:
     return abs(math.remainder(apart, 2 * math.pi) if parameter in {"alpha", "theta"} else apart) < 1e-6
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("freedom", [PLACES, NOTHING, ZEROS, EVERYTHING], ids=["places", "nothing", "zeros", "all"])
 @pytest.mark.parametrize("generic", [True, False], ids=["generic", "special"])
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", list(range(30)))
 def test_one_wrong_number_is_named(seed: int, generic: bool, freedom: Freedom) -> None:
     """Exactly, where axes lie in general; else the chain may leave a choice, and it is among what is diagnosed."""
     rng = np.random.default_rng(2 * seed + generic)
@@ -678,6 +683,7 @@ def test_the_screws_of_a_chain_are_those_of_its_table() -> None:
     assert found.tips[0] == pytest.approx(target.tip, abs=1e-12)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("numbers", [(1e6, 1e6, -1e6, 1e6), (0.0, 0.0, 0.0, 0.0), (1e-300, 1e-300, 1e6, 0.0)])
 @pytest.mark.parametrize("freedom", [PLACES, NOTHING, EVERYTHING])
 def test_absurd_numbers_get_an_answer(numbers: tuple[float, float, float, float], freedom: Freedom) -> None:

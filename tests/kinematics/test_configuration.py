@@ -5,9 +5,9 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from app.kinematics.configuration import MAX_MAGNITUDE, check_limits, checked_rows, configurations
-from app.model.arrays import Configuration
-from app.model.errors import (
+from gelenk.kinematics.configuration import MAX_MAGNITUDE, check_limits, checked_rows, configurations
+from gelenk.model.arrays import Configuration
+from gelenk.model.errors import (
     InvalidArray,
     InvalidField,
     MissingJoint,

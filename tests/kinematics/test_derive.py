@@ -13,15 +13,15 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.kinematics.derive import symbolic, worked
-from app.kinematics.derive.texts import Entry, Formulas, Question, Singularities
-from app.kinematics.derive.typeset import MatrixText, Style
-from app.kinematics.derive.worked import WorkedSolution, worked_solution
-from app.model.description import Mimic
-from app.model.dh import Convention, DhTable
-from app.model.errors import InvalidDhTable, WrongJointCount
+from gelenk.kinematics.derive import symbolic, worked
+from gelenk.kinematics.derive.texts import Entry, Formulas, Question, Singularities
+from gelenk.kinematics.derive.typeset import MatrixText, Style
+from gelenk.kinematics.derive.worked import WorkedSolution, worked_solution
+from gelenk.model.description import Mimic
+from gelenk.model.dh import Convention, DhTable
+from gelenk.model.errors import InvalidDhTable, WrongJointCount
 from tests.oracles import catalogue, dh_columns, expressions
-from tests.robots import rows, table
+from tests.robots import rows, swept, table
 
 Array = npt.NDArray[np.float64]
 H = pi / 2
@@ -191,6 +191,7 @@ def test_a_textbook_arm_has_the_determinant_that_the_textbook_prints(name: str) 
     assert tuple(condition.factor.plain for condition in found.conditions) == arm.conditions
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("style", ["short", "full"])
 @pytest.mark.parametrize("keeps_symbols", [True, False])
 @pytest.mark.parametrize("name", ARMS)
@@ -342,7 +343,7 @@ def test_reference_numbers_of_determinants() -> None:
     assert ur5.numeric[1].singular_values[:3] == pytest.approx([2.073079224, 1.450502321, 0.545464331], abs=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(catalogue.TABLES))
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_every_table_of_the_catalogue_is_derived_and_certified(name: str) -> None:
     dh = table(catalogue.dh_table(name))
     solution = worked_solution(dh, [[0.1 * i for i in range(len(dh.joints))]])
@@ -373,6 +374,7 @@ def test_a_long_arm_stays_numeric_from_where_it_is_too_long_and_says_so() -> Non
     np.testing.assert_allclose(solution.numeric[0].tip, oracle(dh).pose([0.1] * 12), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_base_tool_offsets_and_odd_twists_become_symbols() -> None:
     dh = replace(
         rows("modified", [(0, 0.3, 0.2, 0.4), (0.5, -0.7, 0, H), (0.1, H, 0.3, 0.25)], "RRP"),
@@ -457,6 +459,7 @@ SLIDES = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SLIDES)
 def test_the_constant_angle_of_a_slide_is_no_variable(name: str) -> None:
     dh = SLIDES[name]
@@ -682,9 +685,9 @@ def test_a_row_that_follows_another_joint_is_refused_by_name() -> None:
 
 
 def test_the_symbolic_side_knows_neither_numpy_nor_pinocchio_and_sympy_only_when_it_must() -> None:
-    code = "import sys, app.kinematics.derive.symbolic; print(*sys.modules)"
+    code = "import sys, gelenk.kinematics.derive.symbolic; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
-    assert not {"numpy", "pinocchio", "numba", "sympy", "app.model.dh"} & set(loaded)
+    assert not {"numpy", "pinocchio", "numba", "sympy", "gelenk.model.dh"} & set(loaded)
 
 
 ANGLES = st.sampled_from([0.0, H, -H, pi, pi / 4, -pi / 3, 0.3])
@@ -692,6 +695,7 @@ LENGTHS = st.sampled_from([0.0, 0.0, 0.2, -0.3, 0.45])
 ROWS = st.tuples(LENGTHS, ANGLES, LENGTHS, ANGLES)
 
 
+@pytest.mark.slow
 @given(
     convention=st.sampled_from(["standard", "modified"]),
     parameters=st.lists(ROWS, min_size=1, max_size=4),

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.kinematics.derive.algebra import (
+from gelenk.kinematics.derive.algebra import (
     LENGTH,
     MAX_TERMS,
     ONE,
@@ -30,7 +30,7 @@ from app.kinematics.derive.algebra import (
     symbol,
     total,
 )
-from app.kinematics.derive.factors import factorised, without_multiples
+from gelenk.kinematics.derive.factors import factorised, without_multiples
 
 A2, A3, D4 = (symbol(Atom(LENGTH, (index,), name)) for index, name in ((2, "a"), (3, "a"), (4, "d")))
 CONFIGURATIONS = [[Random(seed * 6 + k).uniform(-3.0, 3.0) for k in range(6)] for seed in range(4)]
@@ -113,6 +113,7 @@ def test_derivatives_by_a_complex_step(polynomial: Polynomial, index: int) -> No
         assert value(derivative(polynomial, index), q).real == pytest.approx(rate, abs=1e-12)
 
 
+@pytest.mark.slow
 @given(POLYNOMIAL, POLYNOMIAL)
 @settings(max_examples=40, deadline=None, derandomize=True)
 def test_a_factorisation_multiplies_out_to_what_was_factorised(left: Polynomial, right: Polynomial) -> None:

@@ -15,18 +15,18 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.kinematics.derive import worked
-from app.kinematics.derive.algebra import Polynomial, derivative
-from app.kinematics.derive.lagrangian import equations, symbolic
-from app.kinematics.derive.lagrangian import solution as solution_module
-from app.kinematics.derive.lagrangian.bodies import Body, Dynamics, Gravity
-from app.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
-from app.kinematics.derive.lagrangian.solution import MotionSolution
-from app.kinematics.derive.lagrangian.texts import MotionQuestion, MotionTexts
-from app.kinematics.derive.typeset import MatrixText, Style
-from app.kinematics.derive.worked import WorkedSolution, worked_solution
-from app.model.dh import Convention, DhTable
-from app.model.errors import CertificationFailed, InvalidField, WrongJointCount
+from gelenk.kinematics.derive import worked
+from gelenk.kinematics.derive.algebra import Polynomial, derivative
+from gelenk.kinematics.derive.lagrangian import equations, symbolic
+from gelenk.kinematics.derive.lagrangian import solution as solution_module
+from gelenk.kinematics.derive.lagrangian.bodies import Body, Dynamics, Gravity
+from gelenk.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
+from gelenk.kinematics.derive.lagrangian.solution import MotionSolution
+from gelenk.kinematics.derive.lagrangian.texts import MotionQuestion, MotionTexts
+from gelenk.kinematics.derive.typeset import MatrixText, Style
+from gelenk.kinematics.derive.worked import WorkedSolution, worked_solution
+from gelenk.model.dh import Convention, DhTable
+from gelenk.model.errors import CertificationFailed, InvalidField, WrongJointCount
 from tests.oracles import dh_columns, expressions
 from tests.oracles.lagrangian import Arm, Link
 from tests.robots import rows
@@ -335,6 +335,7 @@ CASES = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", CASES)
 def test_every_formula_has_the_value_of_energies_and_their_slopes(name: str) -> None:
     case = CASES[name]
@@ -343,6 +344,7 @@ def test_every_formula_has_the_value_of_energies_and_their_slopes(name: str) -> 
     check_by_text(case.dh, found, oracle(case.dh, case.links, case.gravity))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["3R", "3R beside its links", "RPR"])
 @pytest.mark.parametrize("style", ["short", "full"])
 def test_values_in_place_of_symbols_change_nothing(name: str, style: Style) -> None:
@@ -390,6 +392,7 @@ def test_three_joints_against_pinocchio() -> None:
 LENGTHS = st.sampled_from([0.0, 0.3, -0.2, 0.45])
 
 
+@pytest.mark.slow
 @given(
     convention=st.sampled_from(["standard", "modified"]),
     types=st.text("RP", min_size=1, max_size=3),
@@ -436,6 +439,7 @@ def planar(convention: Convention, types: str, lengths: Sequence[tuple[float, fl
 # Properties, numbers and what stays out
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", CASES)
 def test_the_rate_of_m_less_twice_c_is_skew_symmetric(name: str) -> None:
     """Ṁ by differences of M along the motion, C by the text."""
@@ -464,6 +468,7 @@ def test_without_gravity_there_is_none_and_nothing_to_note() -> None:
     assert solution.notes == []
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", CASES)
 def test_numbers_at_configurations(name: str) -> None:
     case = CASES[name]
@@ -527,7 +532,7 @@ def test_what_is_not_planar_or_too_long_is_noted_and_the_rest_unaffected(dh: DhT
 
 
 def test_too_many_terms_are_noted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.kinematics.derive.lagrangian.equations.MAX_ENTRY_TERMS", 3)
+    monkeypatch.setattr("gelenk.kinematics.derive.lagrangian.equations.MAX_ENTRY_TERMS", 3)
     symbolic.motion.cache_clear()
     solution = worked_solution(PLANAR_3R, dynamics=Dynamics((), UPRIGHT))
     symbolic.motion.cache_clear()
@@ -608,6 +613,7 @@ ODD = {
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ODD)
 def test_the_constant_angle_of_a_slide_is_not_differentiated(name: str) -> None:
     dh, count = ODD[name], len(ODD[name].joints)
@@ -666,12 +672,12 @@ def test_links_and_velocities_must_fit_the_table() -> None:
 def test_three_joints_take_a_fraction_of_a_second() -> None:
     bodies = tuple(Body(center=(0.1, 0.05, 0.02)) for _ in range(3))
     direction = (0.48 / hypot(0.48, 0.6, 0.64), 0.6, 0.64)
-    started = time.monotonic()
+    started = time.process_time()
     worked_solution(PLANAR_3R, dynamics=Dynamics(bodies, Gravity(9.81, direction)))
-    assert time.monotonic() - started < 3
+    assert time.process_time() - started < 1.0
 
 
 def test_the_symbolic_side_knows_neither_numpy_nor_pinocchio_nor_sympy() -> None:
-    code = "import sys, app.kinematics.derive.lagrangian.symbolic; print(*sys.modules)"
+    code = "import sys, gelenk.kinematics.derive.lagrangian.symbolic; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
-    assert not {"numpy", "pinocchio", "numba", "sympy", "app.model.dh"} & set(loaded)
+    assert not {"numpy", "pinocchio", "numba", "sympy", "gelenk.model.dh"} & set(loaded)

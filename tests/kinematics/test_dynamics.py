@@ -8,21 +8,21 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from app.kinematics.bodies import Load
-from app.kinematics.dynamics import Dynamics, dynamics
-from app.kinematics.lagrangian import State
-from app.kinematics.mechanism import PinocchioDynamics, known_mechanism, mechanism
-from app.kinematics.statics import statics
-from app.kinematics.wrenches import WrenchFrame
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import CertificationFailed, InvalidField
-from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
+from gelenk.kinematics.bodies import Load
+from gelenk.kinematics.dynamics import Dynamics, dynamics
+from gelenk.kinematics.lagrangian import State
+from gelenk.kinematics.mechanism import PinocchioDynamics, known_mechanism, mechanism
+from gelenk.kinematics.statics import statics
+from gelenk.kinematics.wrenches import WrenchFrame
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed, InvalidField
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue
 from tests.oracles.differences import along, plain
 from tests.oracles.urdf_energy import UrdfEnergy
-from tests.robots import of_table, robot, rows, samples
+from tests.robots import of_table, robot, rows, samples, swept
 
 G = np.array([0.0, 0.0, -9.81])
 LOAD = Load(2.5, np.array([0.1, -0.2, 0.3]), np.array([[0.2, 0.01, 0.0], [0.01, 0.3, 0.02], [0.0, 0.02, 0.25]]))
@@ -38,7 +38,7 @@ CHAINS: dict[str, Ends] = {
     "many followers": ("tiago", None, None),
 }
 every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
-every_robot = pytest.mark.parametrize("name", catalogue.NAMES)
+every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
 def chain_of(ends: Ends) -> tuple[Robot, Chain]:
@@ -70,16 +70,19 @@ def solved(
 # Against differences of energies
 
 
+@pytest.mark.quick(5)
 @every_robot
 def test_terms_are_those_of_lagrange(name: str) -> None:
     check_lagrange((name, None, None), coriolis=False)
 
 
+@pytest.mark.quick(1)
 @every_chain
 def test_terms_of_chains_anywhere_are_those_of_lagrange(ends: Ends) -> None:
     check_lagrange(ends, coriolis=ends[1] == "panda_rightfinger")
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ur5", "scara", "finger_edu", "planar_3r"])
 def test_coriolis_torques_are_those_of_lagrange(name: str) -> None:
     check_lagrange((name, None, None), coriolis=True)

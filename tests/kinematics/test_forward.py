@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from app.kinematics.certify import certify_poses
-from app.kinematics.forward import forward_kinematics
-from app.kinematics.kernels import chain_poses
-from app.model.errors import FrameNotOnChain, UnknownFrame
-from app.model.poses import Poses
+from gelenk.kinematics.certify import certify_poses
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.errors import FrameNotOnChain, UnknownFrame
+from gelenk.model.poses import Poses
 from tests.oracles import catalogue
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, robot, samples
+from tests.robots import by_name, robot, samples, swept
 
 TOLERANCE = 1e-12
 
 
-@pytest.mark.parametrize("name", catalogue.URDFS)
+@pytest.mark.parametrize("name", swept(catalogue.URDFS))
 def test_every_leaf_of_every_description(name: str) -> None:
     machine, product = robot(name), UrdfProduct(catalogue.urdf_text(name))
     assert list(machine.description.leaves) == product.leaves
@@ -26,7 +26,7 @@ def test_every_leaf_of_every_description(name: str) -> None:
         assert np.abs(Ts - product.poses(product.root, leaf, by_name(chain, qs))).max() < TOLERANCE, leaf
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_every_leaf_of_every_robot_through_pinocchio(name: str) -> None:
     machine = robot(name)
     for leaf in machine.description.leaves:

@@ -6,16 +6,16 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from app.kinematics.jacobian import Jacobians, Reference, Representation, jacobians, ranks, singular_values
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import RepresentationSingularity
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics.jacobian import Jacobians, Reference, Representation, jacobians, ranks, singular_values
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import RepresentationSingularity
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.differences import Difference, aligned, along, body, derivatives, euler, plain, spatial
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, of_table, robot, rows, samples
+from tests.robots import by_name, of_table, robot, rows, samples, swept
 
 Kind: TypeAlias = tuple[Reference, Representation]
 
@@ -66,7 +66,7 @@ def one(machine: Robot, chain: Chain, q: Array, kind: Kind, *, derivatives: bool
 # Against differences
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_geometric_jacobians_are_derivatives_of_poses(name: str) -> None:
     machine = robot(name)
     chain = machine.chain(None, None)
@@ -87,6 +87,7 @@ def test_jacobians_of_every_kind_are_derivatives_of_poses(ends: Ends, kind: Kind
         assert np.abs(one(machine, chain, q, kind).values[0] - expected).max() < 1e-7
 
 
+@pytest.mark.quick(1)
 @every_kind
 @every_chain
 def test_hessians_are_derivatives_of_jacobians(ends: Ends, kind: Kind) -> None:
@@ -140,7 +141,7 @@ def test_euler_rates_are_the_same_in_every_reference(representation: Representat
 # Against the textbook's columns
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_columns_of_the_textbook(name: str) -> None:
     machine, textbook = robot(name), dh_columns.from_json(catalogue.dh_table(name))
     chain = machine.chain("base", "tool")

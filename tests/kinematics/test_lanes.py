@@ -8,10 +8,10 @@ import numba
 import numpy as np
 import pytest
 
-from app.kinematics import kernels
-from app.kinematics.ik import kernels as ik_kernels
-from app.kinematics.kernels import cosine_sine
-from app.kinematics.lanes import (
+from gelenk.kinematics import kernels
+from gelenk.kinematics.ik import kernels as ik_kernels
+from gelenk.kinematics.kernels import cosine_sine
+from gelenk.kinematics.lanes import (
     LANES,
     abs_lanes,
     bits,
@@ -25,9 +25,9 @@ from app.kinematics.lanes import (
     store,
     where,
 )
-from app.kinematics.warm import warm_up
-from app.model.arrays import Array
-from app.model.compilation import _OPTIONS, inlined, unmanaged
+from gelenk.kinematics.warm import warm_up
+from gelenk.model.arrays import Array
+from gelenk.model.compilation import _OPTIONS, inlined, unmanaged
 
 EXPRESSIONS: dict[str, tuple[Any, Any]] = {
     "sum": (lambda a, b: a + b, lambda a, b: a + b),
@@ -87,6 +87,7 @@ def test_cosine_and_sine_are_right_to_rounding(largest: float) -> None:
     np.testing.assert_allclose(sines, np.sin(angles), rtol=0.0, atol=2.3e-16)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kernel", [kernels.chain_poses, kernels.chain_jacobians, ik_kernels._search])
 def test_a_kernel_computes_in_the_widest_registers(kernel: Any) -> None:
     """Compiled anew, because of code from the cache nothing can be told."""

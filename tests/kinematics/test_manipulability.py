@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-from app.kinematics import manipulability as module
-from app.kinematics.kernels import chain_jacobians, chain_measures
-from app.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
-from app.kinematics.manipulability import (
+from gelenk.kinematics import manipulability as module
+from gelenk.kinematics.kernels import chain_jacobians, chain_measures
+from gelenk.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
+from gelenk.kinematics.manipulability import (
     Ellipsoids,
     Manipulability,
     Part,
@@ -20,17 +20,17 @@ from app.kinematics.manipulability import (
     space_of,
     transmission_ratios,
 )
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import CertificationFailed, InvalidField, TooLarge
-from app.model.robot import Robot
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge
+from gelenk.model.robot import Robot
 from tests.oracles import catalogue
 from tests.oracles.differences import derivatives, plain
-from tests.robots import of_table, robot, rows, samples
+from tests.robots import of_table, robot, rows, samples, swept
 
 SLICES: dict[Part, slice] = {"translation": slice(0, 3), "rotation": slice(3, 6)}
 X = np.array([[1.0, 0.0, 0.0]])
-every_robot = pytest.mark.parametrize("name", catalogue.NAMES)
+every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
 def arm(*lengths: float) -> Robot:
@@ -388,6 +388,7 @@ def force_programme(J: Array, limits: Array, u: Array) -> float:
 LIMITED = ["panda", "ur5", "talos", "asr_twodof", "solo8", "a1", "tiago", "so100"]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", LIMITED)
 def test_polytopes_are_the_optima_of_linear_programmes(name: str) -> None:
     machine, chain, qs, Js = jacobians_of(name, 2)

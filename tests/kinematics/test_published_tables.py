@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array
-from app.model.notations import pose_errors
-from app.model.poses import Poses
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.notations import pose_errors
+from gelenk.model.poses import Poses
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.dh_columns import Table, shift, turn
 from tests.robots import robot, samples
@@ -58,6 +58,7 @@ def difference(pair: Pair, table: Table | None = None) -> tuple[float, float]:
     return pose_errors(ours.positions, ours.rotations, expected[:, :3, 3], expected[:, :3, :3])[:2]
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair.table}-{pair.base}-{pair.tip}")
 def test_table_and_description_agree(pair: Pair) -> None:
     position, orientation = difference(pair)

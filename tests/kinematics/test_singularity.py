@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
-from app.kinematics.certify_singularity import certify_reports
-from app.kinematics.ik.task import Task
-from app.kinematics.ik.words import Direction
-from app.kinematics.jacobian import Reference, jacobians
-from app.kinematics.kernels import chain_jacobians
-from app.kinematics.singularity import SingularityReport, singularity_report
-from app.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
-from app.kinematics.singularity_path import Place, places_along
-from app.kinematics.task_space import FULL_SPACE, TaskSpace, structure
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import CertificationFailed
+from gelenk.kinematics.certify_singularity import certify_reports
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import Direction
+from gelenk.kinematics.jacobian import Reference, jacobians
+from gelenk.kinematics.kernels import chain_jacobians
+from gelenk.kinematics.singularity import SingularityReport, singularity_report
+from gelenk.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity_path import Place, places_along
+from gelenk.kinematics.task_space import FULL_SPACE, TaskSpace, structure
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed
 from tests.kinematics.ik.arm_classes import Arm, seven
 from tests.kinematics.ik.arms import DECOUPLED, PUMA, UR5, limited, poses, table_arm
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.differences import aligned, derivatives, plain
-from tests.robots import robot, samples
+from tests.robots import robot, samples, swept
 
 PLANE = TaskSpace(Task(("x", "y")))
 POSITION = TaskSpace(Task(("x", "y", "z")))
@@ -182,7 +182,7 @@ def test_the_shoulder_is_found_where_its_factor_vanishes(name: str) -> None:
         assert shoulder_of_ur5(q) == pytest.approx(0.0, abs=1e-14)
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_what_is_lost_and_what_is_free_on_every_robot(name: str) -> None:
     """At zero, where many are singular, and elsewhere: by the Jacobian from differences of Pinocchio's poses."""
     machine, chain = robot(name), default_chain(name)
@@ -363,7 +363,7 @@ def test_a_motion_that_moves_the_tip_is_not_certified(part: str) -> None:
         certify_reports(machine, chain, FULL_SPACE, q[None], [wrong])
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 @pytest.mark.parametrize("reference", ["local_world_aligned", "local", "world"])
 def test_what_is_told_of_every_robot_is_what_pinocchios_jacobian_does(name: str, reference: Reference) -> None:
     machine, chain = robot(name), default_chain(name)
@@ -529,6 +529,7 @@ def test_the_distance_of_the_anthropomorphic_arm_by_a_dense_search() -> None:
         assert found.distance == pytest.approx(expected, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_the_distance_of_the_ur5_by_the_factors_of_its_determinant() -> None:
     """s₃ = 0, s₅ = 0, or a₂c₂ + a₃c₂₃ + d₅s₂₃₄ = 0, which gives q₂ up to π for each (q₃, q₄): a grid of these."""
     chain = default_chain("ur5_dh")
@@ -579,6 +580,7 @@ def constrained_distance(chain: Chain, q: Array, starts: int, respect_limits: bo
     return float(np.sqrt(best))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("respect_limits", [False, True])
 @pytest.mark.parametrize("name", ["panda", "xarm7", "puma560"])
 def test_the_distance_by_another_minimisation(name: str, respect_limits: bool) -> None:

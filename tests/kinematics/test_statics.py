@@ -7,21 +7,21 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-import app.kinematics.statics as module
-from app.kinematics.bodies import Load
-from app.kinematics.mechanism import mechanism
-from app.kinematics.statics import Statics, balance, certify_statics, components, overloaded_joints, statics
-from app.kinematics.wrenches import WrenchFrame
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import CertificationFailed, InvalidField, UnknownFrame
-from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
+import gelenk.kinematics.statics as module
+from gelenk.kinematics.bodies import Load
+from gelenk.kinematics.mechanism import mechanism
+from gelenk.kinematics.statics import Statics, balance, certify_statics, components, overloaded_joints, statics
+from gelenk.kinematics.wrenches import WrenchFrame
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed, InvalidField, UnknownFrame
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue
 from tests.oracles.differences import aligned, along
 from tests.oracles.urdf_energy import UrdfEnergy
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, of_table, robot, rows, samples
+from tests.robots import by_name, of_table, robot, rows, samples, swept
 
 G = np.array([0.0, 0.0, -9.81])
 Ends: TypeAlias = tuple[str, str | None, str | None]
@@ -34,7 +34,7 @@ CHAINS: dict[str, Ends] = {
     "sliding joint": ("pr2", "base_footprint", "l_gripper_tool_frame"),
 }
 every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
-every_robot = pytest.mark.parametrize("name", catalogue.NAMES)
+every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
 def chain_of(ends: Ends) -> tuple[Robot, Chain]:

@@ -4,23 +4,23 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from app.kinematics import certify_motion as judge
-from app.kinematics.jacobian import Reference, jacobians
-from app.kinematics.velocity import TipMotion, jacobian_derivatives, tip_motion
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import CertificationFailed
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics import certify_motion as judge
+from gelenk.kinematics.jacobian import Reference, jacobians
+from gelenk.kinematics.velocity import TipMotion, jacobian_derivatives, tip_motion
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.kinematics.test_jacobian import CHAINS, Ends, chain_of, independent_poses
 from tests.oracles import catalogue
 from tests.oracles.differences import aligned, derivatives
 from tests.oracles.time_derivatives import derivatives_in_time, motion_of_poses, path, reach_of
-from tests.robots import of_table, robot, rows, samples
+from tests.robots import of_table, robot, rows, samples, swept
 
 DEFAULTS: dict[str, Ends] = {name: (name, None, None) for name in catalogue.NAMES}
 EVERY = {**DEFAULTS, **CHAINS}
-every_robot = pytest.mark.parametrize("ends", EVERY.values(), ids=EVERY)
+every_robot = pytest.mark.parametrize("ends", swept(EVERY, EVERY.__getitem__))
 every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
 
 
@@ -52,6 +52,7 @@ def test_derivatives_of_the_motion_are_those_of_poses(ends: Ends) -> None:
         assert np.abs(found[k][0] - expected[k]).max() < 1e-10 * max(1.0, (2.0 / reach) ** (k + 1)), k
 
 
+@pytest.mark.quick(4)
 @every_robot
 def test_derivatives_of_the_jacobian_are_those_of_jacobians_of_poses(ends: Ends) -> None:
     chain = chain_of(ends)[1]
@@ -81,7 +82,7 @@ def test_derivatives_of_the_jacobian_are_the_hessians(ends: Ends) -> None:
 # Against Pinocchio
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_twists_and_both_accelerations_are_pinocchios(name: str) -> None:
     """Where the base is the root, Pinocchio gives all three itself, in all three references."""
     machine = robot(name)

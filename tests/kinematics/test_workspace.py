@@ -9,25 +9,25 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics import survey as survey_module
-from app.kinematics import voxels as voxels_module
-from app.kinematics.dexterity import Over, Spread, excluded, orientations, rotation_spiral, shares, sphere_spiral
-from app.kinematics.sampling import Ranges, Sampling, joint_ranges
-from app.kinematics.survey import Survey, Workspace
-from app.kinematics.tip_motion import plane_axes
-from app.kinematics.voxels import NO_VOXELS, Grid, merged, voxel_table
-from app.kinematics.workspace import PART, Plan, Plane, Wish, plan, sampled
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.convert import describe_dh
-from app.model.dh import DhJoint, DhTable
-from app.model.errors import CertificationFailed, InvalidField, TooLarge
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics import survey as survey_module
+from gelenk.kinematics import voxels as voxels_module
+from gelenk.kinematics.dexterity import Over, Spread, excluded, orientations, rotation_spiral, shares, sphere_spiral
+from gelenk.kinematics.sampling import Ranges, Sampling, joint_ranges
+from gelenk.kinematics.survey import Survey, Workspace
+from gelenk.kinematics.tip_motion import plane_axes
+from gelenk.kinematics.voxels import NO_VOXELS, Grid, merged, voxel_table
+from gelenk.kinematics.workspace import PART, Plan, Plane, Wish, plan, sampled
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.convert import describe_dh
+from gelenk.model.dh import DhJoint, DhTable
+from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.kinematics.test_jacobian import independent_poses
 from tests.oracles import catalogue, wrist_shell
 from tests.oracles.differences import aligned, derivatives
-from tests.robots import reread, robot, rows
+from tests.robots import reread, robot, rows, swept
 
 
 def surveyed(machine: Robot, chain: Chain, wish: Wish) -> tuple[Plan, Workspace]:
@@ -163,8 +163,9 @@ EXACT = [
 ]
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(("machine", "exact"), EXACT, ids=range(len(EXACT)))
-@pytest.mark.parametrize("samples", [300, 20_000, 100_000])
+@pytest.mark.parametrize("samples", [20_000, 300, 100_000])
 @pytest.mark.parametrize("sequence", ["random", "low_discrepancy"])
 def test_the_exact_volume_is_between_its_bounds(machine: Robot, exact: float, samples: int, sequence: str) -> None:
     """Also where the samples are far too few for the voxels."""
@@ -194,7 +195,7 @@ def test_a_voxel_larger_than_the_arm_is_refused(machine: Robot, kind: str) -> No
     assert refused.value.field == "voxel_size"
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_measures_are_those_of_differences_of_independent_poses(name: str) -> None:
     machine = robot(name)
     chain = machine.chain(None, None)
@@ -472,6 +473,7 @@ def dexterous(machine: Robot, over: Over, count: int, **wish: object) -> tuple[A
     return centres, shares(machine, chain, centres, seeds, asked), asked.rotations
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("lengths", [[1.0, 0.7, 0.2], [1.0, 0.9, 0.5], [0.5, 0.5, 0.5], [1.0, 0.2, 0.3]], ids=str)
 def test_the_share_of_orientations_of_three_planar_links(lengths: list[float]) -> None:
     """Against the wrist's annulus; where all are reached, that is WS₂, its inner disc included."""

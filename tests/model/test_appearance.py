@@ -10,16 +10,16 @@ import pinocchio as pin
 import pytest
 import trimesh
 
-from app.model.appearance import MASS_PER_LENGTH
-from app.model.arrays import Array
-from app.model.convert import describe_dh
-from app.model.description import Inertial, Link
-from app.model.dh import Convention, DhJoint, DhTable
-from app.model.urdf import write_urdf
+from gelenk.model.appearance import MASS_PER_LENGTH
+from gelenk.model.arrays import Array
+from gelenk.model.convert import describe_dh
+from gelenk.model.description import Inertial, Link
+from gelenk.model.dh import Convention, DhJoint, DhTable
+from gelenk.model.urdf import write_urdf
 from tests.model.test_convert import random_table
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, of_table, reread, rows, samples, table
+from tests.robots import by_name, of_table, reread, rows, samples, swept, table
 
 CONVENTIONS: tuple[Convention, ...] = ("standard", "modified")
 both_conventions = pytest.mark.parametrize("convention", CONVENTIONS)
@@ -56,6 +56,7 @@ def polyline(dh: DhTable, q: Array) -> list[Array]:
     return [*points, dh.pose(q.tolist())[:3, 3]]
 
 
+@pytest.mark.quick(7)
 @both_conventions
 @pytest.mark.parametrize("seed", range(12))
 def test_rods_lie_along_d_and_a_wherever_the_robot_moves(convention: Convention, seed: int) -> None:
@@ -93,7 +94,7 @@ def lies_on(point: Array, a: Array, b: Array) -> bool:
     return bool(np.linalg.norm(point - a) + np.linalg.norm(b - point) <= np.linalg.norm(b - a) + 1e-12)
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_nothing_of_no_length_and_nothing_without_mass(name: str) -> None:
     description = reread(describe_dh(name, table(catalogue.dh_table(name))))
     assert not [warning for warning in description.warnings if "massless" in warning or "inertia" in warning]

@@ -13,12 +13,12 @@ import numba
 import pytest
 from numba.core.compiler_lock import global_compiler_lock
 
-from app.kinematics.forward import forward_kinematics
-from app.kinematics.ik import solve
-from app.kinematics.ik.search import mid_range
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.verdict import Question
-from app.model.compilation import clock, when_compiling
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.ik import solve
+from gelenk.kinematics.ik.search import mid_range
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.model.compilation import clock, when_compiling
 from tests.robots import robot
 
 COMPILING, LIMIT = 0.6, 0.3
@@ -31,6 +31,7 @@ def compile_something() -> None:
         time.sleep(COMPILING)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ur5", "panda"])
 @pytest.mark.parametrize("options", [{}, {"every": True}, {"method": "newton"}], ids=str)
 def test_a_limit_of_time_does_not_count_compiling(
@@ -51,6 +52,7 @@ def test_a_limit_of_time_does_not_count_compiling(
     assert found.statuses == ["solved"]
 
 
+@pytest.mark.slow
 def test_the_clock_stands_still_while_any_thread_compiles_or_waits_for_that() -> None:
     began, threads = clock(), [threading.Thread(target=compile_something) for _ in range(2)]
     for thread in threads:
@@ -77,18 +79,20 @@ def test_what_is_compiled_is_told_once() -> None:
     assert len(told) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("is_set", [True, False])
 def test_where_nothing_can_be_written_it_says_so_and_goes_on(is_set: bool, tmp_path: Path) -> None:
     """A tree and a home that nobody can write to: files are where folders would have to be."""
-    shutil.copytree("app/model", tmp_path / "app" / "model", ignore=shutil.ignore_patterns("__pycache__"))
-    nowhere = tmp_path / "app" / "__pycache__"
-    for file in (nowhere, tmp_path / "app" / "model" / "__pycache__"):
+    shutil.copytree("app/gelenk/model", tmp_path / "gelenk" / "model", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "gelenk" / "__init__.py").touch()
+    nowhere = tmp_path / "gelenk" / "__pycache__"
+    for file in (nowhere, tmp_path / "gelenk" / "model" / "__pycache__"):
         file.touch()
     environment = {
         name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "XDG_CACHE_HOME"}
     }
     environment |= {"HOME": str(nowhere)} | ({"NUMBA_CACHE_DIR": str(nowhere / "kernels")} if is_set else {})
-    program = "import numpy; from app.model import notations; notations.rotations_from_rpy(numpy.zeros((1, 3)))"
+    program = "import numpy; from gelenk.model import notations; notations.rotations_from_rpy(numpy.zeros((1, 3)))"
     command = [sys.executable, "-c", program]
     run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr

@@ -11,20 +11,20 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.certify import certify_conversion, certify_table, pinocchio_poses, table_configurations
-from app.kinematics.forward import forward_kinematics
-from app.model.arrays import Array
-from app.model.convert import converted, describe_dh
-from app.model.description import Mimic
-from app.model.dh import Convention, DhJoint, DhTable
-from app.model.errors import CertificationFailed
-from app.model.notations import placement
-from app.model.origins import origin_of
-from app.model.robot import Robot
-from app.model.urdf import write_urdf
+from gelenk.kinematics.certify import certify_conversion, certify_table, pinocchio_poses, table_configurations
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.model.arrays import Array
+from gelenk.model.convert import converted, describe_dh
+from gelenk.model.description import Mimic
+from gelenk.model.dh import Convention, DhJoint, DhTable
+from gelenk.model.errors import CertificationFailed
+from gelenk.model.notations import placement
+from gelenk.model.origins import origin_of
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import write_urdf
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, of_table, reread, robot, rows, samples, table, without_warnings
+from tests.robots import by_name, of_table, reread, robot, rows, samples, swept, table, without_warnings
 
 SPECIAL = (0.0, pi / 2, -pi / 2, pi, -pi, 1e-9, pi / 2 + 1e-12, pi / 2 - 5e-13, 2 * pi)
 """Angles at which roll, pitch and yaw degenerate, or nearly so."""
@@ -53,8 +53,9 @@ def random_table(convention: Convention, seed: int) -> DhTable:
     return DhTable(convention, joints, place(), place())
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("convention", ["standard", "modified"])
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", list(range(10)))
 def test_every_frame_of_a_table(convention: Convention, seed: int) -> None:
     """Fifty tables each; poses by the kernels, and by Pinocchio itself, against the table's."""
     for number in range(50):
@@ -99,7 +100,7 @@ def as_documented(dh: DhTable, seed: int) -> Array:
     return np.asarray(bounds[:, 0] + r * (bounds[:, 1] - bounds[:, 0]))
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_catalogue_tables_by_the_textbook(name: str) -> None:
     machine, textbook = robot(name), dh_columns.from_json(catalogue.dh_table(name))
     chain = machine.chain("base", "tool")
@@ -143,7 +144,7 @@ def test_origin_gives_the_transform_again(angle: float) -> None:
         assert np.abs(placement(origin.xyz, origin.rpy) - T).max() < 2e-14
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_another_reader_sees_the_same_robot(name: str) -> None:
     import yourdfpy
 

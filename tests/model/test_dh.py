@@ -6,11 +6,11 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from app.model.description import Mimic
-from app.model.dh import MAX_JOINTS, Convention, DhJoint, DhTable
-from app.model.errors import InvalidDhTable, WrongJointCount
+from gelenk.model.description import Mimic
+from gelenk.model.dh import MAX_JOINTS, Convention, DhJoint, DhTable
+from gelenk.model.errors import InvalidDhTable, WrongJointCount
 from tests.oracles import catalogue, dh_columns
-from tests.robots import rows, table
+from tests.robots import rows, swept, table
 
 Row = tuple[float, float, float, float]
 QUARTER = pi / 2
@@ -104,7 +104,7 @@ def test_spherical_wrist_turns_by_zyz() -> None:
     assert np.abs(wrist.pose([0.2, 0, -0.5]) - wrist.pose([0.5, 0, -0.8])).max() < 1e-15
 
 
-@pytest.mark.parametrize("name", catalogue.TABLES)
+@pytest.mark.parametrize("name", swept(catalogue.TABLES))
 def test_frames_are_those_of_the_textbook(name: str) -> None:
     content = catalogue.dh_table(name)
     ours, textbook = table(content), dh_columns.from_json(content)

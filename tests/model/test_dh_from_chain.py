@@ -7,20 +7,20 @@ from math import pi
 import numpy as np
 import pytest
 
-from app.kinematics.certify import certify_table, table_configurations
-from app.model.arrays import Array
-from app.model.chain import Chain, build_chain
-from app.model.convert import describe_dh
-from app.model.description import Description
-from app.model.dh import Convention, DhTable
-from app.model.dh_from_chain import PARALLEL, dh_from_chain
-from app.model.errors import InvalidField
-from app.model.notations import pose_errors
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics.certify import certify_table, table_configurations
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain, build_chain
+from gelenk.model.convert import describe_dh
+from gelenk.model.description import Description
+from gelenk.model.dh import Convention, DhTable
+from gelenk.model.dh_from_chain import dh_from_chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.notations import pose_errors
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, robot, samples
+from tests.robots import by_name, robot, samples, swept
 
 CONVENTIONS: tuple[Convention, ...] = ("standard", "modified")
 QUARTER = pi / 2
@@ -118,7 +118,7 @@ def parameters(table: DhTable) -> Array:
 
 
 @both_conventions
-@pytest.mark.parametrize("name", catalogue.URDFS)
+@pytest.mark.parametrize("name", swept(catalogue.URDFS))
 def test_every_leaf_chain_of_the_catalogue(name: str, convention: Convention) -> None:
     description = robot(name).description
     for leaf in description.leaves:
@@ -127,7 +127,7 @@ def test_every_leaf_chain_of_the_catalogue(name: str, convention: Convention) ->
         chain = robot(name).chain(description.root, leaf)
         if not len(chain):
             continue
-        table = dh_from_chain(description, chain, convention).table
+        table = dh_from_chain(description, chain, convention, parallel_below=1e-10).table
         assert table.variables == chain.joint_names
         qs = samples(chain, 4)
         judge = product_of(name).poses(description.root, leaf, by_name(chain, qs))
@@ -137,11 +137,11 @@ def test_every_leaf_chain_of_the_catalogue(name: str, convention: Convention) ->
 
 
 @both_conventions
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_the_certificate_is_what_is_measured(name: str, convention: Convention) -> None:
     machine = robot(name)
     chain = machine.chain(None, None)
-    table = dh_from_chain(machine.description, chain, convention).table
+    table = dh_from_chain(machine.description, chain, convention, parallel_below=1e-10).table
     certificate = certify_table(machine, chain, table)
     qs = table_configurations(chain, certificate.samples, certificate.seed)
     if name in catalogue.URDFS:
@@ -306,10 +306,7 @@ def test_axes_too_nearly_parallel(convention: Convention) -> None:
         table, notes = found(arm(tilt), convention, advice, within=3 * tilt)
         assert table.joints[0].d == 0.0
         assert any(note.startswith("snapped") for note in notes)
-    _, notes = found(arm(0.5 * PARALLEL), convention, within=PARALLEL)
-    assert any("taken as parallel" in note for note in notes)
-    _, notes = found(arm(1e-15), convention, within=2e-14)
-    assert not any("taken as parallel" in note for note in notes)
+    assert found(arm(1e-15), convention, within=2e-14)[0].joints[0].d == 0.0
 
 
 def random_text(seed: int) -> str:
@@ -336,6 +333,7 @@ def random_text(seed: int) -> str:
     return serial(joints)
 
 
+@pytest.mark.quick(1)
 @both_conventions
 @pytest.mark.parametrize("seed", range(5))
 def test_random_chains(seed: int, convention: Convention) -> None:

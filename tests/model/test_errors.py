@@ -6,8 +6,8 @@ from dataclasses import fields
 
 import pytest
 
-from app.model import errors
-from app.model.errors import KinematicsError, kinds, listed, quoted
+from gelenk.model import errors
+from gelenk.model.errors import KinematicsError, kinds, listed, quoted
 
 OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle"}
 """Fields whose text we write; all other texts come from outside."""

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.model import notations
-from app.model.arrays import Array
-from app.model.errors import InvalidPose
-from app.model.notations import placement, pose_errors
-from app.model.poses import Poses, inverse, nearest_rotation, transform, unit_quaternion
+from gelenk.model import notations
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidPose
+from gelenk.model.notations import placement, pose_errors
+from gelenk.model.poses import Poses, inverse, nearest_rotation, transform, unit_quaternion
 
 NEAR = [sign * size for size in (1e-15, 1e-13, 1e-12, 1e-9, 1e-7, 1e-6, 1e-3) for sign in (1, -1)] + [0.0]
 """Distances from an angle at which something degenerates."""

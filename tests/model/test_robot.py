@@ -5,17 +5,17 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from app.kinematics.certify import certify_poses
-from app.kinematics.kernels import chain_poses
-from app.model.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
-from app.model.poses import Poses
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics.certify import certify_poses
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.errors import FrameNotOnChain, UnknownFrame, UnsupportedJoint
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.corpus.urdf import AXIS, MOVING, arm_and, joint, link
 from tests.corpus.urdf import robot as urdf
 from tests.oracles import catalogue
 from tests.oracles.urdf_product import UrdfProduct
-from tests.robots import by_name, robot, samples
+from tests.robots import by_name, robot, samples, swept
 
 TREES = [
     "anymal_b_kinova",
@@ -38,6 +38,7 @@ def poses(machine: Robot, base: str, tip: str, count: int = 20) -> tuple[Poses, 
     return Poses(*chain_poses(chain.flat, qs)), by_name(chain, qs)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", TREES)
 def test_chains_between_any_two_frames(name: str) -> None:
     machine, product = robot(name), UrdfProduct(catalogue.urdf_text(name))
@@ -227,7 +228,7 @@ def test_a_frame_on_a_chain_uses_the_chains_variables() -> None:
 # Default chains
 
 
-@pytest.mark.parametrize("name", catalogue.URDFS)
+@pytest.mark.parametrize("name", swept(catalogue.URDFS))
 def test_default_chain_is_the_longest_from_the_root(name: str) -> None:
     product = UrdfProduct(catalogue.urdf_text(name))
     machine = Robot(robot(name).description)

@@ -7,13 +7,13 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from app.kinematics.forward import forward_kinematics
-from app.model.errors import InvalidUrdf
-from app.model.robot import Robot
-from app.model.urdf import read_urdf, write_urdf
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.model.errors import InvalidUrdf
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf, write_urdf
 from tests.corpus.urdf import ARM, MISSING_MESHES, ODD, REFUSED, VALID, Odd, Refused, Valid, one_joint
 from tests.oracles import catalogue
-from tests.robots import reread, samples, without_warnings
+from tests.robots import reread, samples, swept, without_warnings
 
 SECONDS = 1.0
 """What a hostile description may cost at most."""
@@ -60,7 +60,7 @@ def test_written_and_read_again(case: Odd | Valid) -> None:
     assert without_warnings(reread(description)) == without_warnings(description)
 
 
-@pytest.mark.parametrize("name", catalogue.URDFS)
+@pytest.mark.parametrize("name", swept(catalogue.URDFS))
 def test_catalogue_written_and_read_again(name: str) -> None:
     description = read_urdf(catalogue.urdf_text(name))
     assert without_warnings(reread(description)) == without_warnings(description)
@@ -104,6 +104,7 @@ NOT_ROBOTS = {"alex_psyonic_hands": "mimic of the unknown joint 'index_q1'", "ur
 """A pair of hands whose fingers were renamed on one side only, and a xacro expanded to nothing."""
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("path", ALL_FILES, ids=lambda path: path.stem)
 def test_public_files_are_read(path: Path) -> None:
     if path.stem in NOT_ROBOTS:
@@ -156,6 +157,7 @@ def poses_are_sane(text: str) -> bool:
     return True
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["double_pendulum", "panda", "so101", "talos_left_arm", "xarm7", "z1"])
 def test_mutations_are_refused_or_robots(name: str) -> None:
     text, rng = catalogue.urdf_text(name), np.random.default_rng(7)

@@ -10,11 +10,11 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from app.kinematics.forward import forward_kinematics
-from app.model.description import Description
-from app.model.errors import InvalidUrdf
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.model.description import Description
+from gelenk.model.errors import InvalidUrdf
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.corpus.urdf import ARM, AXIS, FORGIVEN, MOVING, Refused, fixed, link, one_joint, one_shape, robot
 from tests.oracles import catalogue
 from tests.robots import samples
@@ -119,6 +119,7 @@ def cases() -> Iterator[tuple[str, str]]:
             yield fault, str(name)
 
 
+@pytest.mark.quick(20)
 @pytest.mark.parametrize(("fault", "name"), list(cases()))
 def test_a_fault_that_kinematics_does_not_feel_is_a_warning(fault: str, name: str) -> None:
     rng = np.random.default_rng([len(fault), len(name)])

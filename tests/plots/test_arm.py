@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.kinematics.kernels import chain_poses
-from app.plots.arm import arm_line
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.plots.arm import arm_line
 from tests.oracles import catalogue, dh_columns
-from tests.robots import robot, samples
+from tests.robots import robot, samples, swept
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_the_line_ends_at_the_tip(name: str) -> None:
     chain = robot(name).chain(None, None)
     for q in samples(chain, 3):

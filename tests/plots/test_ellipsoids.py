@@ -14,15 +14,15 @@ from matplotlib.image import imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Polygon
 
-from app.kinematics.ik.words import DIRECTIONS, Direction
-from app.kinematics.limited_motion import JointBounds, limited_motion
-from app.kinematics.manipulability import manipulability
-from app.model.arrays import Array
-from app.plots import ellipsoids as module
-from app.plots.ellipsoids import NOTHING_MORE, Asked, manipulability_picture
-from app.plots.figure import FORCE, LINK, VELOCITY, PictureFormat
+from gelenk.kinematics.ik.words import DIRECTIONS, Direction
+from gelenk.kinematics.limited_motion import JointBounds, limited_motion
+from gelenk.kinematics.manipulability import manipulability
+from gelenk.model.arrays import Array
+from gelenk.plots import ellipsoids as module
+from gelenk.plots.ellipsoids import NOTHING_MORE, Asked, manipulability_picture
+from gelenk.plots.figure import FORCE, LINK, VELOCITY, PictureFormat
 from tests.oracles import catalogue
-from tests.robots import robot, samples
+from tests.robots import robot, samples, swept
 
 SOLID_WIDTH = 4.5
 """Of a segment of velocities, [pt]."""
@@ -223,6 +223,7 @@ def test_polytopes_of_a_planar_arm_are_outlined(figures: list[Figure]) -> None:
     assert "not every joint has a velocity limit" in words_of(figures[1])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "kind"),
     [("planar_2r", "svg"), ("planar_2r", "png"), ("panda", "svg"), ("panda", "png"), ("iris", "svg"), ("tiago", "svg")],
@@ -242,7 +243,7 @@ def test_pictures_are_small_and_the_same_each_time(name: str, kind: PictureForma
         assert 800 <= height <= 1400
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_every_robot_can_be_drawn(name: str, figures: list[Figure]) -> None:
     """Also where all joints are zero, which is singular for many."""
     chain = robot(name).chain(None, None)

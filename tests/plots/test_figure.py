@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.plots.figure import TEXT, as_bytes, font, metric_axes, new_figure, plain, write
+from gelenk.plots.figure import TEXT, as_bytes, font, metric_axes, new_figure, plain, write
 
 ROOT = Path(__file__).parents[2]
 
@@ -51,9 +51,10 @@ def test_threads_draw_the_same_bytes_as_one_alone() -> None:
     assert [found[i] for i in range(4)] == expected
 
 
+@pytest.mark.slow
 def test_pyplot_is_never_loaded_and_the_service_starts_without_matplotlib() -> None:
     code = "import sys, {}; print('matplotlib' in sys.modules, 'matplotlib.pyplot' in sys.modules)"
-    for module, expected in (("app.main", "False False"), ("app.plots.ellipsoids", "True False")):
+    for module, expected in (("gelenk.main", "False False"), ("gelenk.plots.ellipsoids", "True False")):
         answer = subprocess.run(
             [sys.executable, "-c", code.format(module)], cwd=ROOT, capture_output=True, text=True, check=True
         )

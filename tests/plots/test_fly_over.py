@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from app.model.arrays import Array
-from app.plots import fly_over as module
-from app.plots.figure import PictureFormat
-from app.plots.fly_over import fly_over_picture
-from app.trajectory.blended_motion import rest_to_rest
-from app.trajectory.fly_over import Blend, blended, corner_of
-from app.trajectory.polynomial import PiecewisePolynomial
+from gelenk.model.arrays import Array
+from gelenk.plots import fly_over as module
+from gelenk.plots.figure import PictureFormat
+from gelenk.plots.fly_over import fly_over_picture
+from gelenk.trajectory.blended_motion import rest_to_rest
+from gelenk.trajectory.fly_over import Blend, blended, corner_of
+from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 FLAT = [np.array(point, dtype=float) for point in ((3, 3), (1, 9), (8, 9))]
 IN_SPACE = [np.array(point, dtype=float) for point in ((3, 3, 0), (1, 9, 1), (8, 9, 4))]

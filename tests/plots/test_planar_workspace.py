@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patches import Annulus, Circle
 
-from app.course.planar import planar_workspace
-from app.plots import planar_workspace as module
-from app.plots.figure import PictureFormat
-from app.plots.planar_workspace import planar_workspace_picture
+from gelenk.course.planar import planar_workspace
+from gelenk.plots import planar_workspace as module
+from gelenk.plots.figure import PictureFormat
+from gelenk.plots.planar_workspace import planar_workspace_picture
 
 
 def drawn(monkeypatch: pytest.MonkeyPatch, links: Sequence[float], point: Sequence[float] | None) -> Figure:
@@ -80,6 +80,7 @@ def test_rings_of_every_kind(
     assert text in words(figure)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("links", "point"),
     [

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from app.model.arrays import Array
-from app.plots import profiles as module
-from app.plots.figure import QUIET, PictureFormat
-from app.plots.profiles import Lines, Span, curve, profiles_picture
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.splines import cubic_spline
-from app.trajectory.trapezoid import Task, point_to_point
+from gelenk.model.arrays import Array
+from gelenk.plots import profiles as module
+from gelenk.plots.figure import QUIET, PictureFormat
+from gelenk.plots.profiles import Lines, Span, curve, profiles_picture
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.splines import cubic_spline
+from gelenk.trajectory.trapezoid import Task, point_to_point
 
 UNITS = ("rad", "rad/s", "rad/s²", "rad/s³")
 
@@ -65,6 +65,7 @@ def test_a_jump_is_a_vertical_line() -> None:
     assert values[jumps[0] + 1, 0] == pytest.approx(0.0)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("joints", [1, 2, 7, 32])
 def test_any_number_of_joints_and_pieces(joints: int) -> None:
     rng = np.random.default_rng(joints)
@@ -80,6 +81,7 @@ def test_the_same_bytes_each_time() -> None:
     assert len(first) < 200_000
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("size", [0.0, 1e-30, 1e6, 1e25])
 def test_sizes(size: float) -> None:
     c = np.zeros((1, 4, 1))

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS
-from app.model.arrays import Array
-from app.plots.workspace import Picture, elements, picture_bytes
+from gelenk.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS
+from gelenk.model.arrays import Array
+from gelenk.plots.workspace import Picture, elements, picture_bytes
 
 DEXTERITY = (*VOXEL_COLUMNS, "dexterity")
 
@@ -25,6 +25,7 @@ def test_an_element_shows_the_largest_value_behind_it() -> None:
     assert np.isnan(image).sum() == 7
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("count", "dimensions", "columns"),
     [(0, 3, POINT_COLUMNS), (0, 2, DEXTERITY), (1, 3, DEXTERITY), (1, 2, POINT_COLUMNS), (2000, 3, POINT_COLUMNS)],
@@ -51,7 +52,7 @@ def test_a_voxel_is_one_element(monkeypatch: pytest.MonkeyPatch) -> None:
         seen.append(elements(places, values, count))
         return seen[-1]
 
-    monkeypatch.setattr("app.plots.workspace.elements", keep)
+    monkeypatch.setattr("gelenk.plots.workspace.elements", keep)
     origin = np.array([0.05, 0.15, 0.0])
     i, j = np.meshgrid(np.arange(-6, 7), np.arange(-6, 7))
     centres = origin + 0.1 * np.column_stack((i.ravel(), j.ravel(), np.zeros(i.size)))
@@ -64,6 +65,7 @@ def test_a_voxel_is_one_element(monkeypatch: pytest.MonkeyPatch) -> None:
     assert np.ptp(rows_met) == np.ptp(columns_met) == 12
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("columns", [POINT_COLUMNS, VOXEL_COLUMNS])
 @pytest.mark.parametrize(("place", "width"), [([0.4, -0.2, 0.6], 0.6), ([3e-6, 0.0, 0.0], 3e-6), ([0.0] * 3, 1.0)])
 def test_a_single_place_is_seen_together_with_the_base(
@@ -71,7 +73,7 @@ def test_a_single_place_is_seen_together_with_the_base(
 ) -> None:
     """Nothing else gives its picture a scale: without the base its axes would be numbered in steps of nothing."""
     seen: list[tuple[float, float]] = []
-    monkeypatch.setattr("app.plots.workspace._colour_bar", lambda figure, *_: seen.append(figure.axes[0].get_xlim()))
+    monkeypatch.setattr("gelenk.plots.workspace._colour_bar", lambda figure, *_: seen.append(figure.axes[0].get_xlim()))
     rows = np.zeros((1, len(columns)))
     rows[0, :3] = place
     picture_bytes(picture(rows, columns), "png")
@@ -84,6 +86,6 @@ def test_a_single_place_is_seen_together_with_the_base(
 def test_the_title_names_robot_and_chain() -> None:
     figures: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("app.plots.workspace.as_bytes", lambda figure, _: figures.append(figure.texts[-1].get_text()))
+        patch.setattr("gelenk.plots.workspace.as_bytes", lambda figure, _: figures.append(figure.texts[-1].get_text()))
         picture_bytes(picture(np.zeros((1, 4))), "png")
     assert figures == ["Workspace of arm: base → tip ? $\\frac"]

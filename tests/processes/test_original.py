@@ -12,14 +12,14 @@ from pathlib import Path
 
 import pytest
 
-from app.processes.original import NUMBER, WARM_UP, Original
+from gelenk.processes.original import COPY, NUMBER, WARM_UP, Original
 
 
 @contextlib.contextmanager
 def original_of(copy: "subprocess.Popen[bytes]") -> Iterator[tuple[Original, socket.socket]]:
     """One that takes a process for a copy of its own, and the other end of that one's lifeline."""
     (far, control), (ours, theirs) = socket.socketpair(), socket.socketpair()
-    original = Original(control, lambda: True, lambda: None, lambda _: None)
+    original = Original(control, None)
     original._lifelines[copy.pid] = theirs
     original._selector.register(theirs, selectors.EVENT_READ)
     try:
@@ -53,19 +53,27 @@ def test_a_copy_whose_lifeline_is_closed_is_killed() -> None:
 
 
 @contextlib.contextmanager
-def running(
-    is_compiled: bool, warm_up: str, tmp_path: Path
-) -> Iterator[tuple["subprocess.Popen[bytes]", socket.socket]]:
-    """One in a process of its own, which does something for its warming up, and the socket that it is asked on."""
+def running(is_compiled: bool, part: str, tmp_path: Path) -> Iterator[tuple["subprocess.Popen[bytes]", socket.socket]]:
+    """One in a process of its own, which does something for a part of its warming up, and the socket it is asked on."""
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     program = f"""
 import os, socket, time
 from pathlib import Path
-from app.processes.original import Original
-def warm_up():
-    with Path({str(tmp_path / "worked")!r}).open("a") as file: file.write(f"{{os.getpid()}}\\n")
-    {warm_up}
-Original(socket.socket(fileno={theirs.fileno()}), lambda: {is_compiled}, warm_up, lambda _: None).run()
+from types import SimpleNamespace
+from gelenk.processes.original import Original
+def note(what):
+    with Path({str(tmp_path / "worked")!r}).open("a") as file: file.write(f"{{os.getpid()}} {{what}}\\n")
+def first():
+    note("first part")
+    {part}
+loaded = SimpleNamespace(
+    is_compiled=lambda: {is_compiled},
+    basics=lambda: note("basics"),
+    PARTS=(first, lambda: note("second part")),
+    warm_up=lambda: note("all"),
+    load=lambda _: None,
+)
+Original(socket.socket(fileno={theirs.fileno()}), loaded).run()
 """
     command, descriptors = [sys.executable, "-c", program], [theirs.fileno()]
     with ours, theirs, subprocess.Popen(command, stdin=subprocess.PIPE, pass_fds=descriptors) as original:
@@ -84,23 +92,49 @@ def told_when_warm(control: socket.socket) -> socket.socket:
     return ours
 
 
-@pytest.mark.parametrize("is_compiled", [False, True])
-def test_what_must_be_compiled_is_compiled_by_another_process_before(is_compiled: bool, tmp_path: Path) -> None:
-    """So that the memory that this takes is not kept; where all is compiled nobody waits for another process."""
-    with running(is_compiled, "pass", tmp_path) as (original, control):
-        with told_when_warm(control) as told:
-            assert told.recv(1) == b""
-        with told_when_warm(control) as told:
-            assert told.recv(1) == b"", "requests are taken as before"
-    processes = [int(line) for line in (tmp_path / "worked").read_text().splitlines()]
-    others = [pid for pid in processes if pid != original.pid]
-    assert processes == ([original.pid] * 2 if is_compiled else [others[0], original.pid, others[1], original.pid])
+def steps(tmp_path: Path) -> list[tuple[int, str]]:
+    """Who did what, in its order."""
+    worked = tmp_path / "worked"
+    lines = worked.read_text().splitlines() if worked.exists() else []
+    return [(int(pid), what) for pid, what in (line.split(" ", 1) for line in lines)]
+
+
+def test_where_all_is_compiled_nobody_waits_for_another_process(tmp_path: Path) -> None:
+    with running(True, "pass", tmp_path) as (original, control):
+        for _ in range(2):
+            with told_when_warm(control) as told:
+                assert told.recv(1) == b""
+    assert steps(tmp_path) == [(original.pid, "all")] * 2
+
+
+def test_what_must_be_compiled_is_compiled_by_other_processes_before(tmp_path: Path) -> None:
+    """So that the memory that this takes is not kept: the basics first, then the parts side by side."""
+    with running(False, "pass", tmp_path) as (original, control), told_when_warm(control) as told:
+        assert told.recv(1) == b""
+    first, second, *parts, last = steps(tmp_path)
+    assert (first[1], second, last) == ("basics", (original.pid, "basics"), (original.pid, "all"))
+    assert sorted(what for _, what in parts) == ["first part", "second part"]
+    assert len({pid for pid, _ in (first, *parts, last)}) == 4, "each in a process of its own"
+
+
+def test_copies_are_made_as_soon_as_the_basics_are_there(tmp_path: Path) -> None:
+    """While the parts are compiled, which takes a minute."""
+    with running(False, "time.sleep(600)", tmp_path) as (_, control), told_when_warm(control) as told:
+        (ours, theirs), (way, end) = socket.socketpair(), socket.socketpair()
+        with ours, theirs, way, end:
+            socket.send_fds(control, [COPY], [way.fileno(), theirs.fileno()])
+            ours.settimeout(60.0)
+            assert NUMBER.unpack(ours.recv(NUMBER.size))[0] > 0
+        assert "all" not in {what for _, what in steps(tmp_path)}
+        told.settimeout(0.1)
+        with pytest.raises(TimeoutError):
+            told.recv(1)
 
 
 def test_nobody_compiles_on_for_a_service_that_has_ended(tmp_path: Path) -> None:
     with running(False, "time.sleep(600)", tmp_path) as (original, control), told_when_warm(control) as told:
         until = time.monotonic() + 60.0
-        while not (tmp_path / "worked").exists() and time.monotonic() < until:
+        while "first part" not in {what for _, what in steps(tmp_path)} and time.monotonic() < until:
             time.sleep(0.1)
         assert original.stdin is not None
         original.stdin.close()

@@ -5,8 +5,8 @@ from random import Random
 
 import pytest
 
-from app.processes import turns
-from app.processes.turns import Turns
+from gelenk.processes import turns
+from gelenk.processes.turns import Turns
 
 CLIENTS = "abcd"
 

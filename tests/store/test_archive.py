@@ -12,10 +12,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.model.errors import InvalidArchive, KinematicsError, TooLarge
-from app.store.archive import MAX_FOLDERS, unpacked
-from app.store.folders import Stretch, pieces
-from app.store.library import Library, RobotUpload
+from gelenk.model.errors import InvalidArchive, KinematicsError, TooLarge
+from gelenk.store.archive import MAX_FOLDERS, unpacked
+from gelenk.store.folders import Stretch, pieces
+from gelenk.store.library import Library, RobotUpload
 
 CATALOGUE = Path("robots")
 FIXED_ENTRIES = 5
@@ -161,7 +161,7 @@ def test_other_uploads_go_on_while_leftovers_are_removed(tmp_path: Path, monkeyp
             went_on.append(True)
             went_on[0] = within(20, lambda: other.add(RobotUpload("arm", "urdf", urdf())))
 
-    monkeypatch.setattr("app.store.folders.shutil.rmtree", slow)
+    monkeypatch.setattr("gelenk.store.folders.shutil.rmtree", slow)
     library.prepare()
     assert went_on == [True]
     monkeypatch.undo()

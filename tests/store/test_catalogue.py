@@ -4,8 +4,10 @@ import json
 import re
 from pathlib import Path
 
-from app.prune import catalogue_files, mapped_files, unneeded
-from app.store.records import package_data
+import pytest
+
+from gelenk.prune import catalogue_files, mapped_files, unneeded
+from gelenk.store.records import package_data
 
 ROBOTS = Path("robots")
 
@@ -27,6 +29,7 @@ def test_every_robot_says_its_licence_and_source() -> None:
         assert record["source"], path
 
 
+@pytest.mark.slow
 def test_an_image_keeps_every_robot_and_library_and_no_header() -> None:
     needed = {*catalogue_files(), *mapped_files()}
     removed = set(unneeded(needed))

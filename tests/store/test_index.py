@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from app.store import index
-from app.store.library import Library, RobotUpload
-from app.store.records import Record, Source, read_record
+from gelenk.store import index
+from gelenk.store.library import Library, RobotUpload
+from gelenk.store.records import Record, Source, read_record
 
 URDF = (
     b'<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous">'

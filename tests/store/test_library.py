@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from app.model.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, StorageFailed, UnknownRobot
-from app.store import folders
-from app.store.library import Library, RobotUpload
+from gelenk.model.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, StorageFailed, UnknownRobot
+from gelenk.store import folders
+from gelenk.store.library import Library, RobotUpload
 
 CATALOGUE = Path("robots")
 KILLS = 8
@@ -105,6 +105,7 @@ def replace_many(root: Path, start: int) -> None:
         library.replace(RobotUpload("arm", "urdf", one_joint(height)))
 
 
+@pytest.mark.slow
 def test_writers_take_turns_and_readers_never_see_half(library: Library, tmp_path: Path) -> None:
     root = tmp_path / "robots"
     library.add(RobotUpload("arm", "urdf", one_joint(1)))
@@ -127,7 +128,7 @@ def test_writers_take_turns_and_readers_never_see_half(library: Library, tmp_pat
 WRITER = """
 import sys
 from pathlib import Path
-from app.store.library import Library, RobotUpload
+from gelenk.store.library import Library, RobotUpload
 from tests.store.test_library import one_joint
 library = Library(Path("robots"), Path(sys.argv[1]))
 library.prepare()
@@ -141,6 +142,7 @@ for height in range(int(sys.argv[2]), 10**6):
 """
 
 
+@pytest.mark.slow
 def test_a_kill_at_any_moment_leaves_the_old_robot_or_the_new(library: Library, tmp_path: Path) -> None:
     """A writer is killed again and again; after each kill all that it has acknowledged is there, nothing is half."""
     root = tmp_path / "robots"
@@ -173,7 +175,7 @@ def test_a_kill_at_any_moment_leaves_the_old_robot_or_the_new(library: Library, 
 REPLACER = """
 import sys
 from pathlib import Path
-from app.store.library import Library, RobotUpload
+from gelenk.store.library import Library, RobotUpload
 from tests.store.test_library import one_joint
 library = Library(Path("robots"), Path(sys.argv[1]))
 print("ready", flush=True)
@@ -183,6 +185,7 @@ print("removed", flush=True)
 """
 
 
+@pytest.mark.slow
 def test_a_folder_dropped_in_by_hand_is_replaced_and_removed_as_safely(tmp_path: Path) -> None:
     """Killed anywhere between its replacement and its removal, it is the old robot, the new one, or gone."""
     root = tmp_path / "robots"
@@ -231,7 +234,7 @@ def test_a_replacement_that_fails_at_its_last_step_leaves_the_old_robot_and_noth
     else:
         library.add(RobotUpload("arm", "urdf", one_joint(1)))
     before = sorted(folder.rglob("*"))
-    monkeypatch.setattr("app.store.folders.Path.replace", refuse_to_write)
+    monkeypatch.setattr("gelenk.store.folders.Path.replace", refuse_to_write)
     with pytest.raises(StorageFailed):
         library.replace(RobotUpload("arm", "urdf", one_joint(2)))
     assert sorted(folder.rglob("*")) == before
@@ -242,7 +245,7 @@ def test_a_data_folder_that_cannot_be_written_to_does_not_keep_the_service_from_
     library: Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "robots").mkdir()
-    monkeypatch.setattr("app.store.folders.fcntl.flock", refuse_to_write)
+    monkeypatch.setattr("gelenk.store.folders.fcntl.flock", refuse_to_write)
     library.prepare()
     assert library.get("panda")
 
@@ -297,8 +300,8 @@ def test_names_come_with_those_that_are_near(library: Library) -> None:
 
 
 def test_memory_is_bounded(library: Library, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.store.library._MEMORY", 2_000_000)
-    monkeypatch.setattr("app.store.library._weight", lambda _: 500_000)
+    monkeypatch.setattr("gelenk.store.library._MEMORY", 2_000_000)
+    monkeypatch.setattr("gelenk.store.library._weight", lambda _: 500_000)
     for name in ("ur3", "ur5", "ur10", "scara", "planar_2r"):
         library.get(name)
         assert library.loaded("ur3")  # what is in use stays

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from app.store.library import Library
-from app.store.meshes import MeshFiles, mesh_warnings
+from gelenk.store.library import Library
+from gelenk.store.meshes import MeshFiles, mesh_warnings
 from tests.store.test_archive import CATALOGUE, kept, urdf, zipped
 
 SOLID = b"solid s\nendsolid s\n"

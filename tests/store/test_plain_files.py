@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from app.jobs.robot_files import robot_text
-from app.jobs.shelf import Limits, Shelf
-from app.model.errors import KinematicsError
-from app.store.folders import read_plain
-from app.store.library import Library, RobotUpload
+from gelenk.jobs.robot_files import robot_text
+from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.model.errors import KinematicsError
+from gelenk.store.folders import read_plain
+from gelenk.store.library import Library, RobotUpload
 from tests.store.test_archive import CATALOGUE, urdf
 
 MOST_SECONDS = 5
@@ -67,7 +67,7 @@ def used(data: Path) -> None:
         shelf.states,
         lambda: shelf.get("mine"),
         lambda: robot_text(shelf.request("mine")),
-        lambda: shelf.parts("mine").read("1"),
+        lambda: shelf.parts(shelf.get("mine")).read("1"),
         lambda: shelf.add("ik", "digest", {}, "mine"),
         lambda: shelf.add("ik", "digest", {}, "other"),
         shelf.take_up,
@@ -87,12 +87,13 @@ def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
     library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits())
     library.add(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"}))
     job, _ = shelf.add("ik", "digest", {"robot.urdf": b"<robot/>", "robot.json": b'["arm", "a", "b"]'}, "mine")
-    shelf.parts("mine").write("1", b"part")
+    shelf.parts(job).write("1", b"part")
     shelf.close()
     (data / "jobs" / ".owners" / job.owner).touch()  # as a killed process leaves it
     return data
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_nothing_waits_for_what_is_no_file(template: Path, tmp_path: Path, kind: str) -> None:
     files = sorted(path.relative_to(template) for path in template.rglob("*") if path.is_file())

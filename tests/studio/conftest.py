@@ -1,4 +1,4 @@
-"""One service and one browser for all tests of a process; every test has a page of its own."""
+"""One service and one browser for all tests of the page, and no longer; every test has a page of its own."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,7 +10,7 @@ from tests.studio.browser import ARGUMENTS, Pages, Studio, chromium
 from tests.test_serve import service
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Browser]:
     """Chromium: that of the variable CHROMIUM, which must be there, or one that is installed."""
     found = chromium()
@@ -22,7 +22,7 @@ def browser() -> Iterator[Browser]:
         launched.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def url(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:  # noqa: ARG001 - none, no service
     """A running service with no robots but the catalogue's."""
     data_dir: Path = tmp_path_factory.mktemp("data")
@@ -36,7 +36,7 @@ def refusals() -> set[int]:
     return set()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def pages(browser: Browser) -> Pages:
     """The pages of this process."""
     return Pages(browser)

@@ -3,9 +3,9 @@
 import json
 from typing import Any
 
-from app.model.poses import Poses
-from app.schemas.pose import Pose
-from app.schemas.pose_arrays import poses_from
+from gelenk.model.poses import Poses
+from gelenk.schemas.pose import Pose
+from gelenk.schemas.pose_arrays import poses_from
 from tests.studio.browser import Studio
 from tests.test_serve import get
 

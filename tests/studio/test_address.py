@@ -23,6 +23,7 @@ def settled(studio: Studio) -> str:
     return studio.page.url
 
 
+@pytest.mark.slow
 def test_a_reload_restores_everything(studio: Studio) -> None:
     studio.open(robot="ur5")
     studio.button("Random").click()
@@ -44,6 +45,7 @@ def test_a_reload_restores_everything(studio: Studio) -> None:
     assert studio.tip() == tip
 
 
+@pytest.mark.slow
 def test_a_draft_is_reopened(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Pose").click()
@@ -55,6 +57,7 @@ def test_a_draft_is_reopened(studio: Studio) -> None:
     assert studio.tip() == tip
 
 
+@pytest.mark.slow
 def test_back_returns_to_the_robot_before(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0.25,0.5")
     settled(studio)
@@ -66,6 +69,7 @@ def test_back_returns_to_the_robot_before(studio: Studio) -> None:
     assert studio.state("positions") == {"joint_1": 0.25, "joint_2": 0.5}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fragment",
     [

@@ -5,10 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from app.kinematics.certify import certify_poses
-from app.model.poses import Poses
+from gelenk.kinematics.certify import certify_poses
+from gelenk.model.poses import Poses
 from tests.oracles import catalogue
-from tests.robots import by_name, robot, samples
+from tests.robots import by_name, robot, samples, swept
 from tests.studio.browser import Studio
 
 CONFIGURATIONS = 3
@@ -22,7 +22,7 @@ POSES = """([root, leaf, configurations]) => configurations.map((positions) => {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_a_robot_is_shown_as_pinocchio_places_it(another: Callable[..., Studio], name: str) -> None:
     studio = another(width=1024, height=240)
     studio.open(robot=name)

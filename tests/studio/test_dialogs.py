@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Request, expect
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
 from tests.studio.browser import Studio
 from tests.studio.test_page import AXE
 from tests.studio.test_workspace import compute
@@ -75,6 +75,7 @@ def test_who_has_no_key_is_told_so(another: Callable[..., Studio], tmp_path: Pat
         expect(studio.button("Key")).to_be_visible()
 
 
+@pytest.mark.slow
 def test_the_keyboard_tells_what_it_does(studio: Studio) -> None:
     studio.open("pose", robot="planar_2r")
     assert not studio.button("Key").is_visible()

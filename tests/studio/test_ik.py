@@ -52,6 +52,7 @@ def test_a_typed_pose_is_reached_by_the_panda(studio: Studio) -> None:
     assert studio.run(GHOSTS) == [False]  # the robot is there itself
 
 
+@pytest.mark.slow
 def test_all_branches_of_a_typed_arm_are_ghosts(studio: Studio) -> None:
     """The four configurations of the lecture, each where its ghost is."""
     type_table(studio, ANTHROPOMORPHIC)
@@ -99,6 +100,7 @@ def branch(q: list[float]) -> tuple[str, str]:
     return ("front" if reach > 0 else "back"), ("up" if above else "down")
 
 
+@pytest.mark.slow
 def test_many_solutions_of_the_panda(studio: Studio) -> None:
     """A limit on the ghosts, a word that there are more, and each of them when it is pointed at."""
     open_at(studio, "panda", TARGET, q=START)
@@ -108,7 +110,8 @@ def test_many_solutions_of_the_panda(studio: Studio) -> None:
     count = studio.page.locator(".solution").count()
     summary = texts(studio, ".verdict-summary")[0]
     assert summary == (
-        f"{count} solutions; there may be more. The first 8 are in the picture, and any that you point at."
+        f"Infinitely many solutions, of which {count} are listed. "
+        "The first 8 are in the picture, and any that you point at."
     )
     assert studio.run(GHOSTS) == [True] * 8 + [False] * (count - 8)
     studio.page.mouse.move(300, 300)
@@ -124,6 +127,7 @@ def test_many_solutions_of_the_panda(studio: Studio) -> None:
     assert distances[-1] == 0 < min(distances[:-1])
 
 
+@pytest.mark.slow
 def test_the_verdict_where_there_is_none(studio: Studio) -> None:
     open_at(studio, "panda", FAR, q=START)
     studio.until("document.querySelector('.verdict-failure').hidden === false")
@@ -153,6 +157,7 @@ def test_the_verdict_where_there_is_none(studio: Studio) -> None:
 FORMATS = ("quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation", "matrix")
 
 
+@pytest.mark.slow
 def test_every_notation_is_the_same_target(studio: Studio, refusals: set[int]) -> None:
     open_at(studio, "puma560", TARGET)
     notation = studio.field("Notation of the orientation")
@@ -180,6 +185,7 @@ def test_every_notation_is_the_same_target(studio: Studio, refusals: set[int]) -
     assert np.abs(made - typed / np.linalg.norm(typed)).max() < 1e-14
 
 
+@pytest.mark.slow
 def test_the_options_are_those_of_the_call(studio: Studio) -> None:
     open_at(studio, "puma560", {"position": [0.4, 0.1, 0.3], "quaternion_xyzw": [1, 0, 0, 0]})
     studio.until(SOLVED)
@@ -208,6 +214,7 @@ def test_the_options_are_those_of_the_call(studio: Studio) -> None:
     assert studio.button("Within limits").get_attribute("aria-pressed") == "false"
 
 
+@pytest.mark.slow
 def test_long_work_is_cancelled(studio: Studio) -> None:
     waiting: list[Route] = []
 
@@ -224,6 +231,7 @@ def test_long_work_is_cancelled(studio: Studio) -> None:
     studio.until("document.querySelectorAll('.solution').length === 2")
 
 
+@pytest.mark.slow
 def test_ghosts_that_are_there_before_the_meshes_get_them(studio: Studio) -> None:
     """The service answers before a large mesh has come: until then nothing is drawn, and nothing complains."""
     meshes: list[Route] = []
@@ -247,3 +255,33 @@ def test_ghosts_that_are_there_before_the_meshes_get_them(studio: Studio) -> Non
         mesh.continue_()
     studio.wait_for_robot("panda")
     studio.until(f"{parts} > 5")
+
+
+@pytest.mark.slow
+def test_a_family_of_solutions_is_a_sweep(studio: Studio) -> None:
+    """A straight wrist: ghosts all along the family, and a slider that takes the robot along it on the target."""
+    q = [0.3, -1.1, 1.2, 0.4, 0.0, 0.2]
+    pose = studio.fk("ur5_dh", {"joint_positions": [q]})["poses"][0]
+    open_at(studio, "ur5_dh", {key: pose[key] for key in ("position", "quaternion_xyzw")})
+    studio.until(SOLVED)
+    studio.button("All").click()
+    studio.until("document.querySelectorAll('.family').length > 0")
+    assert texts(studio, ".verdict-summary")[0].startswith("Infinitely many solutions, of which ")
+    family = studio.page.locator(".family").first
+    assert "move together" in (family.text_content() or "")
+    shown = "studio.view.scene.getObjectByName('sweep 3')?.visible ?? false"
+    assert not studio.run(shown)
+    slider = family.locator("input")
+    slider.focus()
+    assert studio.run(shown)
+    poses = []
+    for key in ("End", "Home"):
+        studio.page.keyboard.press(key)
+        positions = chain_positions(studio, [f"joint_{i}" for i in range(1, 7)])
+        poses.append(
+            studio.fk("ur5_dh", {"joint_positions": [positions], "pose_format": "matrix"})["poses"][0]["matrix"]
+        )
+    wanted = studio.fk("ur5_dh", {"joint_positions": [q], "pose_format": "matrix"})["poses"][0]["matrix"]
+    assert np.abs(np.array(poses) - wanted).max() < 1e-6
+    slider.blur()
+    assert not studio.run(shown)

@@ -12,6 +12,7 @@ from tests.studio.inverse import GHOSTS, IS_THERE, SOLVED, START, TARGET, TIP_HE
 from tests.test_serve import get
 
 
+@pytest.mark.slow
 def test_the_arrow_keys_take_the_robot_along(studio: Studio) -> None:
     posture = [0.3, -0.4, 0.5, 0.2, 0.6, 0.1]
     studio.open("ik", robot="puma560", q=",".join(map(str, posture)))
@@ -52,6 +53,7 @@ def drag(studio: Studio, axis: int, along: float) -> None:
     mouse.up()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["panda", "anthropomorphic"])
 def test_the_robot_follows_what_is_dragged(studio: Studio, robot: str) -> None:
     start = {"panda": START, "anthropomorphic": "0.3,0.6,-1.2"}[robot]
@@ -75,6 +77,7 @@ def test_the_robot_follows_what_is_dragged(studio: Studio, robot: str) -> None:
     assert studio.button("Turn").is_disabled() == (robot == "anthropomorphic")
 
 
+@pytest.mark.slow
 def test_the_target_is_turned_about_its_own_axes(studio: Studio) -> None:
     studio.open("ik", robot="puma560", q="0.3,-0.4,0.5,0.2,0.6,0.1")
     studio.until(SOLVED)
@@ -107,6 +110,7 @@ def trace(studio: Studio, robot: str, method: str) -> Any:
     return answer["results"][0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["panda", "anthropomorphic"])
 def test_newton_and_the_gradient_walk_to_the_target(studio: Studio, robot: str) -> None:
     """The errors at each step are the service's, and the ghosts stand where its iterates are."""
@@ -150,6 +154,7 @@ def test_newton_and_the_gradient_walk_to_the_target(studio: Studio, robot: str) 
     assert all(studio.run(GHOSTS))
 
 
+@pytest.mark.slow
 def test_the_methods_start_elsewhere_and_change_over(studio: Studio) -> None:
     open_at(studio, "planar_2r", {"position": [0.4, 0.3, 0], "rpy": [0, 0, 0]}, q="0.2,0.3")
     studio.until(SOLVED)

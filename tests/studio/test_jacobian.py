@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.model.arrays import Array
+from gelenk.model.arrays import Array
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
 from tests.test_serve import get
@@ -47,6 +47,7 @@ def body(studio: Studio, name: str) -> Array:
     return np.array(matrix).reshape(4, 4).T[:3, :3]
 
 
+@pytest.mark.slow
 def test_matrix_measures_and_picture_are_the_services(studio: Studio) -> None:
     studio.open("jacobian", robot="panda", q=PANDA)
     J = np.array(answer(studio, "jacobian", "panda", joint_positions=[SOMEWHERE])["jacobians"][0])
@@ -79,6 +80,7 @@ def test_matrix_measures_and_picture_are_the_services(studio: Studio) -> None:
     assert longest[1] / longest[0] == pytest.approx(np.linalg.svd(J_moved[:3])[1][0] / sigmas[0], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_column_belongs_to_its_joint(studio: Studio) -> None:
     studio.open("jacobian", robot="panda", q=PANDA)
     J = np.array(answer(studio, "jacobian", "panda", joint_positions=[SOMEWHERE])["jacobians"][0])
@@ -114,6 +116,7 @@ def arm_jacobian(q: Array) -> Array:
     )
 
 
+@pytest.mark.slow
 def test_the_singularities_of_a_typed_arm(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Jacobian").click()
@@ -162,6 +165,7 @@ FORMS = {
 }
 
 
+@pytest.mark.slow
 def test_every_form_of_the_matrix_and_a_reload(studio: Studio, refusals: set[int]) -> None:
     studio.open("jacobian", robot="panda", q=PANDA)
     for form, call in FORMS.items():

@@ -20,6 +20,7 @@ AXE = Path(__file__).parents[2] / "app" / "studio" / "node_modules" / "axe-core"
 PANELS = ["robot", "pose", "ik", "jacobian", "trajectory", "workspace", "worked"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("panel", PANELS)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_serious(another: Callable[..., Studio], panel: str, scheme: str) -> None:
@@ -34,6 +35,7 @@ def test_axe_finds_nothing_serious(another: Callable[..., Studio], panel: str, s
     assert serious == []
 
 
+@pytest.mark.slow
 def test_axe_finds_nothing_serious_in_the_table(another: Callable[..., Studio]) -> None:
     if not AXE.exists():
         pytest.skip("axe-core is not there: ./dev studio installs it")
@@ -48,6 +50,7 @@ def test_axe_finds_nothing_serious_in_the_table(another: Callable[..., Studio]) 
         assert serious == []
 
 
+@pytest.mark.slow
 def test_axe_finds_nothing_serious_in_a_comparison(another: Callable[..., Studio]) -> None:
     if not AXE.exists():
         pytest.skip("axe-core is not there: ./dev studio installs it")
@@ -69,6 +72,7 @@ CUT_OFF = """[...document.querySelectorAll("#panel, #panel *")].filter((e) =>
 ).map((e) => e.className)"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("panel", PANELS)
 def test_nothing_is_cut_off_at_the_smallest_width(another: Callable[..., Studio], panel: str) -> None:
     studio = another(width=1024, height=768)
@@ -79,6 +83,7 @@ def test_nothing_is_cut_off_at_the_smallest_width(another: Callable[..., Studio]
     assert right == 1024
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_colours_follow_the_system_and_the_switch(another: Callable[..., Studio], scheme: str) -> None:
     studio = another(scheme=scheme)
@@ -93,6 +98,7 @@ def test_colours_follow_the_system_and_the_switch(another: Callable[..., Studio]
     assert (studio.run(ground), studio.run(pixel)) == (before, before_picture)
 
 
+@pytest.mark.slow
 def test_the_keyboard_reaches_everything(studio: Studio) -> None:
     studio.open(robot="planar_2r")
     reached = set()
@@ -158,6 +164,7 @@ def below_a_prefix(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -
         yield {"kept": url, "taken away": stripping}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("prefix", ["kept", "taken away"])
 def test_the_studio_below_a_path_prefix(
     another: Callable[..., Studio], below_a_prefix: dict[str, str], prefix: str

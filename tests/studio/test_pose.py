@@ -38,6 +38,7 @@ def agrees(studio: Studio, robot: str, positions: list[float]) -> None:
     assert float(shown.get_attribute("data-angle") or "nan") < TOLERANCE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_the_sliders_pose_is_the_services(studio: Studio, seed: int) -> None:
     studio.open(robot="panda")
@@ -46,6 +47,7 @@ def test_the_sliders_pose_is_the_services(studio: Studio, seed: int) -> None:
     agrees(studio, "panda", positions)
 
 
+@pytest.mark.slow
 def test_the_sliders_pose_of_a_typed_arm_is_the_services(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     keep(studio, "typed_arm")
@@ -73,6 +75,7 @@ ROWS = {
 }
 
 
+@pytest.mark.slow
 def test_every_notation_is_the_services(studio: Studio) -> None:
     studio.open(robot="ur5_dh")
     positions = slide_to_random(studio, 7)
@@ -87,6 +90,7 @@ def test_every_notation_is_the_services(studio: Studio) -> None:
             assert np.abs(np.array(shown) - numbers).max() < 6e-6, form
 
 
+@pytest.mark.slow
 def test_a_number_is_typed_in_many_ways(studio: Studio) -> None:
     studio.open(robot="planar_2r")
     for text, value in {
@@ -106,6 +110,7 @@ def test_a_number_is_typed_in_many_ways(studio: Studio) -> None:
         assert float(studio.field("joint_1").input_value()) == pytest.approx(value, abs=1e-12), text
 
 
+@pytest.mark.slow
 def test_what_is_no_number_says_so_and_moves_nothing(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0.1,0.2")
     field = studio.field("joint_1, number")
@@ -118,6 +123,7 @@ def test_what_is_no_number_says_so_and_moves_nothing(studio: Studio) -> None:
         assert field.get_attribute("aria-invalid") == "false"
 
 
+@pytest.mark.slow
 def test_degrees_are_shown_and_typed(studio: Studio) -> None:
     studio.open(robot="planar_2r")
     studio.button("deg").click()
@@ -130,6 +136,7 @@ def test_degrees_are_shown_and_typed(studio: Studio) -> None:
     assert studio.field("joint_1, number").input_value() == "0.5"
 
 
+@pytest.mark.slow
 def test_home_zero_and_random(studio: Studio) -> None:
     studio.open(robot="panda")
     limits = {joint["name"]: joint for joint in studio.run("studio.store.value.model.joints")}
@@ -147,6 +154,7 @@ def test_home_zero_and_random(studio: Studio) -> None:
     assert studio.state("positions")["panda_joint4"] == middle
 
 
+@pytest.mark.slow
 def test_a_mimic_joint_follows_its_leader(studio: Studio) -> None:
     """The Panda's second finger has no slider: it does what the first one does."""
     studio.open(robot="panda", tip="panda_rightfinger")
@@ -165,6 +173,7 @@ CHAIN = """(({model, base, tip, positions}) =>
 )(studio.store.value)"""
 
 
+@pytest.mark.slow
 def test_another_chain_is_chosen(studio: Studio) -> None:
     studio.open(robot="panda")
     studio.field("Base frame").select_option("panda_hand")
@@ -188,6 +197,7 @@ MARKS = """(() => {
 """How many meshes are drawn over the robot: an arrow has two."""
 
 
+@pytest.mark.slow
 def test_marks_are_switched(studio: Studio) -> None:
     studio.open(robot="panda")
     before = studio.run(MARKS)
@@ -205,6 +215,7 @@ def test_marks_are_switched(studio: Studio) -> None:
     studio.until("document.querySelectorAll('.label.link').length === 0")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["curl", "Python"])
 def test_the_request_runs_as_it_stands(studio: Studio, language: str) -> None:
     studio.open(robot="panda", q="0.1,-0.7,0.2,-2.1,0.3,1.5,0.7,0.02")
@@ -216,6 +227,7 @@ def test_the_request_runs_as_it_stands(studio: Studio, language: str) -> None:
     assert np.abs(np.array(json.loads(output)["poses"][0]["matrix"]) - studio.tip()).max() < TOLERANCE
 
 
+@pytest.mark.slow
 def test_the_request_as_json_is_what_was_sent(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0.1,0.2")
     studio.page.get_by_text("As request").click()
@@ -234,6 +246,7 @@ SLIDE = """() => {
 }"""
 
 
+@pytest.mark.slow
 def test_a_slider_that_moves_asks_no_more_than_is_answered(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0,0")
     studio.until("document.querySelector('.agreement').dataset.tone === 'good'")
@@ -246,6 +259,7 @@ def test_a_slider_that_moves_asks_no_more_than_is_answered(studio: Studio) -> No
     assert len(asked) == 2, "the first position and the last"
 
 
+@pytest.mark.slow
 def test_the_arrow_keys_move_a_slider_and_turn_the_view(studio: Studio) -> None:
     studio.open(robot="planar_2r", q="0,0")
     studio.field("joint_1").press("ArrowRight")
@@ -255,6 +269,7 @@ def test_the_arrow_keys_move_a_slider_and_turn_the_view(studio: Studio) -> None:
     assert np.abs(np.array(studio.run("studio.view.camera.position.toArray()")) - before).max() > 0.01
 
 
+@pytest.mark.slow
 def test_a_stopped_service_is_told(another: Callable[..., Studio]) -> None:
     studio = another()
     studio.open(robot="planar_2r")

@@ -54,6 +54,7 @@ def download(studio: Studio, button: str) -> str:
     return event.value.path().read_text()
 
 
+@pytest.mark.slow
 def test_a_robot_is_found_and_picked(studio: Studio) -> None:
     studio.open("robot")
     robots = studio.page.locator("button.robot")
@@ -67,6 +68,7 @@ def test_a_robot_is_found_and_picked(studio: Studio) -> None:
     assert robots.first.get_attribute("aria-current") == "true"
 
 
+@pytest.mark.slow
 def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int]) -> None:
     refusals.add(404)
     studio.go("#robot=pandaa&panel=robot")
@@ -78,6 +80,7 @@ def test_an_unknown_robot_says_what_to_do(studio: Studio, refusals: set[int]) ->
     assert studio.page.locator(".problem:visible").count() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["panda", "anthropomorphic"])
 def test_a_robot_is_downloaded_as_urdf_and_as_dh(studio: Studio, name: str) -> None:
     studio.open("robot", robot=name)
@@ -88,6 +91,7 @@ def test_a_robot_is_downloaded_as_urdf_and_as_dh(studio: Studio, name: str) -> N
     assert (status, answer["equivalent"]) == (200, True)
 
 
+@pytest.mark.slow
 def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
     studio.open("pose")
     studio.run(DROP, ["my arm.zip", list(archive())])
@@ -100,6 +104,7 @@ def test_a_zip_dropped_on_the_page_becomes_a_robot(studio: Studio) -> None:
     assert get(f"{studio.url}/v1/robots/my_arm")[0] == 404
 
 
+@pytest.mark.slow
 def test_a_urdf_is_chosen_renamed_and_replaced(studio: Studio, refusals: set[int]) -> None:
     refusals.add(409)
     studio.open("robot")
@@ -120,6 +125,7 @@ def choose(studio: Studio, urdf: str) -> None:
     studio.field("File").set_input_files(file)
 
 
+@pytest.mark.slow
 def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int]) -> None:
     refusals.add(422)
     studio.open("robot", robot="planar_2r")
@@ -138,6 +144,7 @@ def test_a_malformed_urdf_shows_its_error(studio: Studio, refusals: set[int]) ->
         assert studio.page.get_by_role("heading", level=1).text_content() == "planar_2r"
 
 
+@pytest.mark.slow
 def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.until("document.querySelectorAll('.label.z').length === 4")
@@ -148,6 +155,7 @@ def test_a_typed_table_is_on_the_screen_with_its_frames(studio: Studio) -> None:
     assert studio.run("studio.view.countMeshes()") > 0
 
 
+@pytest.mark.slow
 def test_the_frames_of_a_table_are_those_of_its_urdf(studio: Studio) -> None:
     """The picture's own product of rows against the links `frame_i` of the URDF that the service writes."""
     for name in catalogue.TABLES:
@@ -159,6 +167,7 @@ def test_the_frames_of_a_table_are_those_of_its_urdf(studio: Studio) -> None:
         assert np.abs(drawn - written).max() < 1e-12, name
 
 
+@pytest.mark.slow
 def test_the_other_convention_is_the_same_arm(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Pose").click()
@@ -173,6 +182,7 @@ def test_the_other_convention_is_the_same_arm(studio: Studio) -> None:
     assert np.abs(np.array(studio.tip()) - before).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_rows_are_added_and_removed(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.button("Remove row 2").click()
@@ -185,6 +195,7 @@ def test_rows_are_added_and_removed(studio: Studio) -> None:
     studio.until("studio.store.value.model.joints[2].type === 'prismatic'")
 
 
+@pytest.mark.slow
 def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int]) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.type("Row 2, upper limit", "3")
@@ -204,6 +215,7 @@ def test_a_wrong_cell_shows_its_error(studio: Studio, refusals: set[int]) -> Non
     refusals.add(422)
 
 
+@pytest.mark.slow
 def test_base_tool_names_and_limits_are_typed(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Pose").click()
@@ -232,13 +244,14 @@ def test_base_tool_names_and_limits_are_typed(studio: Studio) -> None:
     assert tip[:3, 2] == pytest.approx([np.cos(q2), 0.0, np.sin(q2)], abs=1e-12), "z of the tool along x of frame 3"
 
 
+@pytest.mark.slow
 def test_wrong_names_limits_and_places_show_their_error(studio: Studio, refusals: set[int]) -> None:
     refusals.add(422)
     type_table(studio, ANTHROPOMORPHIC)
     studio.button("Names, velocity, effort").click()
     studio.page.get_by_text("Base and tool").click()
     wrong = {
-        "Row 2, name": ("joint_1", "name: 'joint_1' stands twice", "joint_2"),
+        "Row 2, name": ("joint_1", "name: 'joint_1' is used twice", "joint_2"),
         "Row 1, velocity limit": ("-2", "velocity limit: ", ""),
         "Tool, x": ("1e9", "Tool, x: ", "0"),
         "Base, pitch": ("up", "Base, pitch: Write a number", "0"),
@@ -255,6 +268,7 @@ def test_wrong_names_limits_and_places_show_their_error(studio: Studio, refusals
     assert studio.state("draft").keys() == {"convention", "joints"}, "nothing is left of the places"
 
 
+@pytest.mark.slow
 def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     refusals.add(409)
     type_table(studio, ANTHROPOMORPHIC[1:])
@@ -270,6 +284,7 @@ def test_a_name_that_is_taken(studio: Studio, refusals: set[int]) -> None:
     ][0] == pytest.approx(1.3)
 
 
+@pytest.mark.slow
 def test_the_table_of_a_robot_that_is_kept_stands_in_the_editor(studio: Studio) -> None:
     studio.open("robot", robot="anthropomorphic")
     studio.button("DH table").click()
@@ -280,6 +295,7 @@ def test_the_table_of_a_robot_that_is_kept_stands_in_the_editor(studio: Studio) 
     assert studio.field("Base, x").input_value() == "0"
 
 
+@pytest.mark.slow
 def test_a_table_of_the_course_is_started_from(studio: Studio) -> None:
     open_editor(studio)
     tables = [catalogue.dh_table(name)["joints"] for name in catalogue.TABLES]
@@ -296,6 +312,7 @@ def test_a_table_of_the_course_is_started_from(studio: Studio) -> None:
     assert len(set(found)) == len(titles) == 9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["panda", "ur5"])
 def test_a_robot_without_meshes_is_drawn_as_its_joints(studio: Studio, name: str) -> None:
     """In the place of each shape that the service offers one is drawn there, and moves with its link."""

@@ -86,6 +86,7 @@ def panda(studio: Studio) -> None:
     studio.open("trajectory", robot="panda", q=",".join(map(str, [*HOME, 0.02])))
 
 
+@pytest.mark.slow
 def test_a_motion_of_the_panda(studio: Studio) -> None:
     """Built, planned and scrubbed: joints, audit and the tip's way are those of the service's samples."""
     panda(studio)
@@ -146,6 +147,7 @@ WAY = """(() => {
 """The points of the tip's way in the picture, one after the other."""
 
 
+@pytest.mark.slow
 def test_a_motion_of_a_typed_arm(studio: Studio) -> None:
     """A typed arm is first added to the robots; its time is that of the trapezoid by hand."""
     type_table(studio, ANTHROPOMORPHIC)
@@ -180,6 +182,7 @@ def trapezoid(time: float, distance: float, speed: float, acceleration: float) -
     return distance - acceleration * (duration - time) ** 2 / 2
 
 
+@pytest.mark.slow
 def test_the_profiles_are_the_services_samples(studio: Studio) -> None:
     """Values at the time that is shown, jerk by differences of the samples, and what is drawn on the canvas."""
     studio.open("trajectory", robot="planar_2r", q="0,0.5")
@@ -266,6 +269,7 @@ def drawn(studio: Studio, hue: str, axis: int = 1) -> Any:
     return mask.sum(axis=1) if axis == 0 else mask.any(axis=0)
 
 
+@pytest.mark.slow
 def test_it_is_played(studio: Studio) -> None:
     studio.open("trajectory", robot="planar_2r", q="0,0.5")
     add(studio, "Joint target", [0.4, 0.7])
@@ -294,6 +298,7 @@ def test_it_is_played(studio: Studio) -> None:
     assert float(studio.field("Time in the motion").input_value()) != pytest.approx(answer["duration"] / 100)
 
 
+@pytest.mark.slow
 def test_segments_are_changed_moved_and_removed(studio: Studio) -> None:
     """What is typed is what is asked for; another panel and a reload leave all of it as it is."""
     studio.open("trajectory", robot="ur5_dh", q="0,-1.2,1.4,-1.7,-1.5,0.2")
@@ -353,6 +358,7 @@ def segments(studio: Studio) -> list[dict[str, Any]]:
     return found
 
 
+@pytest.mark.slow
 def test_a_spline_is_passed_at_given_times(studio: Studio) -> None:
     """Through the waypoints at their times; of the tip, once it is one of poses."""
     start, first, second = [0.0, 0.5], [0.4, 0.7], [0.9, 0.2]
@@ -380,6 +386,7 @@ def test_a_spline_is_passed_at_given_times(studio: Studio) -> None:
     assert "changed since" in (studio.page.locator(".plan-status").text_content() or "")
 
 
+@pytest.mark.slow
 def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[int]) -> None:
     """A refused field is told at its segment; a way out of reach is shown as far as it goes."""
     studio.open("trajectory", robot="ur5_dh", q="0,-1.2,1.4,-1.7,-1.5,0.2")
@@ -410,6 +417,7 @@ def test_what_cannot_be_done_says_why_and_where(studio: Studio, refusals: set[in
     assert studio.page.locator(".segment-error:visible").count() == 0
 
 
+@pytest.mark.slow
 def test_a_plan_is_cancelled(studio: Studio) -> None:
     studio.open("trajectory", robot="planar_2r", q="0,0.5")
     add(studio, "Joint target", [0.4, 0.7])
@@ -430,6 +438,7 @@ def test_a_plan_is_cancelled(studio: Studio) -> None:
     assert plan(studio)["completed_fraction"] == 1
 
 
+@pytest.mark.slow
 def test_a_motion_in_a_link_that_is_none_is_left_aside(studio: Studio) -> None:
     own = {"robot": "planar_2r", "base_frame": "base", "tip_frame": "tool", "start": [0.1, 0.2], "segments": []}
     for motion in (
@@ -446,6 +455,7 @@ def test_a_motion_in_a_link_that_is_none_is_left_aside(studio: Studio) -> None:
     assert studio.state("motion") == own
 
 
+@pytest.mark.slow
 def test_axe_finds_nothing_serious_in_a_planned_motion(another: Callable[..., Studio]) -> None:
     if not AXE.exists():
         pytest.skip("axe-core is not there: ./dev studio installs it")

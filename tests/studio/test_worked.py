@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Request
 
-from app.model.arrays import Array
+from gelenk.model.arrays import Array
 from tests.oracles import catalogue
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
@@ -61,6 +61,7 @@ def arm_pose(q: Array) -> tuple[Array, Array]:
     return T, J
 
 
+@pytest.mark.slow
 def test_a_typed_table_is_worked_out_and_so_is_the_robot_it_becomes(studio: Studio) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Worked solution").click()
@@ -90,6 +91,7 @@ def test_a_typed_table_is_worked_out_and_so_is_the_robot_it_becomes(studio: Stud
     assert numbers(studio, "Determinant").item() == pytest.approx(np.linalg.det(J), abs=ROUNDING)
 
 
+@pytest.mark.slow
 def test_numbers_follow_the_slider_while_formulas_stay(studio: Studio) -> None:
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE, q="0.3,0.6,-0.8", worked="jacobian")
     studio.until(AGREES)
@@ -111,6 +113,7 @@ def test_numbers_follow_the_slider_while_formulas_stay(studio: Studio) -> None:
     assert calls == [f"{studio.url}/v1/dh/derive"]  # once, at rest
 
 
+@pytest.mark.slow
 def test_the_panda_is_worked_out_by_the_table_of_its_chain(studio: Studio) -> None:
     studio.open("worked", robot="panda", worked="jacobian", q="0.2,-0.785,0.1,-2.356,0.3,1.571,0.785,0")
     studio.until(AGREES)
@@ -136,6 +139,7 @@ def test_the_panda_is_worked_out_by_the_table_of_its_chain(studio: Studio) -> No
     assert numbers(studio, "T_0_7").size == 0
 
 
+@pytest.mark.slow
 def test_a_singular_configuration_is_gone_to(studio: Studio) -> None:
     studio.open("worked", robot="anthropomorphic", worked="singular", q="0.3,0.6,-0.8")
     studio.until(AGREES)
@@ -148,6 +152,7 @@ def test_a_singular_configuration_is_gone_to(studio: Studio) -> None:
         assert numbers(studio, "Determinant").item() == 0.0
 
 
+@pytest.mark.slow
 def test_a_planar_arm_has_equations_of_motion(studio: Studio) -> None:
     studio.open("worked", robot="planar_2r", worked="motion")
     studio.until(f"{AGREES} && document.querySelectorAll('.sheet .step').length > 2")
@@ -160,6 +165,7 @@ def test_a_planar_arm_has_equations_of_motion(studio: Studio) -> None:
     assert shown == {step["title"] for step in steps}, "a step of the service is in no part"
 
 
+@pytest.mark.slow
 def test_it_is_written_otherwise_copied_and_reopened(studio: Studio) -> None:
     studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE, q="0.3,0.6,-0.8")
@@ -182,6 +188,7 @@ def test_it_is_written_otherwise_copied_and_reopened(studio: Studio) -> None:
     assert '"notation": "full"' in (call.text_content() or "")
 
 
+@pytest.mark.slow
 def test_a_table_that_cannot_be_worked_out_says_why(studio: Studio, refusals: set[int]) -> None:
     refusals.add(422)
     rows: list[dict[str, Any]] = [{"type": "revolute", "a": 0.3, "alpha": 0, "d": 0, "theta": 0} for _ in range(2)]
@@ -195,6 +202,7 @@ def test_a_table_that_cannot_be_worked_out_says_why(studio: Studio, refusals: se
     problem.wait_for(state="hidden")
 
 
+@pytest.mark.slow
 def test_long_work_is_stopped(studio: Studio) -> None:
     studio.open("worked", dh_table=ANTHROPOMORPHIC_TABLE)
     studio.until(AGREES)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.model.arrays import Array
+from gelenk.model.arrays import Array
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
 from tests.test_serve import get
@@ -75,6 +75,7 @@ def downloaded(studio: Studio, button: str) -> bytes:
     return content
 
 
+@pytest.mark.slow
 def test_the_cloud_of_the_panda(studio: Studio) -> None:
     studio.open("workspace", robot="panda", **{"workspace.samples": str(SAMPLES)})
     compute(studio)
@@ -111,6 +112,7 @@ def test_the_cloud_of_the_panda(studio: Studio) -> None:
     assert np.ptp(positions[inside, 0]) < 0.06
 
 
+@pytest.mark.slow
 def test_files_the_best_configuration_and_the_link(studio: Studio) -> None:
     studio.open("workspace", robot="scara", **{"workspace.samples": str(SAMPLES)})
     compute(studio)
@@ -143,6 +145,7 @@ def test_files_the_best_configuration_and_the_link(studio: Studio) -> None:
     assert asked(studio, job)["status"] == 404
 
 
+@pytest.mark.slow
 def test_the_colours_are_even(studio: Studio) -> None:
     """Along the scale each step is as large as any other in OKLab, and lighter."""
     studio.open("workspace", robot="planar_2r")
@@ -159,6 +162,7 @@ def test_the_colours_are_even(studio: Studio) -> None:
     assert (np.diff(lab[:, 0]) > 0.02).all()
 
 
+@pytest.mark.slow
 def test_the_grid_of_a_typed_arm(studio: Studio, refusals: set[int]) -> None:
     type_table(studio, ANTHROPOMORPHIC)
     studio.page.get_by_role("tab", name="Workspace").click()
@@ -192,6 +196,7 @@ def test_the_grid_of_a_typed_arm(studio: Studio, refusals: set[int]) -> None:
     assert 0.98 * most < best < 1.005 * most
 
 
+@pytest.mark.slow
 def test_a_job_goes_on_without_its_panel_until_it_is_cancelled(studio: Studio, refusals: set[int]) -> None:
     studio.open("workspace", robot="panda", **{"workspace.kind": "dexterity"})
     studio.button("Compute").click()
@@ -223,6 +228,7 @@ def test_a_job_goes_on_without_its_panel_until_it_is_cancelled(studio: Studio, r
     assert job not in studio.page.url
 
 
+@pytest.mark.slow
 def test_another_robots_workspace_is_not_drawn_on_this_one(studio: Studio) -> None:
     studio.open("workspace", robot="planar_2r", **{"workspace.samples": str(SAMPLES)})
     compute(studio)

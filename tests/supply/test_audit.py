@@ -55,6 +55,7 @@ def test_nothing_known(
     assert capsys.readouterr().out.splitlines() == told
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("arguments", [[], ["--if-reachable"]])
 def test_a_vulnerability_fails_with_the_version_that_mends_it(
     monkeypatch: pytest.MonkeyPatch,
@@ -68,6 +69,7 @@ def test_a_vulnerability_fails_with_the_version_that_mends_it(
     assert capsys.readouterr().out.splitlines()[1:] == ["idna 1.0: PYSEC-2099-1, fixed in 99.1"]
 
 
+@pytest.mark.slow
 def test_what_is_installed_in_a_folder(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, folder: Path
 ) -> None:
@@ -110,6 +112,7 @@ def test_ranges_of_versions(version: str, is_affected: bool) -> None:
     assert not advisories.is_affected(advisory, "another", version)
 
 
+@pytest.mark.slow
 def test_nobody_there_is_said_and_fails_unless_told_otherwise(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], lock: Path
 ) -> None:

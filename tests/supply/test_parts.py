@@ -37,6 +37,7 @@ def test_the_bundles_parts_are_those_that_are_no_tools() -> None:
     assert not names & {"esbuild", "typescript", "prettier"}
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(
     ("expression", "allowed"),
     [
@@ -58,6 +59,7 @@ def test_an_expression_is_judged_by_its_parts(expression: str, allowed: bool) ->
     assert licences.is_allowed(expression) is allowed
 
 
+@pytest.mark.slow
 def test_every_part_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
     licences.main()
     *lines, last = capsys.readouterr().out.splitlines()
@@ -66,6 +68,7 @@ def test_every_part_is_allowed(capsys: pytest.CaptureFixture[str]) -> None:
     assert [line.split()[0] for line in lines] == [part.name for part in here]
 
 
+@pytest.mark.slow
 def test_a_part_that_is_not_allowed_fails_by_name(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import MotionLimits, Segment
-from app.trajectory.splines import Boundary
-from app.trajectory.words import Law
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import MotionLimits, Segment
+from gelenk.trajectory.splines import Boundary
+from gelenk.trajectory.words import Law
 from tests.robots import robot
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")

@@ -8,11 +8,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.trajectory.blended_motion import BlendedMotion, leg_duration, rest_to_rest
-from app.trajectory.fly_over import Blend, Corner, Given, blended, corner_of
-from app.trajectory.fly_over_check import checked
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.blended_motion import BlendedMotion, leg_duration, rest_to_rest
+from gelenk.trajectory.fly_over import Blend, Corner, Given, blended, corner_of
+from gelenk.trajectory.fly_over_check import checked
 
 
 def corner(A: Any, B: Any, C: Any, v1: float, v2: float) -> Corner:
@@ -118,7 +118,7 @@ def test_straight_on_at_one_speed_nothing_changes() -> None:
     way = corner((0, 0), (1, 0), (2, 0), 0.5, 0.5)
     blend = blended(way, "max_acceleration", 1.0)
     assert (blend.time, blend.distance_before, blend.closest_distance) == (0.0, 0.0, 0.0)
-    with pytest.raises(ValueError, match="no time"):
+    with pytest.raises(ValueError, match="zero time"):
         _ = blend.motion
     whole = rest_to_rest(blend, 1.0)
     assert whole.duration == pytest.approx(leg_duration(2.0, 0.5, 1.0)), "the trapezoid of the whole way"

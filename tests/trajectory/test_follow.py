@@ -10,21 +10,21 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.ik.words import Direction
-from app.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import InvalidField
-from app.model.poses import Poses, transform
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
-from app.trajectory import follow_trace
-from app.trajectory.follow import JointWay, follow
-from app.trajectory.paths import Path, PathSamples, Unit, circle, line, sequence
-from app.trajectory.problem import Following
-from app.trajectory.spline_paths import blended_lines, spline
-from app.trajectory.splines import cubic_spline
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.words import Direction
+from gelenk.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses, transform
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
+from gelenk.trajectory import follow_trace
+from gelenk.trajectory.follow import JointWay, follow
+from gelenk.trajectory.paths import Path, PathSamples, Unit, circle, line, sequence
+from gelenk.trajectory.problem import Following
+from gelenk.trajectory.spline_paths import blended_lines, spline
+from gelenk.trajectory.splines import cubic_spline
 from tests.robots import of_table, robot, rows, samples
 
 XY = Task(("x", "y"))
@@ -127,6 +127,7 @@ ARMS: list[tuple[str, Task]] = [
 ]
 
 
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(("name", "task"), ARMS)
 def test_the_tip_stays_on_the_way_between_knots(name: str, task: Task, kind: str) -> None:
@@ -160,7 +161,7 @@ def test_the_tip_stays_on_the_way_between_knots(name: str, task: Task, kind: str
 
 @pytest.mark.parametrize(("name", "task"), ARMS)
 def test_rates_are_those_of_the_pseudo_inverse(name: str, task: Task) -> None:
-    """Between knots to a thousandth; at knots exactly, and q'' as a difference of J⁺ξ along the way says."""
+    """To a thousandth; at knots J q' = ξ exactly, and J q'' is what differences of ξ and J along the way say."""
     arm = robot(name)
     chain = arm.chain(None, None)
     q = starts(chain, task, 1, seed=7)[0]
@@ -168,7 +169,7 @@ def test_rates_are_those_of_the_pseudo_inverse(name: str, task: Task) -> None:
     way = follow(arm, chain, path, q, Following(task=task))
     velocities = way.positions.derivative()
 
-    def rates(s: Array, qs: Array) -> Array:
+    def counting(s: Array, qs: Array) -> tuple[Array, Array]:
         at = path.at(s)
         Js = chain_jacobians(chain.flat, qs)[2]
         turns = at.poses.rotations.transpose(0, 2, 1)
@@ -176,20 +177,31 @@ def test_rates_are_those_of_the_pseudo_inverse(name: str, task: Task) -> None:
         if 0 < len(task) - task.positions < 3:
             Js[:, 3:], xi[:, 3:] = turns @ Js[:, 3:], (turns @ xi[:, 3:, None])[:, :, 0]
         mask = task.weights > 0.0
-        found: Array = (np.linalg.pinv(Js[:, mask]) @ xi[:, mask, None])[:, :, 0]
+        return Js[:, mask], xi[:, mask]
+
+    def times(matrices: Array, vectors: Array) -> Array:
+        found: Array = np.einsum("nij,nj->ni", matrices, vectors)
+        return found
+
+    def inverses(Js: Array) -> Array:
+        found: Array = np.asarray(np.linalg.pinv(Js), dtype=np.float64)
         return found
 
     s = inside(way, 100)
-    np.testing.assert_allclose(
-        velocities.at(s), rates(s, way.positions.at(s)), atol=1.1e-3 * np.abs(velocities.at(s)).max()
-    )
+    Js, xi = counting(s, way.positions.at(s))
+    np.testing.assert_allclose(velocities.at(s), times(inverses(Js), xi), atol=1.1e-3 * np.abs(velocities.at(s)).max())
     knots = way.positions.breaks[1:-1]
-    qs, dqs = way.positions.at(knots), velocities.at(knots)
-    np.testing.assert_allclose(dqs, rates(knots, qs), atol=1e-9 * np.abs(dqs).max())
-    step = 1e-5
-    before, after = (rates(knots + k * step, qs + k * step * dqs) for k in (-1.0, 1.0))
-    ddqs = way.positions.derivative(2).at(knots)
-    np.testing.assert_allclose(ddqs, (after - before) / (2.0 * step), atol=1e-4 * (1.0 + np.abs(ddqs).max()))
+    qs, dqs, ddqs = way.positions.at(knots), velocities.at(knots), way.positions.derivative(2).at(knots)
+    Js, xi = counting(knots, qs)
+    np.testing.assert_allclose(
+        times(inverses(Js), times(Js, dqs)), times(inverses(Js), xi), atol=1e-9 * np.abs(dqs).max()
+    )
+    step, missing = 1e-5, []
+    for k in (-1.0, 1.0):
+        beside, wanted = counting(knots + k * step, qs + k * step * dqs)
+        missing.append(times(inverses(Js), wanted - times(beside, dqs)))
+    bends = (missing[1] - missing[0]) / (2.0 * step)
+    np.testing.assert_allclose(times(inverses(Js), times(Js, ddqs)), bends, atol=1e-4 * (1.0 + np.abs(ddqs).max()))
 
 
 @pytest.mark.parametrize(("name", "task"), ARMS)
@@ -446,7 +458,7 @@ def test_a_start_elsewhere_is_refused() -> None:
 
 
 def test_deviations_and_sigma_are_told() -> None:
-    """What is told is what a fine grid shows."""
+    """What is told of σ is what a fine grid shows; of deviations it is more, since exact knots are put between."""
     arm = robot("ur5")
     chain = arm.chain(None, None)
     q = starts(chain, FULL_POSE, 1, seed=1)[0]
@@ -455,8 +467,8 @@ def test_deviations_and_sigma_are_told() -> None:
     s = np.linspace(0.0, way.reached, 2000)
     qs = way.positions.at(s)
     off, angle = deviations(path.at(s).poses, pinocchio_poses(arm, chain, qs), FULL_POSE)
-    assert way.path_deviation == pytest.approx(off, rel=0.2, abs=1e-9)
-    assert way.orientation_deviation == pytest.approx(angle, rel=0.3, abs=1e-9)
+    assert off <= way.path_deviation <= 1e-4
+    assert angle <= way.orientation_deviation <= 1e-3
     sigmas = np.linalg.svd(chain_jacobians(chain.flat, qs)[2], compute_uv=False)[:, -1]
     assert way.min_singular_value == pytest.approx(sigmas.min(), rel=1e-2)
     assert math.isclose(way.min_singular_value_s, s[sigmas.argmin()], abs_tol=0.1 * path.extent)
@@ -474,6 +486,7 @@ def test_too_many_knots_and_too_small_tolerances_are_refused(monkeypatch: pytest
         follow(arm, chain, path, q, Following(position_tolerance=1e-9))
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ur5", "panda"])
 def test_random_ways_between_random_configurations_end_well_or_say_why(name: str) -> None:
     """Long lines anywhere: no exception, no number that is none, and what was done is right."""

@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.kernels import chain_jacobians
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.robot import Robot
-from app.trajectory import follow as follow_module
-from app.trajectory.follow import JointWay, follow
-from app.trajectory.follow_course import Course
-from app.trajectory.follow_trace import Trace, traced
-from app.trajectory.paths import Path, line
-from app.trajectory.problem import Following
-from app.trajectory.words import NearSingularity
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.kernels import chain_jacobians
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
+from gelenk.trajectory import follow as follow_module
+from gelenk.trajectory.follow import JointWay, follow
+from gelenk.trajectory.follow_course import Course
+from gelenk.trajectory.follow_trace import Trace, traced
+from gelenk.trajectory.paths import Path, line
+from gelenk.trajectory.problem import Following
+from gelenk.trajectory.words import NearSingularity
 from tests.robots import of_table, robot, rows
 from tests.trajectory.test_follow import XY, KnownWay, deviations, moved, pinocchio_poses, pose, starts
 
@@ -391,7 +391,7 @@ def test_a_branch_ends_while_another_goes_on() -> None:
     arm = robot("ur5")
     chain = arm.chain(None, None)
     q = np.array([0.1, -1.2, 1.4, -0.7, 0.5, 0.3])
-    path = line(pose(chain, q), moved(pose(chain, q), np.array([0.0, 0.4, 0.0]), np.zeros(3)))
+    path = line(pose(chain, q), moved(pose(chain, q), np.array([0.0, 0.375, 0.0]), np.zeros(3)))
     way = follow(arm, chain, path, q, Following(near_singularity="slow_down"))
     assert way.stop is not None
     assert way.stop.reason == "branch_change"

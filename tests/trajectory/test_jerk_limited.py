@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import ruckig
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.trajectory.extremes import peaks
-from app.trajectory.jerk_limited import JerkLimits, JointState, Synchronization, at_rest, jerk_limited
-from app.trajectory.polynomial import PiecewisePolynomial
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.jerk_limited import JerkLimits, JointState, Synchronization, at_rest, jerk_limited
+from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 
 def limits(*triples: tuple[float, float, float]) -> JerkLimits:
@@ -67,6 +67,7 @@ def by_ruckig(start: JointState, end: JointState, most: JerkLimits, shares: Arra
     return found.duration, np.array([found.at_time(share * found.duration)[0] for share in shares])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("is_moving", [False, True])
 def test_it_ends_where_it_should_keeps_the_limits_and_is_smooth(is_moving: bool) -> None:
     for seed in range(200):

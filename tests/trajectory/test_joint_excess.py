@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.trajectory.joint_excess import first_limit_excess
-from app.trajectory.joint_splines import longest_prefix, promised, spline_motion
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Segment
-from app.trajectory.splines import Boundary
-from app.trajectory.words import Law
+from gelenk.trajectory.joint_excess import first_limit_excess
+from gelenk.trajectory.joint_splines import longest_prefix, promised, spline_motion
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Segment
+from gelenk.trajectory.splines import Boundary
+from gelenk.trajectory.words import Law
 from tests.trajectory.arms import (
     BOUNDARIES,
     LAWS,

@@ -8,13 +8,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.trajectory.joint_splines import compared_spline, promised, spline_motion, spline_way
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Segment
-from app.trajectory.splines import Boundary
-from app.trajectory.words import Law
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.joint_splines import compared_spline, promised, spline_motion, spline_way
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Segment
+from gelenk.trajectory.splines import Boundary
+from gelenk.trajectory.words import Law
 from tests.trajectory.arms import (
     ARMS,
     BOUNDARIES,
@@ -84,6 +84,7 @@ def test_the_way_is_the_spline_that_scipy_finds(boundary: Boundary) -> None:
 # Real arms
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ARMS)
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_motions_through_waypoints_of_real_arms(name: str, boundary: Boundary) -> None:

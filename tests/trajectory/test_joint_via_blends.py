@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.model.errors import InvalidField
-from app.trajectory.joint_motion import point_to_point_motion
-from app.trajectory.problem import MotionLimits
-from app.trajectory.via_blends import via_blends
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.joint_motion import point_to_point_motion
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.via_blends import via_blends
 from tests.trajectory.arms import ARMS, arm, end_state, excess, jump
 
 BOUND = MotionLimits(np.array([1.0, 0.8]), np.array([3.0, 2.0]), np.array([1e6, 1e6]))

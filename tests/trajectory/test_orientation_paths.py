@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
-from app.model.arrays import Array
-from app.trajectory.orientation_paths import (
+from gelenk.model.arrays import Array
+from gelenk.trajectory.orientation_paths import (
     AxisAngle,
     OrientationPath,
     axis_angle,
@@ -15,9 +15,9 @@ from app.trajectory.orientation_paths import (
     through,
     travelled,
 )
-from app.trajectory.rotation_splines import rotation_corner, rotation_spline
-from app.trajectory.so3 import angular_accelerations, angular_velocities, rate_matrices
-from app.trajectory.zyz_paths import zyz_paths
+from gelenk.trajectory.rotation_splines import rotation_corner, rotation_spline
+from gelenk.trajectory.so3 import angular_accelerations, angular_velocities, rate_matrices
+from gelenk.trajectory.zyz_paths import zyz_paths
 
 HALF = np.array([0.5])
 ENDS = np.array([0.0, 1.0])

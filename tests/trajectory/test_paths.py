@@ -9,13 +9,13 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, Slerp
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.model.poses import Poses, transform
-from app.trajectory.fly_over import blended, corner_of
-from app.trajectory.paths import Path, PathSequence, circle, line, sequence
-from app.trajectory.spline_paths import blended_lines, spline
-from app.trajectory.zyz_paths import zyz_paths, zyz_turns
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses, transform
+from gelenk.trajectory.fly_over import blended, corner_of
+from gelenk.trajectory.paths import Path, PathSequence, circle, line, sequence
+from gelenk.trajectory.spline_paths import blended_lines, spline
+from gelenk.trajectory.zyz_paths import zyz_paths, zyz_turns
 
 
 def poses(count: int, seed: int, step: float = 0.7) -> Poses:

@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from app.kinematics.ik.task import Task
-from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array
-from app.model.errors import AuditFailed, InvalidField, OutsideLimits
-from app.model.poses import Poses
-from app.trajectory import plan as planning
-from app.trajectory.audit import audit
-from app.trajectory.audit_demands import Demands, Stretch, TipLimits
-from app.trajectory.plan import plan
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import Following, MotionLimits, Problem, Segment, Trajectory
-from app.trajectory.words import Law, OrientationLaw
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.errors import AuditFailed, InvalidField, OutsideLimits
+from gelenk.model.poses import Poses
+from gelenk.trajectory import plan as planning
+from gelenk.trajectory.audit import audit
+from gelenk.trajectory.audit_demands import Demands, Stretch, TipLimits
+from gelenk.trajectory.plan import plan
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Following, MotionLimits, Problem, Segment, Trajectory
+from gelenk.trajectory.words import Law, OrientationLaw
 from tests.robots import robot
 
 PANDA = robot("panda")
@@ -136,6 +136,7 @@ def test_a_blend_of_a_given_time_is_the_course_s_fly_over(law: Law) -> None:
     assert np.linalg.norm(tip_at(found, times).positions - wanted, axis=1).max() < 3e-4
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("law", ["cubic", "trapezoidal", "jerk_limited", "time_optimal"])
 @pytest.mark.parametrize("limits", [TIP, replace(LIMITS, tip=TipLimits(speed=0.25))], ids=["limits", "speed alone"])
 def test_a_blend_keeps_to_its_acceleration(law: Law, limits: MotionLimits) -> None:

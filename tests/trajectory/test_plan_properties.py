@@ -12,12 +12,12 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.robot import Robot
-from app.trajectory.plan import plan
-from app.trajectory.problem import MotionLimits, Problem, Segment, Trajectory
-from app.trajectory.words import Law
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
+from gelenk.trajectory.plan import plan
+from gelenk.trajectory.problem import MotionLimits, Problem, Segment, Trajectory
+from gelenk.trajectory.words import Law
 from tests.robots import robot
 
 ARMS = ("panda", "ur5", "puma560", "xarm7", "stanford", "kinova")
@@ -96,6 +96,7 @@ def derivative(found: Trajectory, times: Array, order: int) -> Array:
     return values
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "law"), list(product(ARMS, LAWS)))
 def test_every_answer_keeps_to_what_it_promises(name: str, law: Law) -> None:
     whole = 0

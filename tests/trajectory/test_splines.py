@@ -7,13 +7,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_banded
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.trajectory.certify import Promise, certified
-from app.trajectory.extremes import peaks
-from app.trajectory.spline_steps import spline_steps
-from app.trajectory.splines import Boundary, Ends, Spline, cubic_spline, through_samples
-from app.trajectory.tridiagonal import Tridiagonal, solution
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.certify import Promise, certified
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.spline_steps import spline_steps
+from gelenk.trajectory.splines import Boundary, Ends, Spline, cubic_spline, through_samples
+from gelenk.trajectory.tridiagonal import Tridiagonal, solution
 
 BOUNDARIES: tuple[Boundary, ...] = ("clamped", "natural", "not_a_knot", "periodic", "assigned")
 
@@ -127,6 +127,7 @@ def rival(times: Array, q: Array, boundary: Boundary, given: Ends) -> CubicSplin
     return CubicSpline(times, q, bc_type=conditions)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("boundary", BOUNDARIES[:4])
 def test_a_thousand_random_splines_are_those_of_scipy(boundary: Boundary) -> None:
     rng = np.random.default_rng(BOUNDARIES.index(boundary))

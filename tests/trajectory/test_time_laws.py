@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly, CubicHermiteSpline
 
-from app.model.arrays import Array
-from app.trajectory.certify import Promise, certified
-from app.trajectory.extremes import Peaks, candidates, peaks
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.time_law_steps import lift_steps, peak_step, two_point_steps
-from app.trajectory.time_laws import between, hermite_pieces, normalised, quartic_cubic_quartic
+from gelenk.model.arrays import Array
+from gelenk.trajectory.certify import Promise, certified
+from gelenk.trajectory.extremes import Peaks, candidates, peaks
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.time_law_steps import lift_steps, peak_step, two_point_steps
+from gelenk.trajectory.time_laws import between, hermite_pieces, normalised, quartic_cubic_quartic
 
 
 def column(*values: float) -> Array:

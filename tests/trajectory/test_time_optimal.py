@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField, TooLarge
-from app.trajectory.extremes import peaks
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.time_optimal import TimeOptimal, time_optimal
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField, TooLarge
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.time_optimal import TimeOptimal, time_optimal
 from tests.oracles import path_speeds
 
 
@@ -156,6 +156,7 @@ def test_it_takes_as_long_as_a_linear_program_says(seed: int) -> None:
     assert expected * 0.998 < found.motion.duration < expected * 1.01
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("seed", range(10))
 def test_it_is_within_two_percent_of_another_implementation_on_a_finer_grid(seed: int) -> None:
     toppra = pytest.importorskip("toppra")

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.model.arrays import Array
-from app.trajectory.extremes import peaks
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.splines import cubic_spline, through_samples
-from app.trajectory.time_laws import between
-from app.trajectory.time_scaling import Limits, uniform_scaling
-from app.trajectory.time_scaling_steps import scaling_steps
+from gelenk.model.arrays import Array
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.splines import cubic_spline, through_samples
+from gelenk.trajectory.time_laws import between
+from gelenk.trajectory.time_scaling import Limits, uniform_scaling
+from gelenk.trajectory.time_scaling_steps import scaling_steps
 
 
 def printed(value: float, text: str) -> bool:
@@ -92,6 +92,7 @@ def test_what_stands_still_has_no_factor() -> None:
     assert all("without the 1" not in step.title for step in scaling_steps(found, 1.0))
 
 
+@pytest.mark.slow
 def test_a_thousand_scaled_motions_just_reach_a_limit_and_go_beyond_none() -> None:
     rng = np.random.default_rng(48)
     binding: set[str] = set()

@@ -9,18 +9,18 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.model.poses import Poses, transform
-from app.trajectory.audit_demands import TipLimits
-from app.trajectory.extremes import peaks
-from app.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
-from app.trajectory.paths import circle, line
-from app.trajectory.polynomial import PiecewisePolynomial, joined
-from app.trajectory.problem import MotionLimits
-from app.trajectory.spline_paths import blended_lines
-from app.trajectory.timing import Timed, compared, timed
-from app.trajectory.words import Law
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses, transform
+from gelenk.trajectory.audit_demands import TipLimits
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.paths import circle, line
+from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.spline_paths import blended_lines
+from gelenk.trajectory.timing import Timed, compared, timed
+from gelenk.trajectory.words import Law
 from tests.trajectory.timed_ways import LAWS, SMOOTH, at_breaks, gantry, joint_ratios, limits, planar_line, straight
 
 # The lecture's numbers

@@ -6,22 +6,22 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.kernels import chain_poses
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.poses import transform
-from app.trajectory.audit import audit
-from app.trajectory.audit_demands import Demands, JointLimits, TipLimits
-from app.trajectory.composition import in_time, times_at
-from app.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
-from app.trajectory.paths import circle
-from app.trajectory.problem import MotionLimits
-from app.trajectory.s_curves import lasting, planned, profiles
-from app.trajectory.time_laws import between
-from app.trajectory.time_optimal import time_optimal
-from app.trajectory.timing import Timed, compared, timed
-from app.trajectory.tip_rows import tip_rows
-from app.trajectory.way_geometry import geometry_of, tip_through
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.poses import transform
+from gelenk.trajectory.audit import audit
+from gelenk.trajectory.audit_demands import Demands, JointLimits, TipLimits
+from gelenk.trajectory.composition import in_time, times_at
+from gelenk.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.paths import circle
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.s_curves import lasting, planned, profiles
+from gelenk.trajectory.time_laws import between
+from gelenk.trajectory.time_optimal import time_optimal
+from gelenk.trajectory.timing import Timed, compared, timed
+from gelenk.trajectory.tip_rows import tip_rows
+from gelenk.trajectory.way_geometry import geometry_of, tip_through
 from tests.robots import robot
 from tests.trajectory.timed_ways import (
     LAWS,
@@ -48,6 +48,7 @@ def assert_at_rest(found: Timed) -> None:
     assert np.abs(found.motion.derivative().at(found.motion.breaks[[0, -1]])).max() <= 1e-11 * fastest
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("block", range(7))
 def test_no_limit_is_passed_along_random_ways(block: int) -> None:
     for seed in range(30 * block, 30 * (block + 1)):
@@ -88,6 +89,7 @@ def tip_ratios(chain: Chain, found: Timed, tip: TipLimits) -> Array:
     return np.array([np.linalg.norm(rate, axis=1).max(initial=0.0) / b for rate, b in zip(rates, bounds, strict=True)])
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("seed", range(12))
 def test_no_limit_of_the_tip_is_passed_where_the_joints_lead_it(seed: int) -> None:
     rng = np.random.default_rng(1000 + seed)

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.model.arrays import Array
-from app.model.errors import InvalidField
-from app.trajectory.certify import Promise, certified
-from app.trajectory.extremes import peaks
-from app.trajectory.parabolic_blends import with_accelerations, with_blend_times
-from app.trajectory.trapezoid import PointToPoint, Task, fastest, lasting, point_to_point
-from app.trajectory.trapezoid_steps import blend_steps, trapezoid_steps
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.certify import Promise, certified
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.parabolic_blends import with_accelerations, with_blend_times
+from gelenk.trajectory.trapezoid import PointToPoint, Task, fastest, lasting, point_to_point
+from gelenk.trajectory.trapezoid_steps import blend_steps, trapezoid_steps
 
 
 def printed(value: float, text: str) -> bool:

@@ -5,13 +5,13 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from app.model.arrays import Array
-from app.trajectory.audit_demands import TipLimits
-from app.trajectory.paths import Path
-from app.trajectory.polynomial import PiecewisePolynomial
-from app.trajectory.problem import MotionLimits
-from app.trajectory.timing import Timed
-from app.trajectory.words import Law
+from gelenk.model.arrays import Array
+from gelenk.trajectory.audit_demands import TipLimits
+from gelenk.trajectory.paths import Path
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.timing import Timed
+from gelenk.trajectory.words import Law
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")
 SMOOTH = ("quintic", "septic", "jerk_limited")

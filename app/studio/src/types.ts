@@ -142,6 +142,13 @@ export interface InverseSolution extends Errors {
   free_joints?: string[] | null;
 }
 
+export interface SolutionFamily {
+  free_joints: string[];
+  relation: string | null;
+  text: string;
+  sweep: number[][];
+}
+
 export interface Iteration {
   error: number;
   min_singular_value: number;
@@ -156,6 +163,7 @@ export interface InverseResult {
   reason: string | null;
   nearest?: (Errors & { joint_positions: number[]; pose: Pose }) | null;
   complete?: boolean | null;
+  families?: SolutionFamily[] | null;
   stop_reason?: string | null;
   trace?: Iteration[] | null;
 }

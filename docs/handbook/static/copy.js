@@ -1,6 +1,6 @@
 // A button on each block of code that copies it: without prompts, as it stands.
 for (const block of document.querySelectorAll("div.highlight")) {
-  if (block.closest(".given")) continue;
+  if (block.closest(".highlight-text")) continue;
   const button = document.createElement("button");
   button.type = "button";
   button.className = "copy";

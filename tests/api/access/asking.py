@@ -12,10 +12,10 @@ import orjson
 from fastapi import FastAPI
 from starlette.types import Message
 
-from app.api.access.keyring import new_key
-from app.api.access.scopes import Scope
-from app.main import create_app
-from app.settings import Settings
+from gelenk.api.access.keyring import new_key
+from gelenk.api.access.scopes import Scope
+from gelenk.main import create_app
+from gelenk.settings import Settings
 
 _FOLDER = tempfile.TemporaryDirectory()
 atexit.register(_FOLDER.cleanup)

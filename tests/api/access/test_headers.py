@@ -6,8 +6,8 @@ import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from app.api import studio
-from app.api.access.headers import COMMON
+from gelenk.api import studio
+from gelenk.api.access.headers import COMMON
 from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 
 ENTRIES, KEYS = keys_for("read")
@@ -33,6 +33,7 @@ ANSWERS = [
 ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("method", "path", "status"), ANSWERS, ids=[f"{m} {p}" for m, p, _ in ANSWERS])
 def test_every_answer_carries_them_once(method: str, path: str, status: int) -> None:
     answer = ask(APP, path, method, (HOST, bearer(KEYS["read"])))
@@ -66,7 +67,7 @@ def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.Mo
     def fail(*_: object) -> None:
         raise RuntimeError("boom")
 
-    monkeypatch.setattr("app.api.remote.Remote.answer", fail)
+    monkeypatch.setattr("gelenk.api.remote.Remote.answer", fail)
     with TestClient(application(data_dir=tmp_path), raise_server_exceptions=False) as client:
         answer = client.get("/v1/robots/panda")
     assert answer.status_code == 500

@@ -3,7 +3,7 @@
 import pytest
 from fastapi import FastAPI
 
-from app.api.access.hosts import ONCE
+from gelenk.api.access.hosts import ONCE
 from tests.api.access.asking import HOST, Answer, application, ask, bearer, keys_for
 
 ELSEWHERE = b"https://page.example"
@@ -47,6 +47,7 @@ def test_a_request_names_one_host(headers: list[tuple[bytes, bytes]]) -> None:
     assert (answer.status, answer.problem["type"]) == (400, "urn:gelenk:invalid-host")
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize(
     "host",
     [

@@ -16,12 +16,12 @@ from urllib.parse import quote
 import pytest
 from starlette.types import Message
 
-from app.api.access.directory import Operation
-from app.api.access.exchange import Exchange
-from app.api.access.journal import Audit
-from app.api.access.scopes import Scope
-from app.model.errors import StorageFailed
-from app.store import folders
+from gelenk.api.access.directory import Operation
+from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.journal import Audit
+from gelenk.api.access.scopes import Scope
+from gelenk.model.errors import StorageFailed
+from gelenk.store import folders
 from tests.api.access import asking
 from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 from tests.test_serve import get, service
@@ -106,6 +106,7 @@ def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) 
     assert len(json.dumps(rest)) < 1000
 
 
+@pytest.mark.slow
 def test_what_was_counted_is_written_in_time_also_where_nothing_more_comes(tmp_path: Path) -> None:
     audit = Audit(tmp_path, sum_seconds=0.5)
     for _ in range(2):
@@ -167,11 +168,12 @@ def test_the_audit_log_is_bounded_and_the_newest_lines_stay(tmp_path: Path) -> N
     assert (tmp_path / "audit.jsonl").stat().st_mode & 0o077 == 0
 
 
+@pytest.mark.slow
 def test_many_writers_lose_no_line(tmp_path: Path) -> None:
     code = """
 import sys
 from pathlib import Path
-from app.api.access.journal import Audit
+from gelenk.api.access.journal import Audit
 from tests.api.access.test_journal import written_by
 for i in range(50):
     Audit(Path(sys.argv[1]), 4000, 100).write(written_by(f"{sys.argv[2]}-{i}"), None)
@@ -206,6 +208,7 @@ def test_a_request_is_told_with_its_level(
     assert 0.0 < facts["seconds"] < 10.0
 
 
+@pytest.mark.slow
 def test_a_hostile_client_leaves_no_control_character_in_the_log(tmp_path: Path) -> None:
     """Over real connections, each request logged: paths, hosts, ids, keys and names with control characters."""
     nasty = "\x1b[2J\x07\x9b31m\u202e\r\nlevel"

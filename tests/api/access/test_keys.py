@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from app import keys
-from app.api.access import keyring
-from app.api.access.keyring import InvalidKeys, Keyring, new_key, read_keys
-from app.api.access.scopes import Scope
+from gelenk import keys
+from gelenk.api.access import keyring
+from gelenk.api.access.keyring import InvalidKeys, Keyring, new_key, read_keys
+from gelenk.api.access.scopes import Scope
 from tests.api.access.asking import HOST, application, ask, bearer
 from tests.test_faults import wait_for
 

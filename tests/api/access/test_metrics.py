@@ -11,8 +11,8 @@ import pytest
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.testclient import TestClient
 
-from app.api.access import metrics
-from app.crew.crew import Crew
+from gelenk.api.access import metrics
+from gelenk.crew.crew import Crew
 from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 from tests.api.conftest import ready_client
 from tests.test_faults import called, wait_for
@@ -138,6 +138,7 @@ def test_refusals_are_counted_and_metrics_need_the_admin_scope() -> None:
     assert number(found, "answers_total", operation="metrics", status="403") == 1
 
 
+@pytest.mark.slow
 def test_several_processes_are_counted_together_and_a_killed_one_takes_nothing_away(tmp_path: Path) -> None:
     def counted() -> Numbers:
         with urllib.request.urlopen(f"{url}/metrics", timeout=20) as answer:

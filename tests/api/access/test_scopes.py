@@ -43,6 +43,7 @@ def asked(app: FastAPI, method: str, path: str, token: str | None) -> Answer:
     return ask(app, path, method, (HOST, *([] if token is None else [bearer(token)])))
 
 
+@pytest.mark.quick(18)
 @pytest.mark.parametrize(("method", "route"), ROUTES, ids=[f"{m} {r.path}" for m, r in ROUTES])
 def test_each_route_has_its_scope(method: str, route: RouteContext) -> None:
     path, scope = filled(route), expected(method, route.path or "")
@@ -130,6 +131,7 @@ def test_the_prefix_of_a_proxy_opens_nothing() -> None:
     assert asked(app, "GET", "/gelenkish", None).status == 401
 
 
+@pytest.mark.slow
 def test_without_keys_nothing_needs_one() -> None:
     app = application()
     for method, route in ROUTES:

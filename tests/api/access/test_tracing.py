@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from opentelemetry.proto.collector.trace.v1.trace_service_pb2 import ExportTraceServiceRequest
 
-from app import serve
+from gelenk import serve
 from tests.test_serve import service
 
 TRACE = "4bf92f3577b34da6a3ce929d0e0e4736"
@@ -50,6 +50,7 @@ def collector() -> Iterator[tuple[str, list[Any]]]:
             server.shutdown()
 
 
+@pytest.mark.slow
 def test_a_request_is_a_span_of_its_callers_trace_and_names_its_id(tmp_path: Path) -> None:
     with collector() as (endpoint, spans):
         with service(tmp_path, GELENK_OTLP_ENDPOINT=endpoint) as (_, url):
@@ -73,10 +74,11 @@ def test_a_request_is_a_span_of_its_callers_trace_and_names_its_id(tmp_path: Pat
     assert span.end_time_unix_nano > span.start_time_unix_nano
 
 
+@pytest.mark.slow
 def test_without_the_setting_nothing_of_it_is_loaded(tmp_path: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from app.main import create_app; from app.settings import Settings;"
-        "create_app(Settings(data_dir=Path(sys.argv[1]))); print(*sys.modules)"
+        "import sys; from pathlib import Path; from gelenk.main import create_app; "
+        "from gelenk.settings import Settings; create_app(Settings(data_dir=Path(sys.argv[1]))); print(*sys.modules)"
     )
     run = subprocess.run([sys.executable, "-c", code, tmp_path], capture_output=True, text=True, check=True)
     assert "fastapi" in run.stdout.split()

@@ -6,10 +6,10 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.robot import Robot
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arms import PLANAR, POSITION
 from tests.oracles.dh_columns import Table
 from tests.robots import of_table, rows

@@ -10,13 +10,13 @@ import numpy as np
 import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.result import InverseKinematics
-from app.kinematics.ik.task import Task
-from app.kinematics.ik.words import Direction
-from app.model.arrays import Array, Flags, Indices
-from app.model.chain import Chain
-from app.model.poses import Poses
-from app.model.robot import Robot
+from gelenk.kinematics.ik.result import InverseKinematics
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import Direction
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
 from tests.robots import of_table, robot, rows
 
 WITHIN = 1e-12

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.kinematics.ik.closed_form import closed_form
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.ik.words import DIRECTIONS
-from app.model.poses import Poses
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.model.poses import Poses
 from tests.kinematics.ik.arms import PLANAR, catalogue_arm, draw, poses, table_arm
 
 HALF = np.pi / 2.0
@@ -74,6 +74,7 @@ def test_all_six_directions_are_a_whole_pose() -> None:
         options = Options(task=Task(DIRECTIONS), method=method, every=True, respect_limits=False)
         answer = inverse_kinematics(machine, chain, targets, np.zeros((1, 6)), options)
         assert answer.branches is not None
+        assert answer.branches.form is not None
         assert answer.branches.form.method == "elimination"
 
 

@@ -5,11 +5,11 @@ from itertools import product
 import numpy as np
 import pytest
 
-from app.kinematics.ik.branches import thin_out, wound_near
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import Task
-from app.model.arrays import Array
-from app.model.chain import Chain
+from gelenk.kinematics.ik.branches import thin_out, wound_near
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import Task
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
 from tests.kinematics.ik.arms import (
     DECOUPLED,
     IRB,
@@ -44,6 +44,7 @@ def distinct(qs: Array, close: float = 1e-4) -> bool:
     return all((np.abs(same_turn(qs[:i] - q)).max(axis=1, initial=0.0) > close).all() for i, q in enumerate(qs))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arm", ARMS)
 def test_nothing_is_missing_that_an_independent_search_finds(arm: str) -> None:
     machine, chain = table_arm(ARMS[arm])
@@ -63,6 +64,7 @@ def test_nothing_is_missing_that_an_independent_search_finds(arm: str) -> None:
     assert found_by_others >= 20 * 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["puma560", "stanford", "ur5_dh", "anthropomorphic_wrist"])
 def test_nothing_is_missing_within_limits(name: str) -> None:
     machine, chain = catalogue_arm(name)

@@ -12,19 +12,19 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from app.kinematics.ik.branch_kernels import Branches
-from app.kinematics.ik.branches import all_branches
-from app.kinematics.ik.closed_form import ClosedForm, closed_form
-from app.kinematics.ik.result import InverseKinematics
-from app.kinematics.ik.search import target_rows
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.jacobian import jacobians
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import InvalidField
-from app.model.poses import Poses
-from app.model.robot import Robot
+from gelenk.kinematics.ik.branch_kernels import Branches
+from gelenk.kinematics.ik.branches import all_branches
+from gelenk.kinematics.ik.closed_form import ClosedForm, closed_form
+from gelenk.kinematics.ik.result import InverseKinematics
+from gelenk.kinematics.ik.search import target_rows
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.jacobian import jacobians
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arm_classes import CLASSES, FOUR, Arm, ArmClass, Row
 from tests.kinematics.ik.arms import (
     DECOUPLED,
@@ -136,6 +136,7 @@ def are_distinct(arm: Arm, qs: Array) -> bool:
 # Every branch, and the configuration that a target was made of.
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", CLASSES)
 def test_the_generating_configuration_is_among_the_branches(name: str) -> None:
     kind = CLASSES[name]
@@ -175,6 +176,7 @@ STANDARD_FULL = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", STANDARD_FULL)
 def test_nothing_is_missing_that_a_search_from_many_starts_finds(name: str) -> None:
     arm = CLASSES[name].arm(0)
@@ -193,6 +195,7 @@ def test_of_an_arm_that_positions_nothing_is_missing(name: str) -> None:
     assert counts.min() >= 1
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", LIMBS)
 def test_arms_of_the_catalogue(name: str) -> None:
     machine, chain = catalogue_arm(name)
@@ -203,7 +206,7 @@ def test_arms_of_the_catalogue(name: str) -> None:
     answer = all_of(machine, chain, targets, position_tolerance=EXACT, orientation_tolerance=EXACT)
     assert_solved(machine, chain, targets, answer, far=EXACT)
     assert answer.branches is not None
-    assert answer.branches.form.name == form.name
+    assert answer.branches.name == form.name
     assert answer.complete is not None
     for i, complete in enumerate(answer.complete):
         # Not sure to be all next to a singularity alone, and then a search may add to them.
@@ -400,6 +403,7 @@ def names(form: ClosedForm, table: Branches) -> list[tuple[tuple[str, str | int]
     return [tuple(sorted(form.branch(int(code)).items())) for code in table.codes]
 
 
+@pytest.mark.quick(13)
 @pytest.mark.parametrize("name", CLASSES)
 def test_no_two_branches_of_a_target_have_the_same_name(name: str) -> None:
     kind = CLASSES[name]
@@ -447,6 +451,7 @@ def names_of(form: ClosedForm, arm: Arm, qs: Array) -> set[tuple[tuple[str, str 
     return found
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", NAMED)
 def test_a_name_stays_the_same_along_a_path_without_singularity(name: str) -> None:
     arm = Arm(*NAMED[name])
@@ -564,6 +569,7 @@ def roots_meet(name: str, where: str) -> bool:
     return "elbow" in where or ("shoulder" in where and name != "decoupled")
 
 
+@pytest.mark.quick(22)
 @pytest.mark.parametrize("delta", DELTAS)
 @pytest.mark.parametrize("where", SINGULAR)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "ur5"])
@@ -585,6 +591,7 @@ def test_near_a_singularity_the_configuration_is_found_again(name: str, where: s
     assert apart <= allowed, (apart, sigma, table.qs)
 
 
+@pytest.mark.quick(25)
 @pytest.mark.parametrize("delta", DELTAS)
 @pytest.mark.parametrize("where", SINGULAR)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "ur5"])
@@ -660,7 +667,8 @@ def test_an_arm_whose_stretched_elbow_lines_two_axes_up(delta: float) -> None:
 LEG = ("RIGHT_HIP_Z", "RIGHT_KNEE_Y")
 
 
-@pytest.mark.parametrize("delta", [1e-3, 1e-6, 1e-7, 1e-8, 1e-9])
+@pytest.mark.slow
+@pytest.mark.parametrize("delta", [1e-7, 1e-3, 1e-6, 1e-8, 1e-9])
 def test_a_leg_whose_first_axis_lines_up_with_three_others(delta: float) -> None:
     """Four parallel axes move freely, and the quartic of it has a double root, known to half the digits."""
     machine, chain = catalogue_arm("alexander")
@@ -669,10 +677,11 @@ def test_a_leg_whose_first_axis_lines_up_with_three_others(delta: float) -> None
     assert_none_lost(machine, chain, qs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("bent", "delta"),
     [
-        # Closer still rounding leaves nothing of the least singular value, and every place of a motion is a solution.
+        # Closer still rounding leaves nothing of the least singular value: all of a motion is a solution.
         *product(["as little"], [1e-3, 1e-5, 1e-6]),
         *product(["a little more"], [1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9]),
     ],
@@ -687,6 +696,7 @@ def test_such_a_leg_with_its_knee_nearly_straight(bent: str, delta: float) -> No
     assert_none_lost(machine, chain, qs)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "where", "delta"),
     [
@@ -743,6 +753,7 @@ def test_at_a_singularity_the_free_joint_is_named_and_keeps_the_seed(name: str, 
     assert answer.complete == [False]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["decoupled", "puma", "irb", "ur5", "stanford"])
 def test_many_targets_near_singularities_of_joint_5(name: str) -> None:
     arm = Arm(*NAMED[name])
@@ -787,6 +798,7 @@ def test_a_free_joint_whose_seed_does_not_serve_is_put_elsewhere() -> None:
         assert np.abs(same_turn(of(answer)[:, 0] - q[0])).min() < 1e-6, turned
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["RRR and a skew wrist", "RRP and a skew wrist", "RPR and a skew wrist",
                                   "a skew shoulder and RRR", "parallel axes 2 3 4"])  # fmt: skip
 def test_near_a_root_that_is_double_both_are_found(name: str) -> None:
@@ -816,6 +828,7 @@ def test_near_a_root_that_is_double_both_are_found(name: str) -> None:
 # Limits, full turns and seeds.
 
 
+@pytest.mark.slow
 def test_limits_and_seeds_choose_among_the_branches() -> None:
     arm = Arm(PUMA, "RRRRRR")
     whole = limited(arm.chain, [-np.inf] * 6, [np.inf] * 6)
@@ -920,6 +933,7 @@ def test_the_rim_of_what_can_be_reached_and_a_little_beyond() -> None:
 # The same arm elsewhere, larger, smaller, and from other frames.
 
 
+@pytest.mark.quick(9)
 @pytest.mark.parametrize("size", [1e-3, 1e-2, 1.0, 10.0, 100.0])
 @pytest.mark.parametrize("name", ["puma", "ur5", "stanford", "irb"])
 def test_arms_of_a_millimetre_and_of_a_hundred_metres(name: str, size: float) -> None:
@@ -1044,6 +1058,7 @@ def drawn_tables(count: int) -> list[tuple[list[Row], str]]:
     return tables
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("part_of_them", range(4))
 def test_of_tables_drawn_at_random_what_is_reported_solved_is_solved(part_of_them: int) -> None:
     solved = 0

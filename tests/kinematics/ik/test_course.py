@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from app.kinematics.ik.descent import Rule, StepMethod
-from app.kinematics.ik.result import InverseKinematics, Path
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.steps import damped_step, gradient_step, newton_step
-from app.model.arrays import Array
-from app.model.poses import Poses
+from gelenk.kinematics.ik.descent import Rule, StepMethod
+from gelenk.kinematics.ik.result import InverseKinematics, Path
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.steps import damped_step, gradient_step, newton_step
+from gelenk.model.arrays import Array
+from gelenk.model.poses import Poses
 from tests.kinematics.ik.arms import (
     DECOUPLED,
     PLANAR,

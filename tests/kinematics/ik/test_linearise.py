@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.linearise import linearise
-from app.kinematics.ik.task import Task
-from app.kinematics.ik.words import DIRECTIONS, Direction
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.poses import Poses
+from gelenk.kinematics.ik.linearise import linearise
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import DIRECTIONS, Direction
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
 from tests.kinematics.ik.arms import DECOUPLED, SINGLES, TASKS, catalogue_arm, draw, moved, part, planar_arm, repeated
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.dh_columns import Table

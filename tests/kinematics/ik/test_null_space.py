@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from app.kinematics.ik.null_space import Objective, _value, objective_gradients, settle
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.jacobian import jacobians
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.robot import Robot
+from gelenk.kinematics.ik.null_space import Objective, _value, objective_gradients, settle
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.jacobian import jacobians
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arms import (
     PLANAR,
     POSITION,
@@ -99,6 +99,7 @@ def test_values_and_gradients_are_what_they_are_said_to_be(name: str, task: Task
     assert compared >= 3
 
 
+@pytest.mark.quick(11)
 @every_objective
 @every_case
 def test_the_objective_falls_and_the_target_stays_reached(name: str, task: Task, objective: str) -> None:

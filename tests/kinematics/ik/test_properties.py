@@ -1,15 +1,16 @@
 """Random arms: what can be reached is reached, and errors are what they are said to be."""
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.kinematics.ik.branches import wound_near
-from app.kinematics.ik.search import search
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.model.chain import Chain
-from app.model.robot import Robot
+from gelenk.kinematics.ik.branches import wound_near
+from gelenk.kinematics.ik.search import search
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arms import angles, assert_solved, distances, draw, inside, limited, middle, moved, poses
 from tests.robots import of_table, rows
 
@@ -78,6 +79,7 @@ def test_an_answer_is_right_whatever_is_asked(arm: tuple[Robot, Chain], seed: in
             assert free.statuses == ["solved"]
 
 
+@pytest.mark.slow
 @SETTINGS
 @given(arms(), st.integers(0, 2**31))
 def test_every_solution_is_one_and_no_two_are_the_same(arm: tuple[Robot, Chain], seed: int) -> None:

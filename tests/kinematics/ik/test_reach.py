@@ -5,12 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from app.kinematics.ik.reach import Reach, reach_of
-from app.kinematics.ik.task import Task
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import UnsupportedJoint
-from app.model.robot import Robot
+from gelenk.kinematics.ik.reach import Reach, reach_of
+from gelenk.kinematics.ik.task import Task
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import UnsupportedJoint
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arms import (
     POSITION,
     TASKS,
@@ -24,7 +24,7 @@ from tests.kinematics.ik.arms import (
     table_arm,
 )
 from tests.oracles import catalogue
-from tests.robots import robot
+from tests.robots import robot, swept
 
 OTHERS = [Task(("x", "z", "ry")), Task(("z",)), Task(("x", "y", "z", "rz"))]
 
@@ -62,7 +62,7 @@ def extremes(chain: Chain, respect_limits: bool, seed: int) -> Array:
 
 
 @pytest.mark.parametrize("respect_limits", [True, False])
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_nothing_that_is_reached_is_outside(name: str, respect_limits: bool) -> None:
     machine = robot(name)
     for chain in chains(machine, 5):

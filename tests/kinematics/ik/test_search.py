@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.closed_form import closed_form
-from app.kinematics.ik.retrace import retrace
-from app.kinematics.ik.search import Found, search, start_of
-from app.kinematics.ik.solve import Options, inverse_kinematics, solve_quickly
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.ik.verdict import Question
-from app.model.arrays import Array, Indices
-from app.model.chain import Chain
-from app.model.poses import Poses
-from app.model.robot import Robot
-from app.model.urdf import read_urdf
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.kinematics.ik.retrace import retrace
+from gelenk.kinematics.ik.search import Found, search, start_of
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics, solve_quickly
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
 from tests.kinematics.ik.arms import (
     DECOUPLED,
     IRB,
@@ -40,7 +40,7 @@ from tests.kinematics.ik.arms import (
     table_arm,
 )
 from tests.oracles import catalogue
-from tests.robots import of_table, robot, rows
+from tests.robots import of_table, robot, rows, swept
 
 CHAINS = {
     "six joints": ("ur5", None, None),
@@ -113,6 +113,7 @@ def same(found: Found, other: Found, order: Sequence[int] | Indices | None = Non
 # The same whatever else is asked
 
 
+@pytest.mark.quick(19)
 @every_chain
 @pytest.mark.parametrize("task", ["full", "position", "free about z", "free about x"])
 def test_an_answer_does_not_depend_on_its_batch(ends: tuple[str, str | None, str | None], task: str) -> None:
@@ -241,6 +242,7 @@ def test_a_start_goes_where_the_damped_steps_lead(name: str, task: str) -> None:
     assert compared >= 4
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("task", TASKS)
 @pytest.mark.parametrize("name", ["panda", "ur5", "puma560", "so100", "stanford", "kinova"])
 def test_the_steps_can_be_retraced_one_by_one(name: str, task: str) -> None:
@@ -295,7 +297,7 @@ def test_quick_answers_are_the_same_answers(name: str) -> None:
 # Everything is solved
 
 
-@pytest.mark.parametrize("name", catalogue.NAMES)
+@pytest.mark.parametrize("name", swept(catalogue.NAMES))
 def test_every_robot_reaches_what_it_can_reach(name: str) -> None:
     machine, chain = catalogue_arm(name)
     targets = poses(machine, chain, draw(chain, 100, seed=11))

@@ -10,7 +10,7 @@ from numpy.polynomial import polynomial
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.subproblems import (
+from gelenk.kinematics.ik.subproblems import (
     Quadratic,
     angle_onto,
     product,
@@ -21,8 +21,8 @@ from app.kinematics.ik.subproblems import (
     turns_of_quadratic,
     value,
 )
-from app.kinematics.vectors import Vector
-from app.model.arrays import Array
+from gelenk.kinematics.vectors import Vector
+from gelenk.model.arrays import Array
 
 TURN = 2.0 * np.pi
 

@@ -5,18 +5,18 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from app.kinematics.ik.closed_form import closed_form
-from app.kinematics.ik.descent import Rule, StepMethod
-from app.kinematics.ik.reach import Reach
-from app.kinematics.ik.result import Failure, InverseKinematics
-from app.kinematics.ik.solve import Options, inverse_kinematics
-from app.kinematics.ik.task import FULL_POSE, Task
-from app.kinematics.jacobian import jacobians
-from app.model.arrays import Array
-from app.model.chain import Chain
-from app.model.errors import counted
-from app.model.poses import Poses
-from app.model.robot import Robot
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.kinematics.ik.descent import Rule, StepMethod
+from gelenk.kinematics.ik.reach import Reach
+from gelenk.kinematics.ik.result import Failure, InverseKinematics
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.jacobian import jacobians
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import counted
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
 from tests.kinematics.ik.arms import (
     DECOUPLED,
     PLANAR,
@@ -290,6 +290,7 @@ def test_a_half_turn_away(name: str, axis: Array | None) -> None:
 # Limits
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["panda", "z1", "puma560", "kinova", "talos_left_arm", "stanford"])
 def test_what_limits_keep_from_being_solved_is_solved_without_them(name: str) -> None:
     machine, chain = catalogue_arm(name)
@@ -342,6 +343,7 @@ def test_the_excess_of_two_links_is_the_closed_forms() -> None:
     assert second.excess == pytest.approx(0.299371644064, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_the_nearest_pose_within_limits_is_the_nearest() -> None:
     machine, chain = catalogue_arm("z1")
     rng = np.random.default_rng(8)
@@ -411,6 +413,7 @@ def nearest_by_scipy(
     return ours, float(best)
 
 
+@pytest.mark.slow
 def test_an_arm_of_five_joints_comes_as_near_to_a_full_pose_as_any() -> None:
     machine, chain = catalogue_arm("so100")
     rng = np.random.default_rng(3)
@@ -547,6 +550,7 @@ def test_the_reach_of_a_target_is_looked_at_a_few_times(monkeypatch: pytest.Monk
 # The trace
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("task", ["full", "position", "free about x", "free about y", "free about z", "in the plane"])
 @pytest.mark.parametrize("name", ["ur5", "panda", "so100", "kinova", "stanford"])
 def test_a_trace_ends_at_the_solution(name: str, task: str) -> None:

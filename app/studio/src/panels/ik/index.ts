@@ -8,6 +8,7 @@ import { RequestView } from "../../ui/request.ts";
 import { whileKept } from "../kept.ts";
 import type { Panel, Studio } from "../panel.ts";
 import { Convergence } from "./convergence.ts";
+import { FamilyList } from "./families.ts";
 import { OptionFields } from "./options.ts";
 import { Picture } from "./picture.ts";
 import { SolutionList } from "./solutions.ts";
@@ -49,6 +50,7 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
   const repair = button("Make it a rotation", () => straighten(store), { hidden: true });
   const verdict = new Verdict(store, solver);
   const list = new SolutionList(store, outcome);
+  const families = new FamilyList(store, outcome);
   const picture = view && new Picture(view, store, outcome);
   const stops = [
     store.watch(["model", "base", "tip", "target", "inverse"], ({ target }) => {
@@ -56,7 +58,10 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
     }),
     store.watch(["model", "base", "tip", "inverse", "degrees"], (state) => options.show(state)),
     store.watch(["positions", "degrees"], () => list.show()),
-    outcome.watch(["result"], () => list.show()),
+    outcome.watch(["result"], () => {
+      list.show();
+      families.show();
+    }),
     outcome.watch(["result", "isBusy", "isFollowing", "isCancelled"], () => verdict.show()),
     outcome.watch(["problem"], ({ problem: found }) => {
       problem.show(found);
@@ -66,7 +71,7 @@ function solutionsPart({ store, view }: Studio, solver: Solver): Part {
     () => picture?.close(),
   ];
   return {
-    host: section("Solutions", options.host, problem.host, repair, verdict.host, list.host),
+    host: section("Solutions", options.host, problem.host, repair, verdict.host, families.host, list.host),
     close: () => stops.forEach((stop) => stop()),
   };
 }

@@ -14,6 +14,7 @@ import { moved, type Outcome } from "./solver.ts";
 
 /** Ghosts at a time: more of them hide one another, and the picture slows down. */
 export const MOST_GHOSTS = 8;
+const MOST_SWEPT = 16;
 
 const USUAL = 0.24;
 const POINTED = 0.7;
@@ -27,6 +28,7 @@ export class Picture {
   #target = new Group();
   #ghosts = new Map<number, Ghost>();
   #nearest: Ghost | null = null;
+  #sweep: Ghost[] = [];
   #stops: (() => void)[];
 
   constructor(
@@ -44,6 +46,7 @@ export class Picture {
       store.watch(["model", "meshes", "dark"], () => this.#draw()),
       outcome.watch(["result", "isFollowing", "isWalking"], () => this.#draw()),
       outcome.watch(["pointed"], () => this.#paint()),
+      outcome.watch(["swept"], () => this.#sweepOut()),
       store.watch(["positions"], () => this.#paint()),
     ];
   }
@@ -99,13 +102,30 @@ export class Picture {
     this.#group.add(ghost.group);
   }
 
+  /** The family that is pointed at, as ghosts all along it, in the place of those of the solutions. */
+  #sweepOut(): void {
+    for (const ghost of this.#sweep) ghost.remove();
+    this.#sweep = [];
+    const { swept, result } = this.outcome.value;
+    const chain = this.#chain();
+    const sweep = swept === null || !chain ? [] : (result?.families?.[swept]?.sweep ?? []);
+    const every = Math.max(1, sweep.length / MOST_SWEPT);
+    for (let i = 0; chain && Math.floor(i) < sweep.length; i += every) {
+      const ghost = new Ghost(chain.model, chain.joints, "accent", USUAL);
+      ghost.group.name = `sweep ${this.#sweep.length}`;
+      this.#sweep.push(ghost);
+      this.#place(ghost, sweep[Math.floor(i)]!);
+    }
+    this.#paint();
+  }
+
   /** Bring out the one that is pointed at; hide those that are where the robot is. */
   #paint(): void {
     const { pointed, result, isFollowing, isWalking } = this.outcome.value;
     const chain = this.#chain();
     if (chain && result) {
       if (pointed !== null && result.solutions[pointed] && !this.#ghosts.has(pointed)) this.#add(chain, pointed);
-      const isShown = !isFollowing && !isWalking;
+      const isShown = !isFollowing && !isWalking && !this.#sweep.length;
       for (const [index, ghost] of this.#ghosts) {
         const isPointed = index === pointed;
         ghost.paint("accent", isPointed ? POINTED : pointed === null ? USUAL : FAINT);
@@ -123,5 +143,7 @@ export class Picture {
     this.#ghosts.clear();
     this.#nearest?.remove();
     this.#nearest = null;
+    for (const ghost of this.#sweep) ghost.remove();
+    this.#sweep = [];
   }
 }

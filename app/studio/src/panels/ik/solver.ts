@@ -22,6 +22,8 @@ export interface Outcome {
   isWalking: boolean;
   /** The solution that the pointer or the focus is on. */
   pointed: number | null;
+  /** The family of solutions likewise. */
+  swept: number | null;
 }
 
 const NOTHING: Outcome = {
@@ -33,6 +35,7 @@ const NOTHING: Outcome = {
   isFollowing: false,
   isWalking: false,
   pointed: null,
+  swept: null,
 };
 
 export class Solver {
@@ -120,7 +123,8 @@ export class Solver {
     this.outcome.set({ isBusy: true, isCancelled: false });
     try {
       const answer = await this.#latest.run((signal) => this.#post(chain, call, signal));
-      if (answer) this.outcome.set({ answer, result: answer.results[0]!, problem: null, isBusy: false, pointed: null });
+      const found = { problem: null, isBusy: false, pointed: null, swept: null };
+      if (answer) this.outcome.set({ answer, result: answer.results[0]!, ...found });
     } catch (error) {
       this.#stop();
       this.outcome.set({ ...NOTHING, problem: asProblem(error) });

@@ -90,6 +90,7 @@ function summary({ result, answer, isCancelled, isFollowing }: Outcome): string 
   const parts: string[] = [];
   if (result.complete === true)
     parts.push(count === 1 ? "1 solution, the only one." : `${count} solutions: these are all.`);
+  else if (result.families?.length) parts.push(`Infinitely many solutions, of which ${count} are listed.`);
   else if (result.complete === false) parts.push(`${count} solutions; there may be more.`);
   else parts.push("Solved.");
   if (count > MOST_GHOSTS) parts.push(`The first ${MOST_GHOSTS} are in the picture, and any that you point at.`);

@@ -1,0 +1,37 @@
+"""Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
+
+- `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there. `keys`: makes API keys.
+- `reload`: starts it anew when a source file changes. `supervisor`: starts the worker processes, and replaces them.
+- `connections`: HTTP connections with bounds on time, size and number.
+- `preload`: what is loaded before any other process is started; `processes`: copies of the one that has loaded it.
+- `robot`: the core as a library, `gelenk.Robot`.
+- `logs`: the log, as lines of JSON.
+- `prune`: takes from a container image what the service never opens.
+- `api`: HTTP only. `schemas`: what travels. `store`: robots on disk. `jobs`: long work in processes of its own.
+- `crew`: processes that answer what may take long or go wrong.
+- `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
+- `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
+
+Arrows point down only; `./dev lint` checks it.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gelenk.robot import Robot as Robot
+
+
+def __getattr__(name: str) -> Any:
+    """`gelenk.__version__` and `gelenk.Robot`, loaded when they are first used."""
+    if name == "__version__":
+        from importlib.metadata import version  # noqa: PLC0415  (half of what an import of this package would take)
+
+        return version("gelenk")
+    if name == "Robot":
+        try:
+            from gelenk.robot import Robot  # noqa: PLC0415  (takes a second, which a client need not wait for)
+        except ModuleNotFoundError as error:
+            how = "install gelenk[engine] (in a checkout: pip install '.[engine]')"
+            raise ImportError(f"gelenk.Robot needs {error.name}: {how}") from error
+        return Robot
+    raise AttributeError(f"module 'gelenk' has no attribute {name!r}")

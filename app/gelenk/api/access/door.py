@@ -1,0 +1,96 @@
+"""Where every request comes in and every answer goes out."""
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+from starlette.responses import Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from gelenk.api.access.directory import Directory
+from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.headers import completed
+from gelenk.api.access.journal import Audit, log_request
+from gelenk.api.access.metrics import Metrics
+from gelenk.api.tally import TALLY
+from gelenk.logs import REQUEST_ID
+
+Check: TypeAlias = Callable[[Exchange], Response | None]
+"""Looks at a request; what it returns is the answer, and None lets the request pass."""
+
+
+class Door:
+    """Passes requests through the checks, in their order, to the application; completes the headers of answers.
+
+    Args:
+        app: The application.
+        directory: Its operations.
+        root_path: Path prefix under which a proxy serves it.
+        checks: The first refusal counts.
+        metrics: Where all requests are counted, the refused ones included.
+        audit: Where writes are kept.
+    """
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        directory: Directory,
+        root_path: str,
+        checks: Sequence[Check],
+        metrics: Metrics,
+        audit: Audit,
+    ) -> None:
+        self._app, self._directory, self._root_path = app, directory, root_path
+        self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a connection."""
+        if scope["type"] == "http":
+            await self._serve(scope, receive, send)
+        elif scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+        else:
+            await send({"type": "websocket.close", "code": 1008})
+
+    async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        path: str = scope["path"].removeprefix(self._root_path)
+        if self._root_path and not path:
+            path = "/"  # leads there
+        exchange = Exchange.begun(scope, *self._directory.find(path, scope["method"]))
+        REQUEST_ID.set(exchange.request_id)
+        TALLY.set(None)
+
+        async def answer(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                exchange.status = message["status"]
+                own = (b"x-request-id", exchange.request_id.encode())
+                message["headers"] = completed(message.get("headers", ()), [own, *exchange.answer_headers])
+                if exchange.is_audited:
+                    await asyncio.to_thread(self._audit.write, exchange, _location(message["headers"]))
+            await send(message)
+
+        self._metrics.begin()
+        try:
+            refusal = self._refusal(exchange)
+            await (refusal or self._app)(scope, receive, answer)
+        finally:
+            if exchange.is_audited and not exchange.status:
+                # Its client has left, or it broke off: what was written may stand.
+                await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
+            exchange.seconds = time.perf_counter() - exchange.started
+            exchange.tally = TALLY.get()
+            self._metrics.end(exchange)
+            log_request(exchange)
+
+    def _refusal(self, exchange: Exchange) -> Response | None:
+        """The answer of the first check that has one."""
+        for check in self._checks:
+            if (refusal := check(exchange)) is not None:
+                return refusal
+        exchange.was_let_in = True
+        return None
+
+
+def _location(headers: Sequence[tuple[bytes, bytes]]) -> str | None:
+    return next((value.decode("latin-1") for name, value in headers if name == b"location"), None)

@@ -1,0 +1,80 @@
+"""What pages of other origins may do in a browser: nothing that could change something, unless theirs is allowed.
+
+A browser tells by `Sec-Fetch-Site`, an older one by `Origin`, whether a page of another origin has sent a request;
+other clients send neither. Cookies play no part: there are none, and answers allow no credentials.
+"""
+
+from collections.abc import Sequence
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from gelenk.api.access.exchange import Exchange
+from gelenk.api.problems import problem
+from gelenk.model.errors import quoted
+
+_METHODS = b"GET, HEAD, POST, PUT, DELETE"
+_REQUEST_HEADERS = b"Authorization, Content-Type, Last-Event-ID, X-Request-Id"
+_ANSWER_HEADERS = (
+    b"Gelenk-Robot-Digest, Gelenk-Unsolved, Gelenk-Unsolved-Rows, Location, Retry-After, WWW-Authenticate, X-Request-Id"
+)
+_PREFLIGHT_SECONDS = b"600"
+
+
+class Origins:
+    """Refuses writes from pages of other origins, and lets those of allowed ones read the answers.
+
+    Args:
+        allowed: Origins such as `https://lab.example.org`, lower case; `*` stands for all.
+    """
+
+    def __init__(self, allowed: Sequence[str]) -> None:
+        self._allowed = frozenset(origin.encode() for origin in allowed)
+
+    def __call__(self, exchange: Exchange) -> Response | None:
+        """A refusal or the answer to a preflight, or None."""
+        origin, site = exchange.headers.get(b"origin"), exchange.headers.get(b"sec-fetch-site")
+        if self._allowed:
+            exchange.answer_headers.append((b"vary", b"Origin"))
+        if origin is None and site is None:
+            return None
+        if origin is not None and self._allows(origin):
+            return self._admitted(exchange, origin)
+        if exchange.is_safe and not _is_preflight(exchange):
+            return None
+        if _is_same_origin(exchange, origin, site):
+            return None
+        shown = "of another origin" if origin is None else f"of the origin {quoted(origin.decode('latin-1'))}"
+        detail = f"a page {shown} may not do this; GELENK_ALLOWED_ORIGINS adds origins"
+        return problem(exchange.request, HTTPStatus.FORBIDDEN, "cross-origin-refused", detail)
+
+    def _allows(self, origin: bytes) -> bool:
+        return b"*" in self._allowed or origin.lower() in self._allowed
+
+    def _admitted(self, exchange: Exchange, origin: bytes) -> Response | None:
+        """Let the page read the answer; a preflight is answered at once, before it would need a key."""
+        exchange.answer_headers += [
+            (b"access-control-allow-origin", origin),
+            (b"access-control-expose-headers", _ANSWER_HEADERS),
+        ]
+        if not _is_preflight(exchange):
+            return None
+        exchange.answer_headers += [
+            (b"access-control-allow-methods", _METHODS),
+            (b"access-control-allow-headers", _REQUEST_HEADERS),
+            (b"access-control-max-age", _PREFLIGHT_SECONDS),
+        ]
+        return Response(status_code=HTTPStatus.NO_CONTENT)
+
+
+def _is_preflight(exchange: Exchange) -> bool:
+    return exchange.scope["method"] == "OPTIONS" and b"access-control-request-method" in exchange.headers
+
+
+def _is_same_origin(exchange: Exchange, origin: bytes | None, site: bytes | None) -> bool:
+    """Whether the page is one of the service itself, or the request was typed in."""
+    if site is not None:
+        return site in {b"same-origin", b"none"}
+    # Before a proxy the scheme may be another one than here: host and port decide.
+    host = (origin or b"").partition(b"://")[2]
+    return host != b"" and host.lower() == exchange.headers.get(b"host", b"").lower()

@@ -1,0 +1,57 @@
+"""Which operation needs which scope: the one place that says so.
+
+No scope includes another one: what scrapes the metrics needs `admin` and can neither ask nor change anything.
+"""
+
+from enum import StrEnum
+from typing import Any
+
+
+class Scope(StrEnum):
+    """What a key is good for."""
+
+    READ = "read"
+    WRITE = "write"
+    ADMIN = "admin"
+
+
+OPEN_OPERATIONS = frozenset({"health", "readiness"})
+OPEN_PATHS = frozenset(
+    {"/", "/studio", "/docs", "/redoc", "/documentation/bundles", "/documentation/own", "/openapi.json"}
+)
+"""Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
+WRITING = frozenset({"add_robot", "replace_robot", "remove_robot", "workspace", "cancel_job"})
+AS_JOBS = frozenset({"inverse_kinematics", "trajectory"})
+"""What asks, unless a job is to answer it: that is kept, and needs `write`."""
+ADMINISTERING = frozenset({"metrics"})
+QUESTIONS = frozenset({"Kinematics", "DH tables", "Course"})
+"""Tags of operations that keep nothing, whatever their method, unless they are named above."""
+
+SCHEME = {
+    "type": "http",
+    "scheme": "bearer",
+    "description": "A key of this service, if keys are switched on; create one with `gelenk.keys`. Scopes: `read` "
+    "allows queries, `write` storing and removing robots and jobs, `admin` reading the metrics. No scope includes "
+    "another.",
+}
+
+
+def scope_of(operation_id: str | None, path: str, methods: frozenset[str], tags: frozenset[str]) -> Scope | None:
+    """The scope that an operation needs; None where it needs no key.
+
+    What changes something needs `write` unless it is known to keep nothing: a new operation is guarded by default.
+    """
+    if operation_id in OPEN_OPERATIONS or path in OPEN_PATHS:
+        return None
+    if operation_id in ADMINISTERING:
+        return Scope.ADMIN
+    if operation_id in WRITING:
+        return Scope.WRITE
+    return Scope.READ if methods <= {"GET", "HEAD"} or tags & QUESTIONS else Scope.WRITE
+
+
+def security_of(path: str, method: str, operation: dict[str, Any]) -> list[dict[str, list[str]]]:
+    """The security requirement of an operation in the schema."""
+    tags = frozenset(operation.get("tags", ()))
+    scope = scope_of(operation.get("operationId"), path, frozenset({method.upper()}), tags)
+    return [] if scope is None else [{"key": [scope.value]}]

@@ -1,0 +1,181 @@
+"""Converts a request of inverse kinematics for the core, checking every field against the others and the chain."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from gelenk.kinematics.configuration import MAX_MAGNITUDE, configurations, one_configuration
+from gelenk.kinematics.ik.descent import Rule
+from gelenk.kinematics.ik.null_space import Objective
+from gelenk.kinematics.ik.search import mid_range
+from gelenk.kinematics.ik.solve import Options
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.words import DIRECTIONS, Direction
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, TooLarge, counted, quoted
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.schemas.ik import MAX_TRACE, InverseRequest
+from gelenk.schemas.pose_arrays import poses_from
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """The limits of one call.
+
+    Attributes:
+        targets: Of any method.
+        stepwise: Of a method that is followed step by step, in Python.
+        numbers: In the answer; None for as many as there is room for.
+    """
+
+    targets: int
+    stepwise: int
+    numbers: int | None
+
+
+def asked(robot: Robot, call: InverseRequest, bounds: Bounds) -> tuple[Chain, Poses, Array]:
+    """The chain, the targets, and where to start: one configuration for all or one each, shape (1 or N, n).
+
+    Raises:
+        InvalidInput: The field, and what is wrong with it.
+        TooLarge: The request exceeds a limit.
+    """
+    _check_options(call)
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    _check_fixed_joints(chain, call)
+    targets = poses_from(call.targets, "targets")
+    _check_size(call, len(targets), len(chain), bounds)
+    return chain, targets, _seeds(chain, call, len(targets))
+
+
+def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
+    if call.seeds is None and call.posture is not None:
+        # Whoever wants to be near a posture starts there.
+        return one_configuration(chain, call.posture, "posture")
+    if call.seeds is None:
+        return mid_range(chain)[None]
+    seeds = configurations(chain, call.seeds, "seeds")
+    if len(seeds) not in {1, count}:
+        raise InvalidField(
+            "seeds", f"{counted(len(seeds), 'entry')} for {counted(count, 'target')}: one for all of them or one each"
+        )
+    return seeds
+
+
+def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> Options:
+    """How it is to be solved; with None it may take any time."""
+    match call.method:
+        case "auto" | "analytic":
+            rule = None
+        case step_method:
+            rule = Rule(step_method, call.step_size, call.damping, call.switch_error)
+    return Options(
+        task=task_of(call),
+        position_tolerance=call.position_tolerance,
+        orientation_tolerance=call.orientation_tolerance,
+        respect_limits=call.respect_limits,
+        every=call.solutions == "all",
+        most=call.max_solutions,
+        windings=call.windings,
+        method=call.method,
+        rule=rule,
+        max_iterations=call.max_iterations,
+        time_limit=time_limit,
+        random_seed=call.random_seed,
+        objective=_objective(chain, call),
+        elbow_angle=call.elbow_angle,
+        trace=call.trace,
+        fixed_joints=call.fixed_joints or {},
+    )
+
+
+def task_of(call: InverseRequest) -> Task:
+    """The directions that count."""
+    return FULL_POSE if call.task is None else _task_of(frozenset(call.task))
+
+
+@lru_cache(maxsize=64)
+def _task_of(directions: frozenset[Direction]) -> Task:
+    if len(directions) == len(DIRECTIONS):
+        return FULL_POSE
+    return Task(tuple(direction for direction in DIRECTIONS if direction in directions))
+
+
+def _objective(chain: Chain, call: InverseRequest) -> Objective | None:
+    if call.objective is None:
+        return None
+    if call.posture is None:
+        return Objective(call.objective)
+    return Objective(call.objective, one_configuration(chain, call.posture, "posture"))
+
+
+def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:
+    """Refuse to hold a joint that is not a variable of the chain, a position out of range, or all joints.
+
+    Raises:
+        InvalidField: The joint, and what is allowed.
+    """
+    fixed = call.fixed_joints or {}
+    for name, value in fixed.items():
+        field = f"fixed_joints.{name}"
+        if name not in chain.joint_names:
+            known = ", ".join(map(quoted, chain.joint_names))
+            raise InvalidField(field, f"the chain has no joint of its own of this name; those it has are {known}")
+        if not abs(value) <= MAX_MAGNITUDE:
+            raise InvalidField(field, f"a finite number of magnitude ≤ {MAX_MAGNITUDE:g}")
+        j = chain.joint_names.index(name)
+        lower, upper = float(chain.lower[j]), float(chain.upper[j])
+        if call.respect_limits and not lower <= value <= upper:
+            raise InvalidField(
+                field, f"{value:.6g} is beyond the joint's limits: from {lower:.6g} to {upper:.6g} is allowed"
+            )
+        if len(fixed) == len(chain):
+            raise InvalidField(field, "no joint is left to move: leave at least one of the chain out")
+
+
+def _check_size(call: InverseRequest, targets: int, joints: int, bounds: Bounds) -> None:
+    if targets > bounds.targets:
+        raise TooLarge("targets", targets, bounds.targets)
+    if is_stepwise(call) and targets > bounds.stepwise:
+        raise TooLarge("targets of a method that is followed step by step", targets, bounds.stepwise)
+    rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
+    # The sweeps of families have together as many configurations as there may be solutions.
+    numbers = targets * (joints + 4 + joints * (call.solutions == "all")) * rows
+    if bounds.numbers is not None and numbers > bounds.numbers:
+        raise TooLarge("numbers in the answer", numbers, bounds.numbers)
+
+
+def is_stepwise(call: InverseRequest) -> bool:
+    """Whether each iteration is followed in Python."""
+    return call.method not in {"auto", "analytic"} or call.trace
+
+
+def _check_options(call: InverseRequest) -> None:
+    """Refuse what does not go together.
+
+    Raises:
+        InvalidField: The field, and what it goes with.
+    """
+    if call.task is not None and len(set(call.task)) < len(call.task):
+        raise InvalidField("task", "each direction at most once")
+    if call.solutions == "all" and call.method not in {"auto", "analytic"}:
+        raise InvalidField("solutions", "`all` goes with the methods `auto` and `analytic` only")
+    if call.method == "analytic" and call.trace:
+        raise InvalidField("trace", "a closed form has no iterations to tell of")
+    if call.elbow_angle is not None and call.method != "analytic":
+        raise InvalidField("elbow_angle", "only for the method `analytic`")
+    if call.elbow_angle is not None and call.fixed_joints is not None:
+        raise InvalidField("fixed_joints", "either they or `elbow_angle`, not both")
+    if call.solutions == "all" and (call.trace or call.objective is not None):
+        raise InvalidField("solutions", "`all` goes without `trace` and `objective`")
+    if call.windings and (call.solutions != "all" or not call.respect_limits):
+        raise InvalidField("windings", "they go with `solutions: all` within the limits, without which there is no end")
+    if call.posture is not None and call.objective != "posture":
+        raise InvalidField("posture", "only for the objective `posture`")
+    if call.step_size is not None and call.method not in {"gradient", "gradient_then_newton"}:
+        raise InvalidField("step_size", "only for the methods `gradient` and `gradient_then_newton`")
+    if call.damping is not None and call.method != "damped_least_squares":
+        raise InvalidField("damping", "only for the method `damped_least_squares`")
+    if call.objective is not None and call.method != "auto":
+        raise InvalidField("objective", "only for the method `auto`")

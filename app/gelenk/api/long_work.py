@@ -1,0 +1,89 @@
+"""Operations on a robot that can run as a job: checked at once, computed later, answered with the same bytes."""
+
+import asyncio
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Generic, TypeVar
+
+import numpy as np
+import orjson
+from numpy.typing import NDArray
+from starlette.requests import Request
+from starlette.responses import Response
+
+from gelenk.api.job_info import job_response
+from gelenk.api.payloads import CSV, JSON, NPY, PNG, SVG
+from gelenk.api.preference import APPLIED
+from gelenk.api.remote import client_of
+from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.robot_files import robot_files
+from gelenk.jobs.runner import Runner, Work
+from gelenk.schemas.common import Payload
+from gelenk.store.records import LoadedRobot
+
+_Request = TypeVar("_Request", bound=Payload)
+
+RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv", SVG: "result.svg", PNG: "result.png"}
+"""The file of a result by its media type, of any kind of job."""
+HEADERS = "headers.json"
+"""The file with what the headers of these tell, by media type."""
+
+
+@dataclass(frozen=True, slots=True)
+class LongWork(Generic[_Request]):
+    """How an operation is done as a job.
+
+    Attributes:
+        kind: Of the job.
+        request: Checks a call, and makes of it the files that the job is done from, beside the robot's.
+        work: What does the job, by the folder of these.
+        more: In what the job is allowed more than a call that is answered at once; for the documentation.
+    """
+
+    kind: str
+    request: Callable[[LoadedRobot, _Request], dict[str, bytes]]
+    work: Callable[[Path], Work]
+    more: str
+
+    def planned(self, loaded: LoadedRobot, call: _Request) -> Response:
+        """All files of the request, in one."""
+        files = {**robot_files(loaded.record.name, loaded.robot, loaded.urdf), **self.request(loaded, call)}
+        return Response(packed(**{name: as_bytes(content) for name, content in files.items()}))
+
+
+def as_bytes(content: bytes) -> NDArray[np.uint8]:
+    """Bytes as an array, to be packed with others."""
+    return np.frombuffer(content, np.uint8)
+
+
+async def submitted(runner: Runner, kind: str, request: Request, planned: bytes) -> Response:
+    """The answer to a call whose job has been planned.
+
+    Raises:
+        TooManyJobs: Too many wait.
+        StorageFailed: It cannot be kept.
+    """
+
+    def submit() -> Response:
+        files = {name: content.tobytes() for name, content in unpacked(planned).items()}
+        job = runner.submit(kind, hashlib.sha256(planned).hexdigest(), files, client=client_of(request))
+        location = f"{request.scope.get('root_path', '')}/v1/jobs/{job.id}"
+        return job_response(job, 202, {"Location": location, **APPLIED})
+
+    return await asyncio.to_thread(submit)
+
+
+def headers_file(headers: dict[str, dict[str, str]]) -> bytes:
+    """What the headers of a result tell, by media type."""
+    return orjson.dumps(headers)
+
+
+def headers_of(path: Path, media_type: str) -> dict[str, str]:
+    """The headers of a result."""
+    try:
+        told: dict[str, dict[str, str]] = orjson.loads(path.read_bytes())
+    except FileNotFoundError:
+        return {}
+    return told.get(media_type, {})

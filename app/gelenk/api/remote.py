@@ -1,0 +1,183 @@
+"""The way from a request to the crew and back: with a deadline, and for as long as somebody waits for the answer."""
+
+import asyncio
+from collections import Counter
+from collections.abc import Callable, Coroutine
+from typing import Any, TypeVar
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
+
+from gelenk.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered, buffers
+from gelenk.api.payloads import JSON, BoundedRequest
+from gelenk.api.problems import UnsupportedMediaType
+from gelenk.api.tally import TALLY
+from gelenk.crew.crew import Crew
+from gelenk.model.errors import InvalidField, ServiceStopping, TooManyRequests
+from gelenk.store.library import Library
+from gelenk.store.records import LoadedRobot
+
+INLINE_BYTES = 4096
+"""A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms.
+
+So it compiles nothing either: as long as the crew is starting, that is all asked of it.
+"""
+
+PARSED_HERE_BYTES = 512 * 1024
+"""Most of a body that a thread of this process parses: the event loop stands still meanwhile."""
+
+_OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
+
+_Result = TypeVar("_Result")
+
+
+class Remote:
+    """Has requests answered by the crew.
+
+    Args:
+        crew: The processes.
+        shop: What they set their desks up from.
+        library: The robots of this process.
+        seconds: How long a request may wait for its turn, and how long it may then take.
+        share: Requests of one client that may wait or be worked on.
+    """
+
+    def __init__(self, crew: Crew, shop: Shop, library: Library, seconds: float, share: int) -> None:
+        self.crew, self._shop, self._library, self._seconds = crew, shop, library, seconds
+        self._share = share
+        self._requests: Counter[str] = Counter()
+
+    async def answer(self, request: Request, errand: Errand, inquiry: Inquiry) -> Response:
+        """The answer of an errand.
+
+        Raises:
+            ClientDisconnect: The caller has left; the errand is broken off.
+            KinematicsError: As `Crew.run`, and whatever the errand raises.
+        """
+        reply = await self._reply(request, errand, inquiry)
+        TALLY.set(reply[3])
+        return Passed(reply)
+
+    async def told(self, request: Request, errand: Errand, inquiry: Inquiry) -> bytes:
+        """What an errand has to tell this process; raises as `answer` does."""
+        return b"".join((await self._reply(request, errand, inquiry))[2])
+
+    async def resident(self, request: Request, name: str) -> LoadedRobot:
+        """A robot in this process, for quick calls; one from outside has been loaded by the crew before, which lived.
+
+        Raises:
+            KinematicsError: As `answer`, and as `Library.get`.
+        """
+        found = self._library.loaded(name)
+        if found is not None:
+            return found
+        if not self._library.is_ours(name):
+            await self._reply(request, load, Inquiry(robot=name))
+        return await asyncio.to_thread(self._library.get, name)
+
+    async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
+        client = client_of(request)
+        if client and self._requests[client] >= self._share:
+            raise TooManyRequests(self._share, self.crew.retry_after)
+        self.crew.check_room(client)
+        work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds, client)
+        self._requests[client] += 1
+        try:
+            return await while_wanted(request.receive, work)
+        finally:
+            self._requests[client] -= 1
+            if not self._requests[client]:
+                del self._requests[client]
+
+
+def client_of(request: Request) -> str:
+    """Whom a request is from: the key that it came with, else its address.
+
+    Those without a key from this very machine are of one client, the nameless one, which has no share of its own to
+    keep to: what stands before the service may pass on those of others.
+    """
+    key: str | None = request.scope.get("gelenk.key")
+    if key is not None:
+        return f"key {key}"
+    address = request.client.host if request.client else ""
+    return "" if address in _OWN_ADDRESSES else address
+
+
+def load(desk: Desk, inquiry: Inquiry) -> Response:
+    """Load a robot, to see that it can be."""
+    desk.library.get(inquiry.robot)
+    return Response()
+
+
+def json_handler(
+    errand: Errand,
+    remote: Remote,
+    offered: tuple[str, ...] = (JSON,),
+    quick: Callable[[bytes], Response | None] = lambda _: None,
+) -> Callable[[BoundedRequest], Coroutine[Any, Any, Response]]:
+    """What answers a JSON request: on the event loop where that is quick, else by an errand.
+
+    Args:
+        errand: What gives any answer.
+        remote: Who runs it.
+        offered: Media types of the answer, the default one first.
+        quick: Gives the default answer to a small body where that takes less than about a millisecond, else None.
+    """
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type != JSON:
+            raise UnsupportedMediaType(request.media_type, (JSON,))
+        if request.scope["query_string"]:
+            raise InvalidField("query", "this call has its parameters as fields of the body")
+        wanted, pieces = request.preferred(offered), await request.pieces()
+        is_small = request.length <= INLINE_BYTES and not remote.crew.is_starting
+        found = quick(b"".join(pieces)) if wanted == offered[0] and is_small else None
+        return found or await remote.answer(request, errand, Inquiry(buffers(pieces), wanted=wanted))
+
+    return handle
+
+
+async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
+    """The result of some work, which is broken off when the caller leaves.
+
+    Raises:
+        ClientDisconnect: The caller has left.
+        ServiceStopping: The server has cancelled it, which it does when it can wait no longer to shut down.
+        Exception: Whatever the work raises.
+    """
+    doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
+    try:
+        await asyncio.wait({doing, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if doing.done():
+            return doing.result()
+        raise ClientDisconnect
+    except asyncio.CancelledError:
+        raise ServiceStopping from None
+    finally:
+        doing.cancel()
+        leaving.cancel()
+
+
+async def _left(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+class Passed(Response):
+    """An answer from the crew, passed on piece by piece as fast as the caller takes it; others get a turn between."""
+
+    def __init__(self, reply: Reply) -> None:
+        self.status_code, self.raw_headers, pieces, _ = reply
+        self.body, self.background = b"", None
+        self._pieces = [memoryview(piece) for piece in pieces] or [memoryview(b"")]
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002
+        """Send it."""
+        await send({"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers})
+        pieces = self._pieces[::-1]
+        self._pieces.clear()
+        while pieces:
+            await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})
+            if pieces:  # while the system takes them, sending waits for nothing
+                await asyncio.sleep(0)

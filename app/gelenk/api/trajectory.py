@@ -1,0 +1,85 @@
+"""Trajectories of a robot: planned, judged, sampled; as JSON, CSV, npy or a picture."""
+
+from typing import Any
+
+from gelenk.api.routes import Computation, Operation, Outcome
+from gelenk.api.trajectory_job import trajectory_work
+from gelenk.api.trajectory_planned import Bounds, Planned
+from gelenk.api.trajectory_samples import MAX_SAMPLES
+from gelenk.model.arrays import Array
+from gelenk.schemas.trajectory import TrajectoryRequest
+from gelenk.schemas.trajectory_answer import TrajectoryAnswer
+from gelenk.store.records import LoadedRobot
+
+
+def trajectory_operation(max_answer_numbers: int) -> Operation:
+    """The operation `trajectory`, none of whose answers holds more numbers than given."""
+    bounds = Bounds(MAX_SAMPLES, max_answer_numbers)
+
+    def trajectory(loaded: LoadedRobot, call: TrajectoryRequest) -> Outcome:
+        """A motion from rest to rest through segments: joints, lines, circles and splines of the tip.
+
+        A `joint` segment moves all joints together to a configuration or a pose; `line`, `circle` and `spline` lead the
+        tip along a path in space, which the joints follow within `path_tolerance`, also between samples, on one branch
+        of the inverse kinematics. A spline through configurations moves the joints. The motion stops between two
+        segments, except where a line is blended into the next. Each segment has its own time law and limits, or the
+        trajectory's; limits that neither the request nor the robot's description gives are assumed, and `notes` and
+        `limit_sources` say so.
+
+        A path that cannot be followed to its end (out of reach, a joint limit, a singularity, a change of branch) is
+        also an answer: the motion as far as it goes, to rest, with `completed_fraction` and `failure`.
+
+        Every motion is a list of polynomials. Before it is sent, code independent of the planner checks exact peaks
+        against the limits, jumps where pieces meet, and the tip against its path, also between samples; its poses are
+        recomputed through Pinocchio. `audit` holds the results.
+
+        With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
+        as profiles of position, velocity, acceleration and jerk.
+        """
+        planned = Planned.of(loaded.robot, call, bounds)
+
+        def content() -> dict[str, Any]:
+            times = planned.times()
+            return planned.told(planned.told_samples(times), planned.certificate(times))
+
+        def array() -> tuple[Array, dict[str, str]]:
+            return planned.table(planned.times()), planned.headers
+
+        return Outcome(content, array, lambda kind: planned.picture(loaded.record.name, kind), planned.columns)
+
+    return Operation(
+        name="trajectory",
+        operation_id="trajectory",
+        summary="Trajectory",
+        computation=Computation(
+            run=trajectory,
+            request=TrajectoryRequest,
+            is_heavy=lambda _: True,
+            long=trajectory_work(max_answer_numbers),
+            picture="Position, velocity, acceleration and jerk of each joint over time, with the limits; the segments "
+            "are marked.",
+            table="A row of names, `time`, `q_…`, `qd_…` and `qdd_…` of each joint, then one row per sample: [s], "
+            "[rad or m], [rad/s or m/s], [rad/s² or m/s²]. The headers are those of the npy answer.",
+        ),
+        answer=TrajectoryAnswer,
+        npy_answer="The samples as one array of shape (N, 1 + 3n): time, joint positions, velocities, accelerations. "
+        "The headers `Gelenk-Duration` [s], `Gelenk-Completed-Fraction` and `Gelenk-Failure` (`none`, or the reason) "
+        "give the outcome.",
+        example={
+            "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
+            "segments": [
+                {"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]},
+                {
+                    "type": "line",
+                    "target": {"position": [0.5, 0.2, 0.4], "rpy": [3.141592653589793, 0.0, 0.3]},
+                    "blend_radius": 0.05,
+                },
+                {"type": "line", "target": {"position": [0.5, -0.1, 0.4], "rpy": [3.141592653589793, 0.0, 0.0]}},
+            ],
+            "law": "trapezoidal",
+            "tip_frame": "panda_link8",
+            "velocity_scale": 0.5,
+            "acceleration_scale": 0.5,
+            "sample_period": 0.05,
+        },
+    )

@@ -1,0 +1,198 @@
+"""What a call of velocity kinematics asks, checked: one question, its numbers, and how to invert."""
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import numpy as np
+
+from gelenk.kinematics.configuration import configurations, one_configuration
+from gelenk.kinematics.ik.null_space import Objective
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.kinematics.inverse_velocity import descent
+from gelenk.kinematics.linear_inverse import Rule
+from gelenk.kinematics.task_space import TaskSpace
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidArray, InvalidField, counted, quoted
+from gelenk.schemas.velocity import NullSpace, VelocityRequest
+
+RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
+"""The fields that give the joints' derivatives, in their order."""
+TIP = {"twists": 0, "tip_accelerations": 1, "tip_jerks": 2}
+"""What can be inverted, and how many of the rates it needs."""
+
+_INVERSE_ALONE = ("inverse", "damping", "damping_threshold", "weights", "null_space")
+_THRESHOLD = 0.05
+"""σ₀ of the adaptive damping where none is given."""
+_LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-6, 1e6
+
+
+def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Array]:
+    """Joint positions, shape (N, n), and the given rates q̇, q̈, …, shape (K, N, n).
+
+    Raises:
+        InvalidField: A rate is given without those before it, or not one for each configuration.
+    """
+    if isinstance(call.joint_positions, np.ndarray):
+        return _split(chain, call.joint_positions)
+    qs = configurations(chain, call.joint_positions)
+    given = [getattr(call, field) for field in RATES]
+    count = sum(values is not None for values in given)
+    for field, values, before in zip(RATES[1:], given[1:], given, strict=False):
+        if values is not None and before is None:
+            raise InvalidField(field, f"they go with `{RATES[RATES.index(field) - 1]}`, which are missing")
+    rates = np.empty((count, *qs.shape))
+    for k, (field, values) in enumerate(zip(RATES[:count], given, strict=False)):
+        rates[k] = _one_each(chain, values, field, len(qs))
+    return qs, rates
+
+
+def _split(chain: Chain, array: Array) -> tuple[Array, Array]:
+    if array.ndim != 3 or not 2 <= array.shape[1] <= 1 + len(RATES):
+        raise InvalidArray(
+            f"joint positions and their derivatives form an array of shape (N, k, {len(chain)}) with 2 ≤ k ≤ 5; this "
+            f"one has the shape {array.shape}"
+        )
+    fields = ("joint_positions", *RATES)
+    parts = [configurations(chain, np.ascontiguousarray(array[:, k]), fields[k]) for k in range(array.shape[1])]
+    return parts[0], np.array(parts[1:])
+
+
+def _one_each(chain: Chain, values: Any, field: str, count: int) -> Array:
+    rows = configurations(chain, values, field)
+    if len(rows) != count:
+        raise InvalidField(field, f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}")
+    return rows
+
+
+def asked_field(call: VelocityRequest, rates: int) -> str | None:
+    """The field to invert; None if the tip's motion is requested.
+
+    Raises:
+        InvalidField: What is given does not make one question.
+    """
+    given = [field for field in TIP if getattr(call, field) is not None]
+    if not given:
+        if rates == 0:
+            raise InvalidField("joint_velocities", f"they are needed, or one of {', '.join(TIP)} to be inverted")
+        for field in _INVERSE_ALONE:
+            if field in call.model_fields_set and not isinstance(call.joint_positions, np.ndarray):
+                raise InvalidField(field, f"it goes with one of {', '.join(TIP)}, which are missing")
+        return None
+    asked = given[0]
+    if len(given) > 1:
+        raise InvalidField(given[1], f"`{asked}` are given too: one of the two, or two calls")
+    needed = TIP[asked]
+    if rates < needed:
+        raise InvalidField(RATES[rates], f"they are needed with `{asked}`")
+    if rates > needed:
+        raise InvalidField(RATES[needed], f"`{asked}` are given too, from which they follow: one of the two")
+    return asked
+
+
+def space_of_call(call: VelocityRequest) -> TaskSpace:
+    """The directions that count, as they are given, in the reference.
+
+    Raises:
+        InvalidField: One of them is named twice.
+    """
+    directions = DIRECTIONS if call.task is None else tuple(call.task)
+    if len(set(directions)) < len(directions):
+        raise InvalidField("task", "each direction at most once")
+    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
+
+
+def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> Rule:
+    """How to invert.
+
+    Raises:
+        InvalidField: An option that does not go with the inverse, a weight that is none, or an exact inverse of a
+            Jacobian that is not square.
+    """
+    if call.inverse == "exact":
+        for field in ("weights", "null_space"):
+            if getattr(call, field) is not None:
+                raise InvalidField(field, "the exact inverse leaves nothing to choose")
+        if directions != len(chain):
+            raise InvalidField(
+                "inverse",
+                f"`exact` needs as many joints as directions, and here {counted(len(chain), 'joint')} should give "
+                f"{directions}: choose a `task` of as many, or `pseudo_inverse`",
+            )
+    if call.inverse != "damped":
+        for field in ("damping", "damping_threshold"):
+            if getattr(call, field) is not None:
+                raise InvalidField(field, "only for the inverse `damped`")
+    damping = None if call.damping in {None, "adaptive"} else cast(float, call.damping)
+    if damping is not None and call.damping_threshold is not None:
+        raise InvalidField("damping_threshold", "only for adaptive damping")
+    if asked != "twists" and call.null_space is not None and call.null_space.joint_accelerations is None:
+        raise InvalidField("null_space", "`joint_velocities` and `objective` go with `twists` only")
+    return Rule(
+        call.inverse,
+        call.rank_tolerance,
+        damping,
+        _THRESHOLD if call.damping_threshold is None else call.damping_threshold,
+        _weights(chain, call),
+    )
+
+
+def _weights(chain: Chain, call: VelocityRequest) -> Array | None:
+    if call.weights is None:
+        return None
+    weights: Array = one_configuration(chain, call.weights, "weights")[0]
+    for name, weight in zip(chain.joint_names, weights.tolist(), strict=True):
+        if not _LEAST_WEIGHT <= weight <= _LARGEST_WEIGHT:
+            raise InvalidField(
+                "weights",
+                f"that of joint {quoted(name)} is {weight:g}; allowed are {_LEAST_WEIGHT:g} to {_LARGEST_WEIGHT:g}",
+            )
+    return weights
+
+
+def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: int) -> Array:
+    """What is to be inverted, in the directions that count; shape (N, k)."""
+    given: Sequence[Sequence[float]] = getattr(call, asked)
+    if len(given) != count:
+        raise InvalidField(asked, f"{counted(len(given), 'entry')} for {counted(count, 'configuration')}")
+    targets = np.empty((count, len(space)))
+    for i, entry in enumerate(given):
+        if len(entry) not in {6, len(space)}:
+            allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
+            raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed are {allowed}")
+        # Six numbers of six directions are in the order of these too.
+        targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
+    return targets
+
+
+def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace) -> Array | None:
+    """ξ; shape (N, n).
+
+    Raises:
+        InvalidField: Of the wrong order, or not one for each configuration.
+    """
+    wanted = call.null_space
+    if wanted is None:
+        return None
+    if wanted.objective is not None:
+        posture = None
+        if wanted.posture is not None:
+            posture = one_configuration(chain, wanted.posture, "null_space/posture")
+        objective = Objective(wanted.objective, posture)
+        return descent(chain, qs, objective, wanted.gain, space)
+    return _given_null_motion(chain, wanted, asked, len(qs))
+
+
+def _given_null_motion(chain: Chain, wanted: NullSpace, asked: str, count: int) -> Array:
+    field = "joint_velocities" if asked == "twists" else "joint_accelerations"
+    values = getattr(wanted, field)
+    if values is None or asked == "tip_jerks":
+        raise InvalidField("null_space", f"what it gives does not go with `{asked}`")
+    rows = configurations(chain, values, f"null_space/{field}")
+    if len(rows) not in {1, count}:
+        raise InvalidField(
+            f"null_space/{field}",
+            f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}: one for all or each",
+        )
+    return np.broadcast_to(rows, (count, len(chain)))

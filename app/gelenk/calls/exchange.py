@@ -1,0 +1,98 @@
+"""Requests and answers as JSON."""
+
+import gc
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any, ParamSpec, TypeVar
+from urllib.parse import quote
+
+import numpy as np
+import orjson
+from pydantic import BaseModel
+
+from gelenk.calls.call import Call, Reply, documented
+from gelenk.calls.npy import numbers
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.schemas.common import Answer, as_lists
+
+P = ParamSpec("P")
+A = TypeVar("A", bound=Answer)
+
+_LARGE = 1_000_000
+"""Bytes of an answer."""
+
+
+def posted(path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
+    """A call with JSON in both directions."""
+    return Call("POST", path, reader(answer), body=encoded(fields), **details)
+
+
+def encoded(fields: Mapping[str, Any]) -> bytes:
+    """The fields of a request as JSON; arrays and models go as what they hold.
+
+    Raises:
+        InvalidArray: A field is an array of something else than numbers.
+        InvalidField: A number of an array is not finite: JSON would have nothing in its place.
+    """
+    plain = {name: _finite(name, value) if isinstance(value, np.ndarray) else value for name, value in fields.items()}
+    return orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
+
+
+def _finite(field: str, array: Array) -> Array:
+    array = numbers(array)
+    if not np.isfinite(array).all():
+        where = np.argwhere(~np.isfinite(array))[0].tolist()
+        raise InvalidField(field, f"the number at {where} of the array is not finite")
+    return array
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, BaseModel):
+        return value.model_dump(exclude_unset=True)
+    plain = as_lists(value)  # of an array that is not contiguous, of a range, of a deque
+    if plain is value:
+        raise TypeError(f"a {type(value).__name__} cannot be sent as JSON")
+    return plain
+
+
+def reader(answer: type[A]) -> Callable[[Reply], A]:
+    """How an answer is read; what a newer service tells beside it is left out."""
+
+    def read(reply: Reply) -> A:
+        with _collector_at_rest(len(reply.body) > _LARGE):
+            return answer.model_validate_json(reply.body, extra="ignore")
+
+    return read
+
+
+@contextmanager
+def _collector_at_rest(rests: bool) -> Iterator[None]:
+    """Without the collector of garbage, where wanted: of a hundred thousand new poses none is garbage.
+
+    It would look through them again and again, for a good part of the time that a large answer takes to read.
+    """
+    rests = rests and gc.isenabled()
+    if rests:
+        gc.disable()
+    try:
+        yield
+    finally:
+        if rests:
+            gc.enable()
+
+
+def segment(name: str) -> str:
+    """A name as a part of a path."""
+    if not isinstance(name, str):
+        raise TypeError(f"a robot or a job is given by its name, a string, not by {name!r:.80}")
+    return quote(name, safe="")
+
+
+def described_by(
+    describe: Callable[P, Call[A]], request: Callable[..., BaseModel], answer: type[A], *before: inspect.Parameter
+) -> Callable[P, Call[A]]:
+    """A description that says what its models do."""
+    sentences = f"{inspect.getdoc(request)}\n\nReturns:\n    {answer.__name__}: {inspect.getdoc(answer)}"
+    return documented(describe, request, sentences, *before)

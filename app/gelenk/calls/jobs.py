@@ -1,0 +1,240 @@
+"""Jobs: what the service does while nobody waits for it, as objects that know what comes out."""
+
+import functools
+import inspect
+from collections.abc import AsyncGenerator, Callable, Coroutine, Iterator
+from contextlib import aclosing, suppress
+from types import TracebackType
+from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
+
+from gelenk.calls.arrays import ArrayOperations
+from gelenk.calls.call import Awaited, Blocking, Call, method_of
+from gelenk.calls.exchange import reader
+from gelenk.calls.operations import Operations
+from gelenk.model.arrays import Array
+from gelenk.model.errors import KinematicsError
+from gelenk.schemas.jobs import Finished, JobInfo
+
+P = ParamSpec("P")
+A = TypeVar("A")
+
+Progress = Callable[[JobInfo], None]
+"""Called with a job whenever it has progressed."""
+_cancel = Operations.cancel_job.describe
+_array = ArrayOperations.job_result.describe
+
+
+class Watching(Blocking, Protocol):
+    """A client that waits."""
+
+    def watch(self, job: str) -> Iterator[JobInfo]:
+        """A job, whenever it is further on."""
+        ...
+
+
+class AwaitedWatching(Awaited, Protocol):
+    """A client that is awaited."""
+
+    def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
+        """A job, whenever it is further on."""
+        ...
+
+
+class _Told:
+    """The part that both kinds of job share: the latest information from the service."""
+
+    info: JobInfo
+
+    @property
+    def id(self) -> str:
+        """By which the service knows it."""
+        return self.info.id
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
+
+
+class Job(_Told, Generic[A]):
+    """A job that was begun. Iterate over it to see how far it is; ask it for its result.
+
+    As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
+
+    Attributes:
+        info: How far it was when that was last told.
+    """
+
+    def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    def __iter__(self) -> Iterator[JobInfo]:
+        for info in self._client.watch(self.id):
+            self.info = info
+            yield info
+
+    def wait(self, progress: Progress | None = None) -> JobInfo:
+        """The job at its end, whatever that is."""
+        for info in self:
+            if progress is not None:
+                progress(info)
+        return self.info
+
+    def result(self, progress: Progress | None = None) -> A:
+        """What has come out, when the job is at its end.
+
+        Raises:
+            Refused: It failed, which is the core's own exception, or was cancelled.
+        """
+        self.wait(progress)
+        return self._client.send(self._result(self.id))
+
+    def array(self, progress: Progress | None = None) -> Array:
+        """The same as an array; see `arrays` of the client for what it holds."""
+        self.wait(progress)
+        return self._client.send(_array(self.id))
+
+    def cancel(self, finished: Finished = "keep") -> JobInfo:
+        """End it, or remove its result where it has come to its end and that is said.
+
+        Raises:
+            JobFinished: It has come to its end, and that is not said.
+        """
+        self.info = self._client.send(_cancel(self.id, finished))
+        return self.info
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        with suppress(KinematicsError):  # someone else has removed it, or the service is away
+            self.cancel("remove")
+
+
+class AsyncJob(_Told, Generic[A]):
+    """The same, awaited."""
+
+    def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    async def __aiter__(self) -> AsyncGenerator[JobInfo, None]:
+        async with aclosing(self._client.watch(self.id)) as told:
+            async for info in told:
+                self.info = info
+                yield info
+
+    async def wait(self, progress: Progress | None = None) -> JobInfo:
+        """As `Job` does it."""
+        async with aclosing(aiter(self)) as told:
+            async for info in told:
+                if progress is not None:
+                    progress(info)
+        return self.info
+
+    async def result(self, progress: Progress | None = None) -> A:
+        """As `Job` does it."""
+        await self.wait(progress)
+        return await self._client.send(self._result(self.id))
+
+    async def array(self, progress: Progress | None = None) -> Array:
+        """As `Job` does it."""
+        await self.wait(progress)
+        return await self._client.send(_array(self.id))
+
+    async def cancel(self, finished: Finished = "keep") -> JobInfo:
+        """As `Job` does it."""
+        self.info = await self._client.send(_cancel(self.id, finished))
+        return self.info
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
+    ) -> None:
+        with suppress(KinematicsError):
+            await self.cancel("remove")
+
+
+class Begins(Protocol):
+    """The jobs of a client that waits."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """The job of a call."""
+        ...
+
+
+class BeginsAwaited(Protocol):
+    """The jobs of a client that is awaited."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[object, None, AsyncJob[A]]:
+        """The job of a call, once awaited."""
+        ...
+
+
+class Begun(Generic[P, A]):
+    """A method of both clients: it begins a job whose result is the answer to a call."""
+
+    def __init__(self, describe: Callable[P, Call[JobInfo]], result: Callable[[str], Call[A]]) -> None:
+        self.describe, self._result = describe, result
+        self.__doc__ = describe.__doc__
+
+    def __set_name__(self, _: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, jobs: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, jobs: Begins, owner: type) -> Callable[P, Job[A]]: ...
+    @overload
+    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
+
+    def __get__(self, jobs: Any, owner: type) -> Any:
+        """The description itself of the class; of a client's jobs the method."""
+        if jobs is None:
+            return self
+
+        return method_of(self.name, self.describe, lambda call: jobs.begin(call, self._result))
+
+
+def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
+    """The call that is answered by a job; sent twice it would be two of them."""
+
+    @functools.wraps(describe)
+    def described(*args: P.args, **kwargs: P.kwargs) -> Call[JobInfo]:
+        call = describe(*args, **kwargs)
+        read = reader(JobInfo)
+        return Call(
+            *(call.method, call.path, read, call.query, call.body, call.media_type), is_later=True, is_repeatable=False
+        )
+
+    described.__signature__ = inspect.signature(describe)  # type: ignore[attr-defined]
+    return described
+
+
+class JobOperations:
+    """The operations that may take long, as jobs: they may be larger than those that are answered at once."""
+
+    ik = Begun(_later(Operations.ik.describe), Operations.ik_result.describe)
+    trajectory = Begun(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
+    workspace = Begun(Operations.workspace.describe, Operations.workspace_result.describe)
+
+
+class Jobs(JobOperations):
+    """These of a client that waits."""
+
+    def __init__(self, client: Watching) -> None:
+        self._client = client
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """The job of a call."""
+        return Job(self._client, self._client.send(call), result)
+
+
+class AsyncJobs(JobOperations):
+    """The same operations, awaited."""
+
+    def __init__(self, client: AwaitedWatching) -> None:
+        self._client = client
+
+    async def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
+        """The job of a call."""
+        return AsyncJob(self._client, await self._client.send(call), result)

@@ -1,0 +1,62 @@
+"""Arrays on the wire: NumPy's own format, beside which all else goes in the query."""
+
+from collections.abc import Mapping
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+
+from gelenk.calls.call import Reply
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidArray, quoted
+
+
+def numbers(array: Array) -> Array:
+    """An array as it can be sent: whole numbers and short ones stay what they are.
+
+    Raises:
+        InvalidArray: It holds something else, or masked entries, which NumPy would send as numbers.
+    """
+    array = np.asanyarray(array)
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(array):
+        what = "masked entries" if np.ma.is_masked(array) else quoted(str(array.dtype))
+        raise InvalidArray(f"the array holds {what}; allowed are integers and floats of up to 64 bits")
+    is_plain = array.dtype.isnative and array.dtype.itemsize <= 8
+    return np.ascontiguousarray(array, dtype=array.dtype if is_plain else np.float64)
+
+
+def packed(array: Array) -> bytes:
+    """Numbers in NumPy's own format; raises as `numbers` does."""
+    stream = BytesIO()
+    np.save(stream, numbers(array), allow_pickle=False)
+    return stream.getvalue()
+
+
+def unpacked(reply: Reply) -> Array:
+    """The array that has come back."""
+    array: Array = np.load(BytesIO(reply.body), allow_pickle=False)
+    return array
+
+
+def fits_query(fields: Mapping[str, Any]) -> bool:
+    """Whether fields fit into a query: numbers, words, and lists of words."""
+    return all(_is_plain(value) or _is_words(value) for value in fields.values())
+
+
+def query_of(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields as parameters: what is left out, or none, is the service's to decide."""
+    return {name: _parameter(value) for name, value in fields.items() if value is not None}
+
+
+def _is_plain(value: Any) -> bool:
+    return value is None or isinstance(value, bool | int | float | str)
+
+
+def _is_words(value: Any) -> bool:
+    return isinstance(value, list | tuple) and all(isinstance(item, str) for item in value)
+
+
+def _parameter(value: Any) -> Any:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return [str(item) for item in value] if isinstance(value, list | tuple) else str(value)

@@ -1,0 +1,53 @@
+"""Reads a reply: an answer, or an exception with one clear sentence, whatever server has sent it."""
+
+from http import HTTPStatus
+from typing import Any, TypeVar
+
+import httpx2
+import orjson
+
+from gelenk.calls.call import Call, Reply
+from gelenk.calls.refusals import KIND_PREFIX, NotAnswering, refusal
+
+T = TypeVar("T")
+
+
+def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
+    """What has come back, read.
+
+    Args:
+        call: What was asked.
+        response: All of it.
+        url: Of the service.
+
+    Raises:
+        Refused: The service refuses the call, or something in front of it does.
+        NotAnswering: What answers is not the service.
+    """
+    if not response.is_success:
+        raise refusal(_problem(response, url))
+    try:
+        return call.read(Reply(response.content, response.headers))
+    except (ValueError, KeyError, EOFError) as error:
+        media = response.headers.get("content-type", "").partition(";")[0] or "nothing"
+        reason = f"what is there answers with {media}, not as Gelenk does; is that the address of the service?"
+        raise NotAnswering(url, reason) from error
+
+
+def _problem(response: httpx2.Response, url: str) -> dict[str, Any]:
+    """The service's own; what is in front of it, or in its place, may answer with anything."""
+    try:
+        problem = orjson.loads(response.content)
+    except orjson.JSONDecodeError:
+        problem = None
+    if isinstance(problem, dict) and "detail" in problem and str(problem.get("type")).startswith(KIND_PREFIX):
+        return problem
+    status = response.status_code
+    told = f"{url} answers with {status} {response.reason_phrase}".rstrip()
+    if response.has_redirect_location:
+        told = f"{told} and leads to {response.headers['location']}: that may be the address to use"
+    elif status >= HTTPStatus.INTERNAL_SERVER_ERROR:
+        told = f"{told}, without a reason: the service behind it may not be running"
+    else:
+        told = f"{told}, not as Gelenk does: is that the address of the service?"
+    return {"status": status, "detail": told}

@@ -1,0 +1,215 @@
+"""Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gelenk.cli.batches import in_calls
+from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
+from gelenk.cli.inputs import fields_of
+from gelenk.cli.outputs import Rows, picture_kind
+from gelenk.cli.rows import AXES, ORIENTATIONS, numbers_of, rows_of
+from gelenk.cli.session import (
+    BaseOption,
+    FieldsOption,
+    FromOption,
+    LaterOption,
+    RobotArgument,
+    TipOption,
+    session,
+)
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from gelenk.cli.rows import Rows as Given
+    from gelenk.client import Client
+    from gelenk.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from gelenk.schemas.pose import Pose
+
+QOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "-q", "--at", help="A configuration: one number per joint, [rad] or [m], separated by commas or blanks."
+    ),
+]
+_DEFAULT_POSE = "quaternion_xyzw"
+_TARGETS_FIRST = 50
+"""Targets of the first call: one that cannot be reached takes a thousand times as long as one that can."""
+UNREACHED = 1
+"""Exit code."""
+
+
+def fk(
+    context: typer.Context,
+    robot: RobotArgument,
+    at: QOption = None,
+    file: FromOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    pose_format: Annotated[
+        str,
+        typer.Option(
+            "--pose", help=f"Notation: {', '.join(ORIENTATIONS)}.", autocompletion=one_of(tuple(ORIENTATIONS))
+        ),
+    ] = _DEFAULT_POSE,
+    fields: FieldsOption = None,
+) -> None:
+    """Forward kinematics: the pose of the tip at each configuration."""
+    if pose_format not in ORIENTATIONS:
+        raise InvalidField("pose", f"must be one of {', '.join(ORIENTATIONS)}")
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
+    body |= {"pose_format": pose_format, **fields_of(fields)}
+    with shared.robot(robot) as (client, name), shared.bar("fk") as progress:
+        body = _with_configurations(client, name, given, body)
+        answer = in_calls(partial(client.fk, name), body, "joint_positions", progress)
+    rows = [_pose_row(pose, pose_format) for pose in answer.poses]
+    note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
+    shared.write(answer, Rows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
+
+
+def _with_configurations(client: "Client", name: str, given: "Given", body: dict[str, Any]) -> dict[str, Any]:
+    """The fields of a request with the configurations that were given, unless the fields have others."""
+
+    def joint_names() -> list[str]:
+        ends = {end: body[end] for end in ("base_frame", "tip_frame")}
+        return client.fk(name, joint_positions=[], **ends).joint_names
+
+    return {"joint_positions": given.configurations(joint_names), **body}
+
+
+def _pose_row(pose: "Pose", pose_format: str) -> list[float]:
+    return [*(pose.position or ()), *getattr(pose, pose_format)]
+
+
+def _certificate(certificate: Any) -> str:
+    return (
+        f"Pinocchio's differ by {certificate.max_position_error:.1e} m and "
+        f"{certificate.max_orientation_error:.1e} rad at most"
+    )
+
+
+def jacobian(
+    context: typer.Context,
+    robot: RobotArgument,
+    at: QOption = None,
+    file: FromOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    reference: Annotated[
+        str, typer.Option(help=f"One of {', '.join(REFERENCES)}.", autocompletion=one_of(REFERENCES))
+    ] = REFERENCES[0],
+    representation: Annotated[
+        str, typer.Option(help=f"One of {', '.join(REPRESENTATIONS)}.", autocompletion=one_of(REPRESENTATIONS))
+    ] = REPRESENTATIONS[0],
+    fields: FieldsOption = None,
+) -> None:
+    """The Jacobian at each configuration: rows linear, then angular."""
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip}
+    body |= {"reference": reference, "representation": representation, **fields_of(fields)}
+    with shared.robot(robot) as (client, name), shared.bar("jacobian") as progress:
+        body = _with_configurations(client, name, given, body)
+        answer = in_calls(partial(client.jacobian, name), body, "joint_positions", progress)
+    parts = [*(f"v_{axis}" for axis in AXES), *(f"w_{axis}" for axis in AXES)]
+    rows = [
+        (index, part, *row)
+        for index, matrix in enumerate(answer.jacobians)
+        for part, row in zip(parts, matrix, strict=True)
+    ]
+    notes = [
+        f"{index}: rank {rank}, condition number {'none' if condition is None else f'{condition:.6g}'}"
+        for index, (rank, condition) in enumerate(zip(answer.ranks, answer.condition_numbers, strict=True))
+    ]
+    columns = ("configuration", "row", *answer.joint_names)
+    shared.write(answer, Rows(columns, rows, notes[:20], array=answer.jacobians))
+
+
+def ik(
+    context: typer.Context,
+    robot: RobotArgument,
+    target: Annotated[
+        list[str] | None,
+        typer.Option("-t", "--to", help="A target: x y z, then roll pitch yaw or a quaternion x y z w."),
+    ] = None,
+    file: FromOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    method: Annotated[
+        str, typer.Option(help=f"One of {', '.join(METHODS)}.", autocompletion=one_of(METHODS))
+    ] = METHODS[0],
+    every: Annotated[bool, typer.Option("--all", help="Find all solutions, not just one.")] = False,
+    seed: Annotated[str | None, typer.Option(help="Configuration to start at.")] = None,
+    task: Annotated[str | None, typer.Option(help="Directions that count, such as x,y,z,rx,ry.")] = None,
+    free: Annotated[bool, typer.Option("--ignore-limits", help="Allow solutions beyond the joint limits.")] = False,
+    fields: FieldsOption = None,
+    later: LaterOption = False,
+) -> None:
+    """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
+    shared, given = session(context), rows_of(target or [], file, "targets")
+    if later:
+        shared.check_server()
+    body: dict[str, Any] = {"targets": given.targets(position_suffices=task is not None)}
+    body |= {"base_frame": base, "tip_frame": tip, "method": method, "respect_limits": not free}
+    body["solutions"] = "all" if every else "one"
+    if task is not None:
+        body["task"] = task.replace(",", " ").split()
+    if seed is not None:
+        body["seeds"] = [numbers_of(seed, "seeds")]
+    body |= fields_of(fields)
+    with shared.robot(robot) as (client, name):
+        if later:
+            shared.tell_job(client.jobs.ik(name, **body).info)
+            return
+        with shared.bar("ik") as progress:
+            answer = in_calls(partial(client.ik, name), body, "targets", progress, first=_TARGETS_FIRST)
+    shared.write(answer, _solutions(answer))
+    if any(not result.solutions for result in answer.results):
+        raise typer.Exit(UNREACHED)
+
+
+def _solutions(answer: "InverseAnswer") -> Rows:
+    columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
+    rows: list[tuple[Any, ...]] = []
+    for index, result in enumerate(answer.results):
+        found: list[SolutionInfo | NearestInfo] = [*result.solutions]
+        if result.nearest is not None:
+            found = [result.nearest]
+        rows += [
+            (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
+        ]
+    reasons = [f"{index}: {result.reason}" for index, result in enumerate(answer.results) if result.reason]
+    # As the API's npy: of each target a solution, or what comes nearest.
+    first = [result.solutions[0] if result.solutions else result.nearest for result in answer.results]
+    array = [one.joint_positions for one in first if one is not None]
+    return Rows(columns, rows, reasons[:20], array=array if len(array) == len(first) == len(rows) else None)
+
+
+def manipulability(
+    context: typer.Context,
+    robot: RobotArgument,
+    at: QOption = None,
+    file: FromOption = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw the ellipsoids into this file, SVG or PNG.")] = None,
+    fields: FieldsOption = None,
+) -> None:
+    """How well the tip can move and push at each configuration."""
+    shared, given = session(context), rows_of(at or [], file, "joint_positions")
+    kind = None if plot is None else picture_kind(plot)
+    body: dict[str, Any] = {"base_frame": base, "tip_frame": tip, **fields_of(fields)}
+    with shared.robot(robot) as (client, name):
+        body = _with_configurations(client, name, given, body)
+        with shared.bar("manipulability") as progress:
+            answer = in_calls(partial(client.manipulability, name), body, "joint_positions", progress)
+        if plot is not None and kind is not None:
+            plot.write_bytes(client.picture(f"v1/robots/{name}/manipulability", kind, body))
+    rows = []
+    for index, result in enumerate(answer.results):
+        for part, info in (("translation", result.translation), ("rotation", result.rotation)):
+            if info is not None:
+                rows.append((index, part, info.measure, info.condition_number, info.isotropy, info.rank))
+    shared.write(answer, Rows(("configuration", "part", "measure", "condition number", "isotropy", "rank"), rows))

@@ -1,0 +1,84 @@
+"""The way to every operation: its fields as JSON."""
+
+import inspect
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gelenk.cli.completion import robots_beginning_with
+from gelenk.cli.inputs import fields_of
+from gelenk.cli.outputs import Output
+from gelenk.cli.session import session
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from gelenk.calls.call import Call, Sent
+
+_BY_FILES = {"add_archive", "replace_archive"}
+"""What takes a file: `add` has it."""
+
+
+@cache
+def operations() -> "dict[str, Sent[Any, Any]]":
+    """By name, all that can be asked; loaded when asked for, because it takes seconds."""
+    from gelenk.calls.call import Sent  # noqa: PLC0415
+    from gelenk.calls.operations import Operations  # noqa: PLC0415
+
+    methods = {name: value for name, value in sorted(vars(Operations).items()) if isinstance(value, Sent)}
+    return {name: method for name, method in methods.items() if name not in _BY_FILES}
+
+
+def _beginning(incomplete: str) -> list[str]:
+    return [name for name in operations() if name.startswith(incomplete)]
+
+
+def ask(
+    context: typer.Context,
+    operation: Annotated[
+        str, typer.Argument(help="An operation such as velocity; an unknown name lists all.", autocompletion=_beginning)
+    ],
+    fields: Annotated[str | None, typer.Argument(help="JSON, or a file with it; - is standard input.")] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(help="The robot, if the operation needs one.", autocompletion=robots_beginning_with),
+    ] = None,
+) -> None:
+    """Any operation of the API, with its fields as JSON; the answer is JSON too."""
+    shared, body = session(context), fields_of(fields)
+    method = operations().get(operation)
+    if method is None:
+        raise InvalidField("operation", f"must be one of {', '.join(operations())}")
+    if _is_about_robot(method) != (robot is not None):
+        raise InvalidField(
+            "robot", "is needed by this operation" if robot is None else "is not a field of this operation"
+        )
+    if robot is None:
+        with shared.client() as client:
+            answer = client.send(_call(method, **body))
+    else:
+        with shared.robot(robot) as (client, name):
+            answer = client.send(_call(method, name, **body))
+    _write(shared.output, answer)
+
+
+def _is_about_robot(method: "Sent[Any, Any]") -> bool:
+    """Whether its first argument is a robot; as a field of a request it would be one of keywords alone."""
+    first = next(iter(inspect.signature(method.describe).parameters.values()), None)
+    return first is not None and first.name == "robot" and first.kind is not inspect.Parameter.KEYWORD_ONLY
+
+
+def _call(method: "Sent[Any, Any]", /, *arguments: str, **fields: Any) -> "Call[Any]":
+    """Raises InvalidField where the operation has no such fields; where it has a body, the service says that better."""
+    try:
+        call: Call[Any] = method.describe(*arguments, **fields)
+    except TypeError as error:
+        raise InvalidField("fields", str(error).partition("() ")[2]) from None
+    return call
+
+
+def _write(output: Output, answer: Any) -> None:
+    if isinstance(answer, str | bytes):
+        output.put(answer if isinstance(answer, bytes) else answer.encode())
+    elif answer is not None:
+        output.tell(answer)

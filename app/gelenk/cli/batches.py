@@ -1,0 +1,99 @@
+"""A large batch as calls one after the other, so that a bar can tell how far it is and no answer is too large."""
+
+import re
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from gelenk.calls.refusals import Refused, refusal
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from gelenk.schemas.common import Answer
+
+A = TypeVar("A", bound="Answer")
+
+FIRST = 1_000
+"""Rows of the first call: a batch of so many is answered as the API does it, certificate included."""
+_MOST = 10_000
+_SECONDS = 0.3
+"""What a call is to take."""
+_GROWTH = 8
+_EACH = frozenset(
+    {"poses", "frames", "results", "jacobians", "ranks", "singular_values", "condition_numbers"}
+    | {"time_variations", "hessians"}
+)
+"""Fields of an answer with an entry a row; what else there is, each call tells the same of, but for the certificate."""
+_INDEX = re.compile(r"\b(configuration|entry) (\d+)\b|(?<=#/)(joint_positions|targets|seeds)/(\d+)")
+
+
+def in_calls(
+    ask: Callable[..., A], body: Mapping[str, Any], rows: str, progress: Callable[[float], None], first: int = FIRST
+) -> A:
+    """The answer to a batch.
+
+    Numbers are those of one call with all rows, because none depends on the rows beside it. The certificate has more
+    samples, some of every call, and the largest of their errors.
+
+    Args:
+        ask: The operation; takes the fields of a request by name.
+        body: These fields.
+        rows: The name of the field with the rows.
+        progress: Is told how far the batch is, 0 to 1.
+        first: Rows of the first call; the others have as many as are answered in a third of a second.
+
+    Raises:
+        Refused: Something is wrong with a row, which is told by its place in the whole batch.
+    """
+    given = body.get(rows)
+    if not isinstance(given, list) or len(given) <= first or "time_limit" in body:  # a limit is the whole batch's
+        return ask(**body)
+    each = {name: value for name, value in body.items() if isinstance(value, list) and len(value) == len(given)}
+    answers: list[A] = []
+    done, size = 0, first
+    while done < len(given):
+        begun = time.monotonic()
+        try:
+            answers.append(ask(**{**body, **{name: value[done : done + size] for name, value in each.items()}}))
+        except Refused as refused:
+            raise _of_the_whole(refused, done) from None
+        done += size
+        progress(min(1.0, done / len(given)))
+        fitting = size * _SECONDS / max(time.monotonic() - begun, 1e-3)
+        size = int(min(max(fitting, 1.0), _GROWTH * size, _MOST))
+    return _joined(answers)
+
+
+def _joined(answers: Sequence[A]) -> A:
+    first = answers[0]
+    told: dict[str, Any] = {}
+    for name in first.model_fields_set:
+        values = [getattr(answer, name) for answer in answers]
+        if name == "certificate":
+            told[name] = _certificate(values)
+        elif name in _EACH and values[0] is not None:
+            told[name] = [entry for value in values for entry in value]
+    return first.model_copy(update=told)
+
+
+def _certificate(certificates: Sequence["BaseModel"]) -> "BaseModel":
+    """That of all: as many samples as there are together, the largest of each error."""
+    columns = {name: [getattr(one, name) for one in certificates] for name in type(certificates[0]).model_fields}
+    largest = {name: max(values) for name, values in columns.items() if None not in values}
+    return certificates[0].model_copy(update={**largest, "samples": sum(columns["samples"])})
+
+
+def _of_the_whole(refused: Refused, first: int) -> Refused:
+    """The same with the places of rows in the whole batch, whose first rows were answered before."""
+
+    def moved(found: re.Match[str]) -> str:
+        return f"{found[1]} {int(found[2]) + first}" if found[1] else f"{found[3]}/{int(found[4]) + first}"
+
+    problem: dict[str, Any] = dict(refused.problem)
+    for name in ("detail", "pointer"):
+        if isinstance(problem.get(name), str):
+            problem[name] = _INDEX.sub(moved, problem[name])
+    if isinstance(problem.get("index"), int):
+        problem["index"] += first
+    return refusal(problem)

@@ -1,0 +1,100 @@
+"""How quickly calls are answered: by this process, or by a server and the network to it."""
+
+import json
+import statistics
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gelenk.cli.outputs import Rows
+from gelenk.cli.session import BaseOption, RobotArgument, TipOption, session
+
+if TYPE_CHECKING:
+    from gelenk.client import Client
+    from gelenk.model.arrays import Array
+
+_KEYS = ("operation", "single_milliseconds", "batch_microseconds_each", "ratio")
+_FEWEST = 5
+"""Calls of a measurement, however long each takes."""
+_WARM = 2
+"""Calls before, which are not measured."""
+_WIDEST = 3.141592653589793
+"""Where a joint has no limits, [rad or m]."""
+
+
+def bench(
+    context: typer.Context,
+    robot: RobotArgument = "panda",
+    batch: Annotated[int, typer.Option(min=2, max=200_000, help="Configurations or targets of a batch.")] = 1_000,
+    seconds: Annotated[
+        float, typer.Option(min=0.1, max=60.0, help="Duration of each of the six measurements, [s].")
+    ] = 1.0,
+    base: BaseOption = None,
+    tip: TipOption = None,
+) -> None:
+    """How quickly fk, jacobian and ik are answered, one by one and in batches: one caller, call after call."""
+    shared = session(context)
+    ends = {name: frame for name, frame in (("base_frame", base), ("tip_frame", tip)) if frame is not None}
+    with shared.robot(robot) as (client, name), shared.bar("bench") as progress:
+        rows = _measured(client, name, ends, batch, seconds, progress)
+    columns = ("operation", "one call [ms]", f"of {batch:,} in one call, each [µs]", "ratio")
+    where = shared.server or "this very process"
+    note = (
+        f"{robot} at {where}: medians of calls one after the other for {seconds:g} s, arrays in and out, from the call "
+        "to the answer in Python; random configurations within the limits, targets that can be reached"
+    )
+    told = [dict(zip(_KEYS, row, strict=True)) for row in rows]
+    shown = [(operation, round(single, 3), round(each, 3), round(ratio)) for operation, single, each, ratio in rows]
+    answer = {"robot": robot, "where": where, "batch": batch, "rows": told}
+    shared.output.write(lambda: json.dumps(answer), Rows(columns, shown, (note,)))
+
+
+def _measured(
+    client: "Client", name: str, ends: dict[str, Any], batch: int, seconds: float, progress: Callable[[float], None]
+) -> list[tuple[Any, ...]]:
+    """A row an operation: its name, [ms] of a single call, [µs] of each in a batch, how often these go into that."""
+    qs = _configurations(client, name, ends, batch)
+    operations: dict[str, Callable[..., Any]] = {
+        "fk": client.arrays.fk,
+        "jacobian": client.arrays.jacobian,
+        "ik": client.arrays.ik,
+    }
+    given = {"fk": qs, "jacobian": qs, "ik": client.arrays.fk(name, qs, **ends)}
+    rows: list[tuple[Any, ...]] = []
+    for operation, method in operations.items():
+        call = partial(_called, method, name, ends)
+        single = _median_seconds(call, given[operation], 1, seconds)
+        each = _median_seconds(call, given[operation], batch, seconds) / batch
+        rows.append((operation, 1e3 * single, 1e6 * each, single / each))
+        progress(len(rows) / len(operations))
+    return rows
+
+
+def _called(method: Callable[..., Any], name: str, ends: dict[str, Any], rows: "Array") -> None:
+    method(name, rows, **ends)
+
+
+def _configurations(client: "Client", name: str, ends: dict[str, Any], count: int) -> "Array":
+    """Random ones of a chain, shape (count, n), within its limits, the same each time."""
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
+    names = client.fk(name, joint_positions=[], **ends).joint_names
+    limits = {joint.name: joint.limits for joint in client.robot(name).joints}
+    lower = [-_WIDEST if (low := limits[joint].lower) is None else low for joint in names]
+    upper = [_WIDEST if (high := limits[joint].upper) is None else high for joint in names]
+    return np.random.default_rng(0).uniform(lower, upper, (count, len(names)))
+
+
+def _median_seconds(call: "Callable[[Array], None]", rows: "Array", size: int, seconds: float) -> float:
+    """Of calls with so many rows, the next ones each time."""
+    taken: list[float] = []
+    begun = time.perf_counter()
+    while len(taken) < _FEWEST + _WARM or time.perf_counter() - begun < seconds:
+        first = len(taken) * size % (len(rows) - size + 1)
+        before = time.perf_counter()
+        call(rows[first : first + size])
+        taken.append(time.perf_counter() - before)
+    return statistics.median(taken[_WARM:])

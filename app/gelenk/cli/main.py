@@ -1,0 +1,152 @@
+"""`gelenk`: its options, its commands, and how it ends.
+
+How it ends is `EXIT_CODES`.
+"""
+
+import runpy
+import sys
+import traceback
+from http import HTTPStatus
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+import gelenk
+from gelenk.calls.refusals import NotAnswering, Refused
+from gelenk.cli import arms, ask, bench, jobs, motions, robots, tables
+from gelenk.cli.examples import example_of
+from gelenk.cli.outputs import Format, Output, check_place
+from gelenk.cli.session import Session
+from gelenk.model.errors import InvalidInput, KinematicsError, NotFound
+
+_ASKED_WRONG, _NO_SERVICE, _FAILED, _INTERRUPTED = 2, 3, 4, 130
+EXIT_CODES = (
+    "Exit codes: 0, success; 1, the answer is no (a target out of reach, a different robot, a motion that cannot be "
+    "completed); 2, the request is invalid; 3, no service answers; 4, the service refuses the request (a key is "
+    "missing, it is overloaded), or an error occurred; 130, Ctrl-C."
+)
+_WRONG_FILES = (FileNotFoundError, IsADirectoryError, NotADirectoryError, PermissionError)
+_NO_FAULT_OF_THE_CALL = frozenset({HTTPStatus.UNAUTHORIZED, HTTPStatus.TOO_MANY_REQUESTS})
+
+cli = typer.Typer(
+    name="gelenk",
+    help="Robot kinematics in a shell: on a server with --server, otherwise in this process.",
+    epilog=EXIT_CODES,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+def _tell_version(is_wanted: bool) -> None:
+    if is_wanted:
+        typer.echo(f"gelenk {gelenk.__version__}")
+        raise typer.Exit
+
+
+@cli.callback()
+def options(
+    context: typer.Context,
+    server: Annotated[
+        str | None,
+        typer.Option(
+            envvar="GELENK_SERVER",
+            help="Use this service, with the key in GELENK_KEY. If left out, the command computes by itself.",
+        ),
+    ] = None,
+    form: Annotated[
+        Format | None, typer.Option("--format", "-f", help="Output format: text for people, the others for programs.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Write to this file; .json, .csv or .npy sets the format.")
+    ] = None,
+    arg: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=VALUE.")] = None,
+    package: Annotated[list[str] | None, typer.Option(help="For xacro: NAME=FOLDER of $(find NAME).")] = None,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="Also refuse a URDF for faults that do not affect kinematics.")
+    ] = False,
+    version: Annotated[  # noqa: ARG001  (answered by its callback)
+        bool, typer.Option("--version", help="Print the version.", callback=_tell_version, is_eager=True)
+    ] = False,
+) -> None:
+    """What all commands share; before the command's name."""
+    if output is not None:
+        check_place(output)
+    context.obj = Session(server, Output(form, output), arg or (), package or (), strict)
+
+
+_PASSED_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []}
+
+
+@cli.command(context_settings=_PASSED_ON)
+def serve(context: typer.Context) -> None:
+    """Run the service: --host, --port, --workers; --help tells more."""
+    sys.argv = ["gelenk serve", *context.args]
+    runpy.run_module("gelenk.serve", run_name="__main__")
+
+
+@cli.command(context_settings=_PASSED_ON)
+def keys(context: typer.Context) -> None:
+    """Make an API key: NAME, --scopes, --file; --help tells more."""
+    sys.argv = ["gelenk keys", *context.args]
+    runpy.run_module("gelenk.keys", run_name="__main__")
+
+
+for command in (
+    *(robots.robots, robots.add, robots.remove),
+    *(arms.fk, arms.jacobian, arms.ik, arms.manipulability),
+    *(motions.trajectory, motions.workspace),
+    *(bench.bench, ask.ask),
+):
+    cli.command(epilog=example_of(command.__name__))(command)
+cli.add_typer(tables.tables)
+cli.add_typer(jobs.jobs)
+
+
+def main() -> None:
+    """Run a command, and end with a sentence and a code where something is wrong."""
+    try:
+        cli(prog_name="gelenk")
+    except NotAnswering as error:
+        _end(error.detail, _NO_SERVICE)
+    except KinematicsError as error:
+        _end(_sentence_of(error), _ASKED_WRONG if _is_the_callers(error) else _FAILED)
+    except ModuleNotFoundError as error:
+        if error.name == "gelenk" or str(error.name).startswith("gelenk."):
+            raise
+        _end(
+            f"{error.name} is missing, without which nothing is computed or served here: install gelenk[server] "
+            "(in a checkout: pip install '.[server]'), or name a service with --server",
+            _NO_SERVICE,
+        )
+    except OSError as error:
+        named = f"{error.filename}: {error.strerror}" if error.filename else error.strerror or str(error)
+        _end(named, _ASKED_WRONG if isinstance(error, _WRONG_FILES) else _FAILED)
+    except Exception as error:
+        if "KeyboardInterrupt" in str(error):  # what pydantic makes of one
+            sys.exit(_INTERRUPTED)
+        traceback.print_exc()
+        _end("something went wrong in the command itself: see above", _FAILED)
+
+
+def _sentence_of(error: KinematicsError) -> str:
+    """The service's; and where it wants a key, how a command gets one to it."""
+    wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
+    return f"{error.detail} (gelenk sends the one in GELENK_KEY)" if wants_key else error.detail
+
+
+def _is_the_callers(error: KinematicsError) -> bool:
+    if isinstance(error, Refused):
+        return 400 <= error.status < 500 and error.status not in _NO_FAULT_OF_THE_CALL
+    return isinstance(error, InvalidInput | NotFound)
+
+
+def _end(sentence: str, code: int) -> None:
+    Console(stderr=True).print(f"gelenk: {sentence}", markup=False, highlight=False, soft_wrap=True)
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

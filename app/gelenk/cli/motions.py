@@ -1,0 +1,119 @@
+"""Commands about how a robot moves, and where it gets to: what may take long."""
+
+from collections.abc import Sequence
+from itertools import chain
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from gelenk.cli.arms import UNREACHED
+from gelenk.cli.completion import LAWS, WORKSPACES, one_of
+from gelenk.cli.inputs import fields_of
+from gelenk.cli.outputs import Format, Rows, picture_kind
+from gelenk.cli.rows import numbers_of, target_of
+from gelenk.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
+from gelenk.model.errors import InvalidField
+
+
+def trajectory(
+    context: typer.Context,
+    robot: RobotArgument,
+    start: Annotated[str, typer.Option("--start", help="Start configuration.")],
+    joint: Annotated[list[str] | None, typer.Option("--joint", help="Move the joints to a configuration.")] = None,
+    line: Annotated[list[str] | None, typer.Option("--line", help="Go there straight: a pose.")] = None,
+    motion: Annotated[
+        str | None,
+        typer.Option("--motion", help="Segments and all other fields as in the API: JSON, or a file with it."),
+    ] = None,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    law: Annotated[str, typer.Option(help=f"One of {', '.join(LAWS)}.", autocompletion=one_of(LAWS))] = LAWS[0],
+    period: Annotated[float, typer.Option(help="Between samples, [s].")] = 0.01,
+    plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
+    later: LaterOption = False,
+) -> None:
+    """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
+    shared, kind = session(context), None if plot is None else picture_kind(plot)
+    if later:
+        shared.check_server()
+    fields = _motion(start, joint or [], line or [], motion)
+    fields = {"base_frame": base, "tip_frame": tip, "law": law, "sample_period": period, **fields}
+    with shared.robot(robot) as (client, name):
+        if later:
+            shared.tell_job(client.jobs.trajectory(name, **fields).info)
+            return
+        with shared.bar("trajectory", is_measured=False):
+            answer = client.trajectory(name, **fields)
+            if plot is not None and kind is not None:
+                plot.write_bytes(client.picture(f"v1/robots/{name}/trajectory", kind, fields))
+    names = answer.joint_names
+    columns = ("t", *names, *(f"d {name}" for name in names), *(f"dd {name}" for name in names))
+    table = zip(
+        *(answer.times, answer.joint_positions, answer.joint_velocities, answer.joint_accelerations), strict=True
+    )
+    rows = [(time, *chain(*values)) for time, *values in table]
+    notes = [f"{answer.duration:.6g} s, {answer.completed_fraction:.0%} of it can be done"]
+    if answer.failure is not None:
+        notes.append(answer.failure.detail)
+    shared.write(answer, Rows(columns, rows, (*notes, *answer.notes)))
+    if answer.failure is not None:
+        raise typer.Exit(UNREACHED)
+
+
+def _motion(start: str, joint: list[str], line: list[str], motion: str | None) -> dict[str, Any]:
+    q = numbers_of(start, "start")
+    if motion is not None:
+        if joint or line:
+            raise InvalidField("motion", "has the segments: give no --joint and no --line beside it")
+        return {"start": q, **fields_of(motion)}
+    segments: list[dict[str, Any]] = [{"type": "joint", "target": numbers_of(text, "joint")} for text in joint]
+    segments += [{"type": "line", "target": target_of(numbers_of(text, "line"), False)} for text in line]
+    if not segments:
+        raise InvalidField("segments", "none are given: --joint, --line, or --motion with all of them")
+    return {"start": q, "segments": segments}
+
+
+def workspace(
+    context: typer.Context,
+    robot: RobotArgument,
+    samples: Annotated[int, typer.Option(help="How many configurations.")] = 100_000,
+    kind: Annotated[
+        str, typer.Option(help=f"One of {', '.join(WORKSPACES)}.", autocompletion=one_of(WORKSPACES))
+    ] = WORKSPACES[0],
+    base: BaseOption = None,
+    tip: TipOption = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw the picture into this file, SVG or PNG.")] = None,
+    fields: FieldsOption = None,
+    later: LaterOption = False,
+) -> None:
+    """What the tip can reach: points as CSV or npy, a summary otherwise."""
+    shared, picture = session(context), None if plot is None else picture_kind(plot)
+    if later:
+        shared.check_server()
+    body: dict[str, Any] = {"samples": samples, "kind": kind, "base_frame": base, "tip_frame": tip, **fields_of(fields)}
+    with shared.robot(robot) as (client, name):
+        job = client.jobs.workspace(name, **body)
+        if later:
+            shared.tell_job(job.info)
+            return
+        with job:
+            answer = shared.result_of(job)
+            wants_points = shared.output.format in {Format.CSV, Format.NPY}
+            points = job.array().tolist() if wants_points else []
+            if plot is not None and picture is not None:
+                plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture))
+    if wants_points:
+        shared.write(answer, Rows(answer.array.columns, points))
+        return
+    box, reach = answer.bounding_box, answer.reach
+    rows: list[tuple[str, Any]] = [("samples", answer.samples_counted), ("volume [m³]", answer.voxels.volume)]
+    if box is not None and reach is not None:
+        rows += [("lower [m]", _vector(box.lower)), ("upper [m]", _vector(box.upper))]
+        rows += [("reach [m]", f"{reach.min:.6f} … {reach.max:.6f}")]
+    rows.append(("best measure", answer.measure.max))
+    shared.write(answer, Rows(("", "value"), rows, answer.notes))
+
+
+def _vector(values: Sequence[float]) -> str:
+    return " ".join(f"{value:.6f}" for value in values)

@@ -1,0 +1,195 @@
+"""Answers as tables for people, and as JSON, CSV and npy for programs."""
+
+import csv
+import errno
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from rich.console import Console
+from rich.table import Table
+
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from gelenk.model.arrays import Array
+
+_SHOWN = 40
+"""Rows of a table for people."""
+_DIGITS = 6
+_WIDEST = 10_000
+
+
+class Format(StrEnum):
+    """How an answer is written."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    NPY = "npy"
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """What an answer holds as rows.
+
+    Attributes:
+        columns: Their names.
+        rows: Numbers and words.
+        notes: Sentences about all of them, for people.
+        comments: Lines in front of them in CSV, for programs that read it again.
+        array: Numbers of another shape than the rows, for npy.
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+    notes: Sequence[str] = ()
+    comments: Sequence[str] = ()
+    array: Sequence[Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where answers go, and how.
+
+    Attributes:
+        form: How; None where the file's name says so, or for people.
+        file: Where to; None for standard output.
+    """
+
+    form: Format | None = None
+    file: Path | None = None
+
+    @property
+    def format(self) -> Format:
+        """How it is written after all."""
+        if self.form is not None:
+            return self.form
+        suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
+        return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
+
+    def write(self, content: Callable[[], str], rows: Rows) -> None:
+        """An answer.
+
+        Args:
+            content: Makes it as the API gives it, JSON.
+            rows: The same as rows.
+        """
+        match self.format:
+            case Format.JSON:
+                self.put(content().encode() + b"\n")
+            case Format.CSV:
+                self.put(_csv(rows))
+            case Format.NPY:
+                self.save(_numbers(rows))
+            case _:
+                self._show(rows)
+
+    def tell(self, answer: "BaseModel") -> None:
+        """An answer that has no rows: JSON, unless another format is asked for."""
+        content = answer.model_dump(mode="json", exclude_unset=True)
+        rows = Rows(("field", "value"), list(content.items()))
+        Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
+
+    def save(self, array: "Array") -> None:
+        """An array as npy."""
+        import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
+        if self.file is None and sys.stdout.isatty():
+            raise InvalidField("format", "npy is nothing to look at: give it a file with --output, or a pipe")
+        stream = BytesIO()
+        np.save(stream, array, allow_pickle=False)
+        self.put(stream.getvalue())
+
+    def put(self, content: bytes) -> None:
+        """Bytes as they are."""
+        if self.file is not None:
+            self.file.write_bytes(content)
+            return
+        try:
+            sys.stdout.buffer.write(content)
+            sys.stdout.buffer.flush()
+        except BrokenPipeError:
+            # Whoever reads the answer has had enough of it: what is left goes nowhere, and the code says what it said.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+    def _show(self, rows: Rows) -> None:
+        table = Table(*map(_word, rows.columns), box=None, header_style="bold", pad_edge=False)
+        for row in rows.rows[:_SHOWN]:
+            table.add_row(*(_word(cell) for cell in row))
+        left = len(rows.rows) - _SHOWN
+        notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
+        console = Console() if self.file is None else Console(file=StringIO(), width=200)
+        # Not by the console itself, which ends with 1, "the answer is no", where nobody reads on.
+        with console.capture() as shown:
+            _write(console, table, notes)
+        self.put(shown.get().encode())
+
+
+def check_place(file: Path) -> None:
+    """Raises OSError where a file cannot be: before the work, not behind it."""
+    wrong = errno.EISDIR if file.is_dir() else errno.ENOENT if not file.parent.is_dir() else 0
+    if wrong:
+        raise OSError(wrong, os.strerror(wrong), str(file))
+
+
+def picture_kind(file: Path) -> Literal["svg", "png"]:
+    """What kind of picture a file's name asks for.
+
+    Raises:
+        InvalidField: None that there is.
+        OSError: There is no place for it.
+    """
+    check_place(file)
+    match file.suffix.lower():
+        case ".svg":
+            return "svg"
+        case ".png":
+            return "png"
+    raise InvalidField("plot", f"{file.name!r} must end in .svg or .png")
+
+
+def _write(console: Console, table: Table, notes: Sequence[str]) -> None:
+    # Numbers that are cut are wrong: a table is as wide as it is, and a terminal folds what does not fit.
+    whole = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
+    console.width = max(console.width, whole)
+    console.print(table)
+    for note in notes:
+        console.print(note, style="dim", markup=False, highlight=False, soft_wrap=True)
+
+
+def _word(cell: Any) -> str:
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if isinstance(cell, float):
+        return f"{cell:.{_DIGITS}g}" if cell and abs(cell) < 1e-4 else f"{cell:.{_DIGITS}f}"
+    # No markup: a robot's name may hold brackets.
+    return ("" if cell is None else str(cell)).replace("[", r"\[")
+
+
+def _csv(rows: Rows) -> bytes:
+    text = StringIO()
+    text.writelines(f"# {comment}\n" for comment in rows.comments)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(rows.columns)
+    writer.writerows(rows.rows)
+    return text.getvalue().encode()
+
+
+def _numbers(rows: Rows) -> "Array":
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
+    if rows.array is not None:
+        return np.array(rows.array, dtype=float)
+    numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
+    if len(numbers) < len(rows.columns):
+        words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)
+        raise InvalidField("format", f"npy holds numbers alone, and these columns hold others: {words}")
+    return np.array(rows.rows, dtype=float)

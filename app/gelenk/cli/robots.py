@@ -1,0 +1,96 @@
+"""Commands about the robots that the service has."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gelenk.cli.completion import robots_beginning_with
+from gelenk.cli.inputs import description_from, is_file, name_of
+from gelenk.cli.outputs import Rows
+from gelenk.cli.session import BaseOption, TipOption, session
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from gelenk.schemas.robots import RobotInfo
+
+
+def robots(
+    context: typer.Context,
+    robot: Annotated[
+        str | None,
+        typer.Argument(help="A robot's name or a file: shows its joints.", autocompletion=robots_beginning_with),
+    ] = None,
+    urdf: Annotated[bool, typer.Option("--urdf", help="Its URDF instead.")] = False,
+) -> None:
+    """List the robots, or tell about one."""
+    shared = session(context)
+    if urdf and robot is None:
+        raise InvalidField("urdf", "is that of one robot: name it")
+    if robot is None:
+        with shared.client() as client:
+            answer = client.robots()
+        rows = [(one.name, one.source, one.format, one.description) for one in answer.robots]
+        shared.write(answer, Rows(("name", "source", "format", "description"), rows))
+        return
+    with shared.robot(robot) as (client, name):
+        if urdf:
+            shared.output.put(client.urdf(name).encode())
+            return
+        info = client.robot(name)
+    shared.write(info, _joints(info))
+
+
+def _joints(info: "RobotInfo") -> Rows:
+    columns = ("joint", "type", "parent", "child", "lower", "upper", "velocity", "effort")
+    rows = [
+        (
+            *(joint.name, joint.type, joint.parent, joint.child),
+            *(joint.limits.lower, joint.limits.upper, joint.limits.velocity, joint.limits.effort),
+        )
+        for joint in info.joints
+    ]
+    ends = info.default_chain
+    about = f"default chain {ends.base_frame} → {ends.tip_frame}: {', '.join(info.joint_names)}"
+    return Rows(columns, rows, (about, *info.warnings))
+
+
+def add(
+    context: typer.Context,
+    file: Annotated[Path, typer.Argument(help="URDF, xacro, a zip of a URDF and its meshes, or a DH table.")],
+    name: Annotated[str | None, typer.Option(help="Name of the robot; the file's name if left out.")] = None,
+    description: Annotated[str, typer.Option(help="A line about it.")] = "",
+    base: BaseOption = None,
+    tip: TipOption = None,
+    replace: Annotated[bool, typer.Option("--replace", help="Replace the uploaded robot of that name.")] = False,
+) -> None:
+    """Add a robot to the service; without --server it is looked at and forgotten again."""
+    if not is_file(file):
+        raise InvalidField("file", f"there is no file {str(file)!r} that a robot can be in")
+    if (base is None) != (tip is None):
+        raise InvalidField("base" if base is None else "tip", "a default chain has two ends: give --base and --tip")
+    from gelenk.schemas.common import ChainEnds  # noqa: PLC0415 - takes seconds to load
+
+    ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
+    shared, name = session(context), name or name_of(file)
+    about: dict[str, Any] = {"description": description, "default_chain": ends}
+    with shared.client() as client:
+        if file.suffix.lower() == ".zip":
+            info = (client.replace_archive if replace else client.add_archive)(
+                name, file, **about, strict=shared.strict
+            )
+        else:
+            if ends is None:
+                del about["default_chain"]
+            body = {**about, **description_from(file, shared.arguments, shared.packages, shared.strict)}
+            info = client.replace_robot(name, **body) if replace else client.add_robot(name=name, **body)
+    shared.write(info, _joints(info))
+
+
+def remove(
+    context: typer.Context,
+    robot: Annotated[str, typer.Argument(help="Name of an uploaded robot.", autocompletion=robots_beginning_with)],
+) -> None:
+    """Remove an uploaded robot from the service."""
+    with session(context).client() as client:
+        client.remove_robot(robot)

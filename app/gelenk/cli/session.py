@@ -1,0 +1,175 @@
+"""What a command is given beside its own arguments: the service that it asks, and where its answer goes."""
+
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from gelenk.cli.completion import frames_beginning_with, robots_beginning_with
+from gelenk.cli.inputs import packages_of, pairs_of, robot_named
+from gelenk.cli.outputs import Output, Rows
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from gelenk.calls.jobs import Job
+    from gelenk.client import Client
+    from gelenk.schemas.jobs import JobInfo
+
+A = TypeVar("A")
+
+_LONG_SECONDS = 0.5
+"""Work that is over sooner needs no bar."""
+_COMPILING = "compiling the kernels{}: about a minute …"
+
+RobotArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="ROBOT",
+        autocompletion=robots_beginning_with,
+        help="A robot's name, or a file: URDF, xacro, a zip of a URDF and its meshes, a DH table as JSON, TOML or CSV.",
+    ),
+]
+BaseOption = Annotated[
+    str | None,
+    typer.Option(
+        "--base",
+        help="Frame in which poses are expressed; the default chain's if left out.",
+        autocompletion=frames_beginning_with,
+    ),
+]
+TipOption = Annotated[
+    str | None,
+    typer.Option(
+        "--tip",
+        help="Frame whose pose is computed; the default chain's if left out.",
+        autocompletion=frames_beginning_with,
+    ),
+]
+FromOption = Annotated[
+    str | None, typer.Option("--from", help="File with one row for each, CSV, npy or JSON; - is standard input.")
+]
+FieldsOption = Annotated[
+    str | None,
+    typer.Option("--fields", help="Further fields of the API as JSON, or a file with it; they override the options."),
+]
+LaterOption = Annotated[
+    bool, typer.Option("--job", help="Start a job on the service and return at once instead of waiting for it.")
+]
+
+
+class Session:
+    """The options that all commands share.
+
+    Args:
+        server: Address of the service; None for this very process.
+        output: Where the answer goes.
+        arguments: For xacro, `NAME=VALUE`.
+        packages: For xacro, `NAME=FOLDER`.
+        strict: Whether faults of a URDF that kinematics does not feel are refused too.
+    """
+
+    def __init__(
+        self,
+        server: str | None,
+        output: Output,
+        arguments: Sequence[str],
+        packages: Sequence[str],
+        strict: bool = False,
+    ) -> None:
+        self.server, self.output, self.strict = server, output, strict
+        self._given_arguments, self._given_packages = arguments, packages
+
+    @property
+    def arguments(self) -> dict[str, str]:
+        """For xacro: values by name."""
+        return pairs_of(list(self._given_arguments), "arg")
+
+    @property
+    def packages(self) -> dict[str, Path]:
+        """For xacro: folders by name."""
+        return packages_of(list(self._given_packages))
+
+    @contextmanager
+    def client(self) -> Iterator["Client"]:
+        """The service."""
+        # What computes takes seconds to load: completion and --help need not wait for it.
+        from gelenk.client import Client  # noqa: PLC0415
+
+        with ExitStack() as stack:
+            transport = None
+            if not self.server:
+                from gelenk.cli.local import InProcess  # noqa: PLC0415
+                from gelenk.model.compilation import STORE, when_compiling  # noqa: PLC0415
+
+                if sys.stderr.isatty():
+                    text = _COMPILING.format("" if STORE is None else ", once")
+                    stack.enter_context(when_compiling(lambda: print(text, file=sys.stderr)))
+                transport = InProcess()
+            # In this very process there is no name to look up, and no key to show.
+            yield stack.enter_context(Client(self.server or "http://127.0.0.1", transport=transport))
+
+    @contextmanager
+    def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
+        """The service, and the name that a robot has there."""
+        arguments, packages = self.arguments, self.packages
+        with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
+            yield client, name
+
+    def write(self, answer: "BaseModel", rows: Rows) -> None:
+        """An answer of the API."""
+        self.output.write(lambda: answer.model_dump_json(exclude_unset=True), rows)
+
+    @contextmanager
+    def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
+        """How far work is, 0 to 1, on the screen once it is long; not where standard error is no terminal.
+
+        Args:
+            what: The work.
+            is_measured: Whether it tells how far it is; else the bar tells only that it goes on.
+        """
+        if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
+            yield lambda _: None
+            return
+        share = (TextColumn("{task.percentage:>3.0f} %"),) if is_measured else ()
+        columns = (TextColumn("{task.description}"), BarColumn(), *share, TimeElapsedColumn())
+        shown = Progress(*columns, console=Console(stderr=True), transient=True)
+        bar = shown.add_task(what, total=1.0 if is_measured else None)
+        begin = threading.Timer(_LONG_SECONDS, shown.start)
+        begin.start()
+        try:
+            yield lambda progress: shown.update(bar, completed=progress)
+        finally:
+            begin.cancel()
+            begin.join()
+            shown.stop()
+
+    def result_of(self, job: "Job[A]") -> A:
+        """What comes out of a job, its progress on the screen."""
+        with self.bar(job.info.kind) as progress:
+            return job.result(lambda info: progress(info.progress))
+
+    def check_server(self) -> None:
+        """Raises InvalidField where a job would end with this very process."""
+        if not self.server:
+            raise InvalidField("job", "needs --server: without one the job would end with this command")
+
+    def tell_job(self, info: "JobInfo") -> None:
+        """A job as an answer."""
+        columns = ("id", "kind", "state", "progress", "created", "finished")
+        notes = () if info.error is None else (info.error.detail,)
+        row = (info.id, info.kind, info.state, info.progress, info.created, info.finished)
+        self.write(info, Rows(columns, [row], notes))
+
+
+def session(context: typer.Context) -> Session:
+    """That of a command."""
+    found: Any = context.obj
+    return found if isinstance(found, Session) else Session(None, Output(), (), ())

@@ -1,0 +1,134 @@
+"""Commands about Denavit-Hartenberg tables."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gelenk.cli.completion import CONVENTIONS, one_of
+from gelenk.cli.examples import example_of
+from gelenk.cli.inputs import fields_of, is_file, table_from
+from gelenk.cli.outputs import Format, Rows
+from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
+from gelenk.model.errors import InvalidField
+
+if TYPE_CHECKING:
+    from gelenk.schemas.dh import DhTablePayload
+
+TableArgument = Annotated[Path, typer.Argument(metavar="TABLE", help="DH table as JSON, TOML or CSV.")]
+ConventionOption = Annotated[str, typer.Option(help="standard or modified.", autocompletion=one_of(CONVENTIONS))]
+_DIFFERENT = 1
+
+tables = typer.Typer(name="dh", help="Denavit-Hartenberg tables: to and from URDF, compared, derived.")
+
+
+def _table(file: Path) -> Any:
+    if not is_file(file):
+        raise InvalidField("table", f"there is no file {str(file)!r} that ends in .json, .toml or .csv")
+    return table_from(file)
+
+
+def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> Rows:
+    columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort")
+    rows = [[getattr(row, column) for column in columns] for row in dh.joints]
+    places = {"base": dh.base, "tool": dh.tool}
+    told = [f"{name}: {pose.model_dump_json(exclude_unset=True)}" for name, pose in places.items() if pose is not None]
+    return Rows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
+
+
+@tables.command("to-urdf", epilog=example_of("dh to-urdf"))
+def to_urdf(
+    context: typer.Context,
+    table: TableArgument,
+    name: Annotated[str, typer.Option(help="Name of the robot in the URDF.")] = "robot",
+) -> None:
+    """A table as URDF."""
+    shared = session(context)
+    with shared.client() as client:
+        answer = client.dh_to_urdf(name=name, dh=_table(table))
+    if shared.output.format is Format.JSON:
+        shared.write(answer, Rows((), ()))
+    else:
+        shared.output.put(answer.urdf.encode())
+
+
+@tables.command("from-urdf", epilog=example_of("dh from-urdf"))
+def from_urdf(
+    context: typer.Context,
+    robot: RobotArgument,
+    convention: ConventionOption = "standard",
+    base: BaseOption = None,
+    tip: TipOption = None,
+    snap: Annotated[
+        float | None, typer.Option(help="Tolerance within which numbers are rounded to plain ones, [rad or m].")
+    ] = None,
+) -> None:
+    """A chain of a robot as a table, with its certificate."""
+    shared = session(context)
+    with shared.robot(robot) as (client, name):
+        answer = client.dh_table(name, convention, base, tip, snap)  # type: ignore[arg-type]
+    certificate = answer.certificate
+    how = (
+        f"the table and the robot differ by {certificate.max_position_error:.1e} m and "
+        f"{certificate.max_orientation_error:.1e} rad at most"
+    )
+    shared.write(answer, _rows(answer.dh, (how, *answer.notes)))
+
+
+@tables.command("convert", epilog=example_of("dh convert"))
+def convert(context: typer.Context, table: TableArgument, convention: ConventionOption) -> None:
+    """A table in the other convention."""
+    shared = session(context)
+    with shared.client() as client:
+        answer = client.convert_dh(dh=_table(table), convention=convention)  # type: ignore[arg-type]
+    shared.write(answer, _rows(answer.dh))
+
+
+@tables.command("compare", epilog=example_of("dh compare"))
+def compare(
+    context: typer.Context,
+    table: TableArgument,
+    robot: RobotArgument,
+    base: BaseOption = None,
+    tip: TipOption = None,
+    fields: FieldsOption = None,
+) -> None:
+    """Whether a table describes a chain; exit code 1 if not, with the first difference."""
+    shared = session(context)
+    with shared.robot(robot) as (client, name):
+        body: dict[str, Any] = {"dh": _table(table), "robot": name, "base_frame": base, "tip_frame": tip}
+        answer = client.compare_dh(**{**body, **fields_of(fields)})
+    rows: list[tuple[str, Any]] = [
+        ("equivalent", answer.equivalent),
+        ("largest position error [m]", answer.max_position_error),
+        ("largest orientation error [rad]", answer.max_orientation_error),
+    ]
+    notes = () if answer.first_difference is None else (str(answer.first_difference),)
+    shared.write(answer, Rows(("", "value"), rows, notes))
+    if not answer.equivalent:
+        raise typer.Exit(_DIFFERENT)
+
+
+@tables.command("derive", epilog=example_of("dh derive"))
+def derive(
+    context: typer.Context,
+    table: TableArgument,
+    latex: Annotated[bool, typer.Option("--latex", help="As LaTeX.")] = False,
+    symbolic: Annotated[
+        bool, typer.Option("--symbols/--values", help="Keep lengths as symbols, or write them as numbers.")
+    ] = True,
+    fields: FieldsOption = None,
+) -> None:
+    """The worked solution: each A_i and T_0_i, the Jacobian, and where it is singular."""
+    shared = session(context)
+    with shared.client() as client:
+        answer = client.derive_dh(**{"dh": _table(table), "symbolic": symbolic, **fields_of(fields)})
+    matrices = [*answer.A, *answer.T_0, *([answer.jacobian.matrix] if answer.jacobian else [])]
+    if latex:
+        rows = Rows(("name", "formula"), [(one.name, one.latex) for one in matrices], answer.notes)
+    else:
+        lines = [
+            (one.name if i == 0 else "", "  ".join(row)) for one in matrices for i, row in enumerate(one.plain or [])
+        ]
+        rows = Rows(("name", "formula"), lines, answer.notes)
+    shared.write(answer, rows)

@@ -1,0 +1,90 @@
+"""Xacro, expanded on the user's machine: it can read any file, which is why no server does it."""
+
+import re
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from xml.etree import ElementTree
+
+from gelenk.model.errors import InvalidUrdf
+from gelenk.model.unexpanded import without_links
+from gelenk.model.xml import read_xml
+
+_FINDER = "ament_index_python.packages"
+
+
+def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
+    """The URDF that a xacro file stands for.
+
+    Args:
+        file: The xacro file.
+        arguments: Values of its `xacro:arg`s.
+        packages: Folders that `$(find NAME)` stands for; others are looked for above the file, and in ROS where it is
+            installed.
+
+    Raises:
+        InvalidUrdf: It cannot be expanded, or to no link.
+    """
+    # Loading it takes a tenth of a second, which few calls need.
+    import xacro  # noqa: PLC0415
+
+    _stand_in(file.resolve(), packages)
+    try:
+        document = xacro.process_file(str(file), mappings=dict(arguments))
+    except Exception as error:  # xacro evaluates expressions: they raise what they like
+        raise InvalidUrdf(f"xacro cannot expand it: {_sentence(error)}", element=file.name) from error
+    if not any(child.nodeName == "link" for child in document.documentElement.childNodes):
+        raise InvalidUrdf(without_links(read_xml(file.read_text("utf-8", "replace"))), element=file.name)
+    return str(document.toxml())
+
+
+def _sentence(error: Exception) -> str:
+    """What went wrong, on one line, and but once: xacro puts the class and the text of the cause beside its own."""
+    if isinstance(error, RecursionError):
+        return "it includes itself, or a macro calls itself"
+    words = re.sub(r"<class '[^']*'>: | \[Errno.*", "", " ".join(str(error).split()))
+    half = len(words) // 2
+    return words[:half] if words[:half] == words[half + 1 :] else words
+
+
+def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
+    """Take the place of ROS's index of packages, and ask it for what is not found otherwise."""
+    index = sys.modules.get(_FINDER)
+    real = getattr(index, "_real", index)
+    if real is None:
+        try:
+            from ament_index_python import packages as real  # type: ignore[import-not-found, no-redef]  # noqa: PLC0415
+        except ImportError:
+            real = None
+
+    def find(name: str) -> str:
+        folder = packages.get(name) or _above(file, name)
+        if folder is not None:
+            return str(folder)
+        if real is not None:
+            return str(real.get_package_share_directory(name))
+        raise LookupError(f"package {name!r} is not found: name its folder with --package {name}=FOLDER")
+
+    module = ModuleType(_FINDER)
+    module.get_package_share_directory = find  # type: ignore[attr-defined]
+    module._real = real  # type: ignore[attr-defined]
+    sys.modules.setdefault("ament_index_python", ModuleType("ament_index_python"))
+    sys.modules[_FINDER] = module
+
+
+def _above(file: Path, name: str) -> Path | None:
+    """The package of that name which the file is in, or which stands beside that."""
+    for folder in file.parents:
+        for candidate in (folder, folder / name):
+            manifest = candidate / "package.xml"
+            if manifest.is_file() and _name_of(manifest) == name:
+                return candidate
+    return None
+
+
+def _name_of(manifest: Path) -> str | None:
+    try:
+        return ElementTree.parse(manifest).findtext("name")  # noqa: S314 - the user's own file
+    except ElementTree.ParseError:
+        return None

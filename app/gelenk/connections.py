@@ -1,0 +1,366 @@
+"""HTTP connections with bounds: on time, on the size of a head, on their number, and on the requests begun at once.
+
+The server that this builds on waits for a slow client forever, takes a head of any size, and begins every request as
+it comes in, so that the last one of a thousand waits for all others, be it the question whether the process lives.
+"""
+
+import asyncio
+import re
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from heapq import nsmallest
+from http import HTTPStatus
+from random import uniform
+from typing import Any
+
+import orjson
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
+
+AT_ONCE = ("/healthz", "/readyz", "/metrics")
+"""Never wait and are never refused: who watches the service must see it when it is busy."""
+
+_AT_A_TIME = 8
+"""Requests that are begun in one turn of the event loop: most take a fifth of a millisecond."""
+_SWEEP_SECONDS = 0.5
+_SLOWEST_BYTES = 32 * 1024
+"""A body that takes longer than its time must come at this rate, [bytes/s]."""
+_GRACE_SECONDS = 2.0
+"""How long the rest of a body is waited for when the service shuts down."""
+_ARRIVAL_SECONDS = 0.5
+"""A connection that has just come has so long to send its request when the service shuts down."""
+_RETRY_SECONDS = 1.0
+"""How long a request that is not even begun is told to wait."""
+_SHORTEST_PAUSE = 0.75
+"""The share of the time that a refused client is told to wait for which its connection is not read from, at least.
+
+Or refusing would take all time. Who waits as told is read from again by then. Who does not has to wait, a crowd of them
+not all until the same moment: together they would hold up the event loop.
+"""
+_LONGEST_PAUSE = 8.0
+"""No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
+_EVICTED = 16
+"""Connections that make room together where there are too many; of few an eighth, or new ones would be among them."""
+_CHUNK_BYTES = 20
+"""What frames a chunk of a body at most: sixteen hexadecimal digits and two ends of a line."""
+_ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What connections may take.
+
+    Attributes:
+        connections: At a time, in this process; where there are more, those go that wait longest for their client.
+        waiting: Requests that wait to be begun; more are refused.
+        head_seconds: From the beginning of a connection, the end of an answer or the first byte of a request to the
+            end of its head.
+        body_seconds: For a body; a longer one must keep coming.
+        stalled_seconds: How long a client may take nothing of its answer.
+        head_bytes: Of request line and header fields; also of a body's chunk extensions and trailer fields.
+    """
+
+    connections: int = 2000
+    waiting: int = 150
+    head_seconds: float = 10.0
+    body_seconds: float = 30.0
+    stalled_seconds: float = 30.0
+    head_bytes: int = 64 * 1024
+
+
+class Gate:
+    """What the connections of a process share: the requests that wait to be begun, and the eye on the slow ones.
+
+    Attributes:
+        bounds: What connections may take.
+        connections: That are open, in the order in which they came: many do within one tick of the loop's clock.
+        refused: Requests for which there was no room.
+        closed: Connections that were closed because their client was slow, or because there were too many.
+        is_stopping: Whether each answer is the last one of its connection.
+    """
+
+    def __init__(self, bounds: Bounds) -> None:
+        self.bounds = bounds
+        self.connections: dict[BoundedProtocol, None] = {}
+        self.refused = self.closed = 0
+        self.is_stopping = False
+        self._waiting: deque[Callable[[], None]] = deque()
+        self._begun = 0
+
+    @property
+    def queue_length(self) -> int:
+        """Requests that wait to be begun."""
+        return len(self._waiting)
+
+    def stop(self) -> None:
+        """Say in each answer from now on that its connection ends: a client that is told so is not cut off."""
+        self.is_stopping = True
+        for connection in self.connections:
+            connection.end_with_answer()
+
+    def enter(self, begin: Callable[[], None]) -> bool:
+        """Begin a request now, or when those before it have been; False where too many wait."""
+        if self._begun < _AT_A_TIME:
+            if not self._begun:
+                asyncio.get_running_loop().call_soon(self._turn)
+            self._begun += 1
+            begin()
+        elif len(self._waiting) < self.bounds.waiting:
+            self._waiting.append(begin)
+        else:
+            self.refused += 1
+            return False
+        return True
+
+    def _turn(self) -> None:
+        """Begin the next few; between two turns the event loop looks at all connections."""
+        self._begun = min(len(self._waiting), _AT_A_TIME)
+        for _ in range(self._begun):
+            self._waiting.popleft()()
+        if self._begun:
+            asyncio.get_running_loop().call_soon(self._turn)
+
+    def admit(self, connection: "BoundedProtocol") -> bool:
+        """Take in a new connection; False where all others are at work and there is no room for it."""
+        if not self.connections:
+            asyncio.get_running_loop().call_later(_SWEEP_SECONDS, self._sweep)
+        self.connections[connection] = None
+        if len(self.connections) <= self.bounds.connections:
+            return True
+        staying = [one for one in self.connections if not one.is_gone]
+        if len(staying) <= self.bounds.connections:
+            return True
+        idle = [one for one in staying if one.waits_for_client and one is not connection]
+        for one in nsmallest(min(_EVICTED, 1 + self.bounds.connections // 8), idle, key=lambda one: one.since):
+            self.closed += 1
+            one.leave()
+        return bool(idle)
+
+    def _sweep(self) -> None:
+        now = asyncio.get_running_loop().time()
+        for connection in list(self.connections):
+            if connection.is_late(now):
+                self.closed += 1
+        if self.connections:
+            asyncio.get_running_loop().call_later(_SWEEP_SECONDS, self._sweep)
+
+
+class BoundedProtocol(HttpToolsProtocol):
+    """A connection within bounds.
+
+    Attributes:
+        since: When that began which is waited for, on the loop's clock, [s].
+    """
+
+    def __init__(self, *arguments: Any, gate: Gate, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.app_state["gate"] = self._gate = gate
+        self.since = self.loop.time()
+        self._body_bytes = self._chunks = self._unsent = 0
+        self._in_message = self._in_head = False
+        self._stage = self._other_bytes = 0
+        self._ends: float | None = None
+
+    @property
+    def waits_for_client(self) -> bool:
+        """Whether no request is being worked on."""
+        return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
+
+    @property
+    def is_gone(self) -> bool:
+        """Whether it is closed but for the end of this turn of the event loop."""
+        return self.transport.is_closing() and not self.transport.get_write_buffer_size()
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Begin."""
+        super().connection_made(transport)
+        if not self._gate.admit(self):
+            self._refuse(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy", "there are too many connections")
+        elif self._gate.is_stopping:
+            self.loop.call_later(_ARRIVAL_SECONDS, self.shutdown)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """End."""
+        self._gate.connections.pop(self, None)
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Bytes have come: what is not of a body is counted, but for the read that ends its stage."""
+        stage, body_bytes = self._stage + (not self._in_message), self._body_bytes
+        super().data_received(data)
+        if stage == self._stage:
+            self._other_bytes += len(data) - (self._body_bytes - body_bytes)
+            most = self._gate.bounds.head_bytes
+            if self._other_bytes > most + self._chunks * _CHUNK_BYTES:
+                what = "request line and header fields" if self._in_head else "chunk extensions and trailer fields"
+                status = HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
+                self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
+
+    def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
+        """A head, a body or a pause begins."""
+        self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
+        self._other_bytes = self._chunks = 0
+
+    def on_message_begin(self) -> None:
+        """The first byte of a request has come."""
+        super().on_message_begin()
+        self.since = self.loop.time()
+        self._begin_stage(in_head=True)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        """A header field has come; or a trailer field, which is dropped: the headers have been acted upon by then."""
+        if self._in_head:
+            super().on_header(name, value)
+
+    def on_headers_complete(self) -> None:
+        """The head has come as a whole; where its target names a host, that one counts (RFC 9112, 3.2.2)."""
+        self.since, self._body_bytes = self.loop.time(), 0
+        self._begin_stage(in_body=True)
+        if target := _ABSOLUTE.fullmatch(self.url):
+            host, rest = target.groups()
+            self.url = rest if rest.startswith(b"/") else b"/" + rest
+            self.headers[:] = [(name, host if name == b"host" else value) for name, value in self.headers]
+        super().on_headers_complete()
+
+    def on_chunk_header(self) -> None:
+        """A chunk of the body begins."""
+        self._chunks += 1
+
+    def on_body(self, body: bytes) -> None:
+        """Some of the body has come."""
+        self._body_bytes += len(body)
+        super().on_body(body)
+
+    def on_message_complete(self) -> None:
+        """The request has come as a whole."""
+        self._begin_stage()
+        super().on_message_complete()
+
+    def on_response_complete(self) -> None:
+        """The answer is on its way."""
+        self.since = self.loop.time()
+        super().on_response_complete()
+        told = self.cycle.scope["state"].get("retry_after")
+        if self.cycle.response_complete and told is not None:
+            self._pause(told)
+
+    def _start_asgi_task(self, cycle: RequestResponseCycle, app: Any) -> None:
+        begin = partial(super()._start_asgi_task, cycle, app)
+        if self._gate.is_stopping:
+            self.end_with_answer()
+        if cycle.scope["path"].endswith(AT_ONCE):
+            begin()
+        elif not self._gate.enter(begin):
+            self._turn_away(cycle)
+
+    def _turn_away(self, cycle: RequestResponseCycle) -> None:
+        """Refuse a request; the connection stays, but it is not listened to for a while."""
+        stays = cycle.keep_alive and not self.pipeline
+        detail = f"the service is at capacity: try again in {_RETRY_SECONDS:g} s"
+        status, path = HTTPStatus.SERVICE_UNAVAILABLE, cycle.scope["path"]
+        self.transport.write(_answer(status, "service-busy", detail, path, stays=stays))
+        cycle.response_started = cycle.response_complete = True
+        cycle.scope["state"]["retry_after"] = _RETRY_SECONDS
+        if not stays:
+            self.transport.close()
+            return
+        self.on_response_complete()
+
+    def _pause(self, told: float) -> None:
+        """Do not listen for nearly as long as the client was told to wait, [s]."""
+        if not self.transport.is_closing():
+            self.flow.pause_reading()
+            pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
+            self.loop.call_later(pause, self._listen)
+
+    def _listen(self) -> None:
+        if not self.transport.is_closing():
+            self.flow.resume_reading()
+
+    def send_400_response(self, msg: str) -> None:
+        """What came is not HTTP."""
+        self._refuse(HTTPStatus.BAD_REQUEST, "malformed-request", msg.rstrip("."))
+
+    def end_with_answer(self) -> None:
+        """Let the answer to the request that is being worked on be the last one, unless it has begun; streams end."""
+        if self.cycle is not None and not self.cycle.response_complete:
+            self.cycle.keep_alive &= self.cycle.response_started
+            self.cycle.scope["state"]["stopping"] = True
+
+    def shutdown(self) -> None:
+        """The service is to stop: what is in flight finishes, streams end, and a client has little time left."""
+        self.end_with_answer()
+        if self.cycle is not None and not self.cycle.response_complete:
+            self.cycle.keep_alive = False
+            if self.cycle.more_body:
+                self._ends = self.loop.time() + _GRACE_SECONDS
+        elif self.loop.time() < self.since + _ARRIVAL_SECONDS:
+            self.loop.call_later(_ARRIVAL_SECONDS, super().shutdown)
+        else:
+            super().shutdown()
+
+    def is_late(self, now: float) -> bool:
+        """Whether the client has taken too long, at which the connection is closed."""
+        bounds = self._gate.bounds
+        if self.transport.is_closing() or self.flow.write_paused:
+            return self._is_stalled(now)
+        self._unsent = 0
+        if self.cycle is None or self.cycle.response_complete:
+            if now <= self.since + bounds.head_seconds:
+                return False
+            if self._in_head:
+                seconds = bounds.head_seconds
+                detail = f"the request did not come within {seconds:g} s"
+                self._refuse(HTTPStatus.REQUEST_TIMEOUT, "request-too-slow", detail)
+            else:
+                self.transport.close()
+            return True
+        if not self.cycle.more_body:
+            return False
+        if now <= (self._ends or self.since + bounds.body_seconds + self._body_bytes / _SLOWEST_BYTES):
+            return False
+        self._refuse(HTTPStatus.REQUEST_TIMEOUT, "request-too-slow", "the rest of the body did not come in time")
+        return True
+
+    def _is_stalled(self, now: float) -> bool:
+        """Whether nothing of what was sent has been taken for too long."""
+        unsent = self.transport.get_write_buffer_size()
+        if unsent != self._unsent:
+            self._unsent, self.since = unsent, now
+        if now <= self.since + self._gate.bounds.stalled_seconds:
+            return False
+        self.transport.abort()
+        return True
+
+    def leave(self) -> None:
+        """Make room for another connection."""
+        detail = "too many connections are open, and this one has been idle the longest"
+        if self.transport.is_closing():
+            self.transport.abort()
+        elif self.cycle is not None and not self.cycle.response_complete:
+            self._refuse(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy", detail)
+        else:
+            self.transport.close()
+
+    def _refuse(self, status: HTTPStatus, kind: str, detail: str) -> None:
+        """Close the connection with a problem; whoever waits for the rest of the request is told that it is gone."""
+        cycle = self.cycle
+        if cycle is not None and not cycle.response_complete:
+            cycle.disconnected = True
+            cycle.message_event.set()
+        if cycle is None or cycle.response_complete or not cycle.response_started:
+            self.transport.write(_answer(status, kind, detail, "", stays=False))
+        self.transport.close()
+
+
+def _answer(status: HTTPStatus, kind: str, detail: str, path: str, *, stays: bool) -> bytes:
+    """A problem as the bytes of an HTTP answer."""
+    content = {"type": f"urn:gelenk:{kind}", "title": kind.replace("-", " ").capitalize(), "status": status.value}
+    body = orjson.dumps({**content, "detail": detail, "instance": path[:256]})
+    head = f"HTTP/1.1 {status.value} {status.phrase}\r\ncontent-type: application/problem+json\r\n"
+    if status == HTTPStatus.SERVICE_UNAVAILABLE:
+        head += f"retry-after: {_RETRY_SECONDS:g}\r\n"
+    if not stays:
+        head += "connection: close\r\n"
+    return f"{head}content-length: {len(body)}\r\n\r\n".encode() + body

@@ -1,0 +1,261 @@
+"""Workspaces of planar arms with revolute joints that turn without limits.
+
+WS₁, the primary workspace, is every point that the tip reaches with at least one orientation φ; WS₂, the secondary
+one, every point that it reaches with all of them. Both are rings around the base, so intervals of its distance r say
+everything; a ring that begins at r = 0 is a disc.
+
+The arm is taken as an arm without its last link, whose own WS₁ is one ring [a, b], and a last link l that can stand in
+any orientation about the wrist: WS₁ is [max(0, a - l, l - b), b + l]. At distance r the wrist goes round a circle of
+radius l, which stays within the ring where r + l ≤ b and |r - l| ≥ a: that is WS₂, in up to two pieces.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.course.steps import Step, tex
+from gelenk.model.arrays import Array
+from gelenk.model.errors import CertificationFailed
+
+Interval: TypeAlias = tuple[float, float]
+Location: TypeAlias = Literal["inside", "boundary", "outside"]
+
+_ROUNDING = 1e-12
+_RADII = 48
+_ORIENTATIONS = 181
+
+
+@dataclass(frozen=True, slots=True)
+class PlanarWorkspace:
+    """The workspaces of an arm.
+
+    Attributes:
+        links: l_1 … l_n ≥ 0, [m].
+        wrist: WS₁ of all but the last link, one ring, [m].
+        primary: WS₁ as intervals of r, [m].
+        secondary: WS₂ likewise, from the inside out; none, one or two.
+    """
+
+    links: tuple[float, ...]
+    wrist: Interval
+    primary: tuple[Interval, ...]
+    secondary: tuple[Interval, ...]
+
+
+def planar_workspace(links: Sequence[float]) -> PlanarWorkspace:
+    """The exact workspaces of a planar arm of two or three links, [m].
+
+    Lengths that differ by rounding alone count as equal: a piece of WS₂ that is a circle or a point is not lost.
+    """
+    tolerance = _ROUNDING * sum(links)
+    wrist = (links[0], links[0])
+    for length in links[1:-1]:
+        wrist = _with_link(wrist, length, tolerance)
+    primary = (_with_link(wrist, links[-1], tolerance),)
+    return PlanarWorkspace(tuple(links), wrist, primary, _secondary(wrist, links[-1], tolerance))
+
+
+def _with_link(ring: Interval, length: float, tolerance: float) -> Interval:
+    inner = max(0.0, ring[0] - length, length - ring[1])
+    return (inner if inner > tolerance else 0.0, ring[1] + length)
+
+
+def _secondary(wrist: Interval, length: float, tolerance: float) -> tuple[Interval, ...]:
+    """Where r + l ≤ b and r ≤ l - a, and where r + l ≤ b and r ≥ l + a; joined where they touch."""
+    inner, outer = wrist
+    pieces: list[Interval] = []
+    for lower, upper in ((0.0, min(length - inner, outer - length)), (length + inner, outer - length)):
+        if upper < lower - tolerance:
+            continue
+        if abs(upper - lower) <= tolerance:
+            upper = lower  # noqa: PLW2901
+        if pieces and lower <= pieces[-1][1] + tolerance:
+            pieces[-1] = (pieces[-1][0], max(upper, pieces[-1][1]))
+        else:
+            pieces.append((lower, upper))
+    return tuple(pieces)
+
+
+def area(rings: Sequence[Interval]) -> float:
+    """Σ π (r_max² - r_min²), [m²]."""
+    return sum(math.pi * (outer - inner) * (outer + inner) for inner, outer in rings)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a point lies relative to a workspace.
+
+    Attributes:
+        location: Inside, outside, or on the boundary within the tolerance.
+        boundary: Radius of the nearest boundary, [m]; None where there is none.
+        distance: To that boundary, positive inside, [m]; None where there is none.
+    """
+
+    location: Location
+    boundary: float | None
+    distance: float | None
+
+
+def place(rings: Sequence[Interval], radius: float, tolerance: float) -> Place:
+    """Where a radius, [m], lies relative to rings; the centre of a disc is no boundary."""
+    bounds = [bound for inner, outer in rings for bound in (inner, outer) if bound > 0.0 or outer == 0.0]
+    inside = any(inner <= radius <= outer for inner, outer in rings)
+    if not bounds:
+        return Place("outside", None, None)
+    nearest = min(bounds, key=lambda bound: abs(bound - radius))
+    distance = abs(nearest - radius)
+    if distance <= tolerance:
+        return Place("boundary", nearest, distance if inside else -distance)
+    return Place("inside" if inside else "outside", nearest, distance if inside else -distance)
+
+
+def orientations(arm: PlanarWorkspace, x: float, y: float) -> tuple[Interval, ...]:
+    """The orientations φ of the last link with which a point is reached, as closed intervals, [rad].
+
+    With ψ = φ - atan2(y, x) the wrist is at the distance ρ² = r² + l² - 2 r l cos ψ, which has to be in its ring; that
+    bounds cos ψ from both sides. An interval begins in (-π, π] and may end beyond π; a whole turn is (-π, π).
+    """
+    length, radius = arm.links[-1], math.hypot(x, y)
+    inner, outer = arm.wrist
+    size = sum(arm.links) + radius
+    nearest, farthest, rounding = abs(radius - length), radius + length, _ROUNDING * size
+    if farthest < inner - rounding or nearest > outer + rounding:
+        return ()
+    if min(radius, length) <= rounding:
+        return ((-math.pi, math.pi),)
+    smallest = 0.0 if inner <= nearest + rounding else _angle(min(inner, farthest), nearest, farthest)
+    largest = math.pi if outer >= farthest - rounding else _angle(max(outer, nearest), nearest, farthest)
+    if largest < smallest:
+        return ()
+    towards = math.atan2(y, x)
+    if smallest == 0.0:
+        if largest == math.pi:
+            return ((-math.pi, math.pi),)
+        return (_shifted(towards - largest, towards + largest),)
+    if largest == math.pi:
+        return (_shifted(towards + smallest, towards + 2.0 * math.pi - smallest),)
+    return tuple(
+        sorted((_shifted(towards - largest, towards - smallest), _shifted(towards + smallest, towards + largest)))
+    )
+
+
+def _angle(distance: float, nearest: float, farthest: float) -> float:
+    """ψ at which the wrist has a distance, by tan²(ψ/2) = (ρ² - ρ_min²) / (ρ_max² - ρ²)."""
+    above = (distance - nearest) * (distance + nearest)
+    below = (farthest - distance) * (farthest + distance)
+    return 2.0 * math.atan2(math.sqrt(max(above, 0.0)), math.sqrt(max(below, 0.0)))
+
+
+def _shifted(lower: float, upper: float) -> Interval:
+    """The interval with its beginning in (-π, π]."""
+    turns = math.ceil((lower - math.pi) / (2.0 * math.pi))
+    return lower - 2.0 * math.pi * turns, upper - 2.0 * math.pi * turns
+
+
+def share(intervals: Sequence[Interval]) -> float:
+    """The part of all orientations that intervals make up; in [0, 1]."""
+    return min(1.0, sum(upper - lower for lower, upper in intervals) / (2.0 * math.pi))
+
+
+def posture(arm: PlanarWorkspace, x: float, y: float, orientation: float) -> Array:
+    """Base, joints and tip with the tip at a point; of two elbows the one to the right; shape (n + 1, 2), [m].
+
+    Args:
+        arm: The arm.
+        x: Of the tip, [m].
+        y: Of the tip, [m].
+        orientation: φ of the last link, one of `orientations`, [rad].
+    """
+    wrist = np.array([x, y]) - arm.links[-1] * np.array([math.cos(orientation), math.sin(orientation)])
+    between = []
+    if len(arm.links) == 3:
+        l1, l2 = arm.links[:2]
+        distance = float(np.hypot(*wrist))
+        below = 2.0 * l1 * distance
+        cosine = (l1**2 + distance**2 - l2**2) / below if below > 0.0 else 0.0
+        angle = math.atan2(wrist[1], wrist[0]) - math.acos(min(1.0, max(-1.0, cosine)))
+        between = [np.array([l1 * math.cos(angle), l1 * math.sin(angle)])]
+    return np.array([np.zeros(2), *between, wrist, np.array([x, y])])
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """Both workspaces against moving the joints.
+
+    Attributes:
+        radii: How many distances were tried, none within a thousandth of the reach of a boundary.
+        orientations: How many at each.
+    """
+
+    radii: int
+    orientations: int
+
+
+def tried(arm: PlanarWorkspace) -> Trial:
+    """Try orientations of the last link at distances between and beyond the boundaries.
+
+    The wrist's ring is taken from positions of the links before, from folded to stretched; as the wrist's distance is a
+    continuous function of the orientation, its extremes say whether some orientation, and whether all are reached.
+
+    Raises:
+        CertificationFailed: A distance within WS₁ is not reached, one beyond is, or likewise of WS₂.
+    """
+    reach = sum(arm.links)
+    if reach == 0.0:
+        return Trial(0, 0)
+    turned = np.exp(1j * np.linspace(0.0, math.pi, _ORIENTATIONS))
+    before = np.abs(arm.links[0] + sum(arm.links[1:-1]) * turned)
+    bounds = np.array([bound for ring in (*arm.primary, *arm.secondary) for bound in ring])
+    radii = np.linspace(0.0, 1.1 * reach, _RADII)
+    radii = radii[np.min(np.abs(radii[:, None] - bounds), axis=1) > 1e-3 * reach]
+    wrists = np.abs(radii[:, None] - arm.links[-1] * turned)
+    nearest, farthest, rounding = wrists.min(axis=1), wrists.max(axis=1), _ROUNDING * reach
+    inner, outer = before.min() - rounding, before.max() + rounding
+    for name, rings, found in (
+        ("the primary workspace", arm.primary, (nearest <= outer) & (farthest >= inner)),
+        ("the secondary workspace", arm.secondary, (nearest >= inner) & (farthest <= outer)),
+    ):
+        said = np.array([any(lower <= radius <= upper for lower, upper in rings) for radius in radii.tolist()])
+        if wrong := int(np.count_nonzero(said != found)):
+            raise CertificationFailed(f"{name}, in number of distances,", wrong, 0.0)
+    return Trial(len(radii), _ORIENTATIONS)
+
+
+def workspace_steps(arm: PlanarWorkspace) -> tuple[Step, ...]:
+    """The worked solution: reach, and the circle of the wrist."""
+    lengths = ", ".join(rf"l_{number} = {tex(length)}" for number, length in enumerate(arm.links, start=1))
+    (inner, outer), last = arm.wrist, len(arm.links)
+    total, longest = sum(arm.links), max(arm.links)
+    r_min, unit = tex(arm.primary[0][0]), r"\,\mathrm{m}"
+    excess = tex(2.0 * longest - total)
+    near, far = tex(arm.links[-1] - inner), tex(arm.links[-1] + inner)
+    return (
+        Step(
+            "Primary workspace",
+            "Stretched the arm reaches farthest. It reaches the base unless one link is longer than all the others.",
+            (
+                lengths,
+                rf"r_{{\max}} = \sum l_i = {tex(total)}{unit}",
+                rf"r_{{\min}} = \max(0,\ 2\,l_{{\max}} - \sum l_i) = \max(0,\ {excess}) = {r_min}{unit}",
+            ),
+        ),
+        Step(
+            "Secondary workspace",
+            f"With all orientations at distance r the wrist goes round a circle of radius l_{last} about the tip, and "
+            f"comes as near to the base as |r - l_{last}| and as far as r + l_{last}: all of it has to be within the "
+            "ring that the wrist can reach.",
+            (
+                rf"\rho \in [{tex(inner)},\ {tex(outer)}]{unit}",
+                rf"r + l_{last} \le {tex(outer)} \;\Rightarrow\; r \le {tex(outer - arm.links[-1])}{unit}",
+                rf"|r - l_{last}| \ge {tex(inner)} \;\Rightarrow\; r \ge {far}{unit}\ \text{{or}}\ r \le {near}{unit}",
+                rf"\mathrm{{WS}}_2:\ r \in {_tex_rings(arm.secondary)}",
+            ),
+        ),
+    )
+
+
+def _tex_rings(rings: Sequence[Interval]) -> str:
+    return r" \cup ".join(f"[{tex(inner)},\\ {tex(outer)}]" for inner, outer in rings) or r"\varnothing"

@@ -1,0 +1,148 @@
+"""Quadrature: the counts and the direction in a sequence of samples of channels A and B.
+
+Forward, A leads B: 00 → 10 → 11 → 01 → 00, written as AB. Between two samples one channel may change. Where both do, a
+sample was missed: the shaft has moved by two quarters of a line, and nobody knows in which direction.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.course.encoders import Decoding
+from gelenk.model.arrays import Flags, Indices
+from gelenk.model.errors import InvalidField, counted
+
+Direction: TypeAlias = Literal["forward", "backward", "none"]
+
+_SEPARATORS = re.compile(r"[\s,;]+")
+_SHOWN = 12
+
+# Quarter of a line of the state 2 A + B: 00, 10, 11, 01 are 0, 1, 2, 3.
+_QUARTER = np.array([0, 3, 1, 2])
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """What was read from the channels, one entry a sample.
+
+    Attributes:
+        states: 2 A + B; shape (S,).
+        index: Z; shape (S,), or None where it was not read.
+    """
+
+    states: Indices
+    index: Flags | None
+
+
+def read_samples(text: str, field: str) -> Samples:
+    """Samples from text such as "00 10 11 01", or "001 100 110" with the index channel Z as a third digit.
+
+    Args:
+        text: One group of digits a sample; spaces, commas or semicolons between.
+        field: What to call it in an error.
+
+    Raises:
+        InvalidField: There is none, one has other characters, or they differ in length.
+    """
+    groups = [group for group in _SEPARATORS.split(text) if group]
+    if not groups:
+        raise InvalidField(field, 'no sample; it holds groups such as "00 10 11 01"')
+    width, together = len(groups[0]), "".join(groups)
+    if width not in {2, 3} or set(map(len, groups)) != {width} or not set(together) <= {"0", "1"}:
+        raise InvalidField(field, _fault(groups, width))
+    digits = np.frombuffer(together.encode(), np.uint8).reshape(-1, width) == ord("1")
+    return Samples(2 * digits[:, 0].astype(np.int64) + digits[:, 1], digits[:, 2] if width == 3 else None)
+
+
+def _fault(groups: Sequence[str], width: int) -> str:
+    """What is wrong with the first group that is none."""
+    for number, group in enumerate(groups):
+        if len(group) not in {2, 3} or not set(group) <= {"0", "1"}:
+            shown = "".join(c if c.isprintable() else "�" for c in group[:_SHOWN])
+            return f"sample {number} is {shown!r}; it is A and B, or A, B and Z, each 0 or 1"
+        if len(group) != width:
+            return f"sample {number} has {counted(len(group), 'digit')}, the first one has {width}"
+    raise AssertionError("one of them is at fault")
+
+
+@dataclass(frozen=True, slots=True)
+class IndexPulse:
+    """A rise of channel Z, once a turn.
+
+    Attributes:
+        sample: Where it rises.
+        count: The count there.
+        count_error: How far the count since the first pulse is from whole turns; None where a turn is not known.
+    """
+
+    sample: int
+    count: int
+    count_error: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Decoded:
+    """What the samples tell.
+
+    Attributes:
+        counts: Since the first sample; shape (S,).
+        direction: Of the whole, by the last count.
+        reversals: How often the direction of motion changes.
+        illegal: Samples at which both channels have changed; shape (K,).
+        pulses: Of channel Z, in order.
+    """
+
+    counts: Indices
+    direction: Direction
+    reversals: int
+    illegal: Indices
+    pulses: tuple[IndexPulse, ...]
+
+
+def decoded(samples: Samples, decoding: Decoding, counts_per_revolution: int | None) -> Decoded:
+    """Counts, direction and faults of a sequence.
+
+    x4 counts each change of a channel, x2 those of A, x1 the edge of A between 00 and 10 alone, up when it rises and
+    down when it falls there: so a shaft that trembles on an edge counts up and down and stays where it is. An illegal
+    change counts nothing.
+
+    Args:
+        samples: What was read.
+        decoding: Which changes count.
+        counts_per_revolution: Of the encoder, for the index pulses.
+    """
+    quarters = _QUARTER[samples.states]
+    moved = (np.diff(quarters) + 1) % 4 - 1
+    illegal = np.flatnonzero(moved == 2) + 1
+    moved[moved == 2] = 0
+    before, after = quarters[:-1], quarters[1:]
+    lower = np.where(moved > 0, before, after)
+    counted = {"x4": moved, "x2": np.where(lower % 2 == 0, moved, 0), "x1": np.where(lower == 0, moved, 0)}[decoding]
+    counts = np.concatenate(([0], np.cumsum(counted)))
+    moving = moved[moved != 0]
+    reversals = int(np.count_nonzero(np.diff(moving)))
+    pulses = _pulses(samples.index, counts, counts_per_revolution)
+    direction: Direction = "none" if counts[-1] == 0 else "forward" if counts[-1] > 0 else "backward"
+    return Decoded(counts, direction, reversals, illegal, pulses)
+
+
+def _pulses(index: Flags | None, counts: Indices, counts_per_revolution: int | None) -> tuple[IndexPulse, ...]:
+    if index is None:
+        return ()
+    rises = np.flatnonzero(np.diff(index.astype(np.int64), prepend=0) > 0)
+    pulses = []
+    for sample in rises.tolist():
+        count, error = int(counts[sample]), None
+        if counts_per_revolution is not None:
+            since, half = count - int(counts[rises[0]]), counts_per_revolution // 2
+            error = (since + half) % counts_per_revolution - half
+        pulses.append(IndexPulse(sample, count, error))
+    return tuple(pulses)
+
+
+def register(count: int, bits: int) -> int:
+    """What a counter of so many bits shows: it begins again at 0 after 2^bits - 1, and at 2^bits - 1 below 0."""
+    return count % (1 << bits)

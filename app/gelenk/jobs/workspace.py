@@ -1,0 +1,388 @@
+"""The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then what it all tells."""
+
+import math
+import pickle
+from dataclasses import asdict, dataclass, fields, replace
+from functools import lru_cache
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import orjson
+
+from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.parts import Parts
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Work
+from gelenk.jobs.shelf import write_result
+from gelenk.kinematics.dexterity import Orientations, Over, excluded, orientations, shares
+from gelenk.kinematics.sampling import Sampling
+from gelenk.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
+from gelenk.kinematics.tip_motion import Motion
+from gelenk.kinematics.voxels import MAX_VOXELS, VoxelTable, merged
+from gelenk.kinematics.workspace import PART, Part, Plan, Plane, Wish, plan, sampled
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.description import Description
+from gelenk.model.errors import InvalidField
+from gelenk.model.robot import Robot
+
+KIND = "workspace"
+SUMMARY, ARRAY = "result.json", "result.npy"
+_SAMPLES, _VOXELS = "samples", "voxels"
+"""The stage that every kind of workspace begins with, and the one of a dexterity map."""
+MAX_POSES = 1_000_000
+"""Orientations at voxels that a job asks of inverse kinematics."""
+
+_POSES_AT_ONCE = 512
+"""About a tenth of a second of inverse kinematics."""
+_COUNTED_PARTS = 8
+"""So many parts of the samples are computed to count their voxels: some tenths of a second."""
+_TOO_LOW = 1.25
+"""By how much the estimate of what samples meet may be too low."""
+_SAMPLING_SHARE, _DONE = 0.05, 0.99
+"""Progress when the samples of a dexterity map are there, and when nothing but the summary is missing."""
+
+Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure", "dexterity"]
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A requested workspace, and how to compute it.
+
+    Attributes:
+        name: The robot's.
+        description: The robot.
+        chain: Base and tip.
+        wish: What is asked of it.
+        plan: How the samples are computed.
+        asked: The orientations of a dexterity map.
+        excluded: Why the chain can take all of these in no region; see `dexterity.excluded`.
+    """
+
+    name: str
+    description: Description
+    chain: Chain
+    wish: Wish
+    plan: Plan
+    asked: Orientations | None
+    excluded: str | None
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Of the array."""
+        if self.wish.kind == "cloud":
+            return POINT_COLUMNS
+        return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
+
+
+def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> Question:
+    """The checked request: errors are reported before there is a job.
+
+    Args:
+        name: The robot's.
+        robot: The robot.
+        chain: Base and tip.
+        wish: What is asked.
+        over: Of a dexterity map, which orientations.
+        count: How many of them.
+
+    Raises:
+        InvalidField: Something cannot be taken.
+    """
+    work, motion = plan(chain, wish)
+    asked = reason = None
+    if wish.kind == "dexterity":
+        asked = orientations(chain, motion, over, count)
+        reason = excluded(motion, work.grid.dimensions, asked.spread)
+        notes = (*work.notes, *_spread_notes(motion, wish.plane, asked), *([reason] if reason else []))
+        work = replace(work, notes=notes)
+    return Question(name, replace(robot.description, warnings=()), chain, wish, work, asked, reason)
+
+
+def _spread_notes(motion: Motion, plane: Plane | None, asked: Orientations) -> list[str]:
+    """Why a dexterity map cannot be what it may be expected to be."""
+    missed = _missed_notes(motion, plane)
+    match asked.spread:
+        case "fixed":
+            return [*missed, "the tip never turns: only its one orientation is tried"]
+        case "turns":
+            return [*missed, "the tip turns about one direction only: only turns about it are tried"]
+    return missed
+
+
+def _missed_notes(motion: Motion, plane: Plane | None) -> list[str]:
+    """Where the middles of the voxels are not on what the tip keeps to."""
+    if motion.kept_to is not None:
+        note = (
+            f"orientations are asked for at the middles of the voxels, and these are beside the {motion.kept_to} that "
+            "the tip keeps to: hardly any is reached, if one is at all"
+        )
+        return [note]
+    if plane is None or not 0 < motion.dimensions < 3 or not motion.slice_notes(plane.normal):
+        return []
+    note = (
+        "orientations are asked for at the middles of the voxels: none is reached where the plane's origin is not "
+        "on what the tip keeps to"
+    )
+    return [note]
+
+
+def work_of(asked: Question) -> Work:
+    """The function that computes a request."""
+
+    def work(run: Run) -> Files:
+        end = _DONE if asked.asked is None else _SAMPLING_SHARE
+        run.map(_SAMPLES, _sampled, lambda k: (asked.plan, k), asked.plan.parts, (0.0, end), PART)
+        found = run.apart(_put_together, (asked, run.parts, run.job.robot_digest))
+        return {} if found is None else _files(asked, found, _dexterity(run, asked, found), run.job.robot_digest)
+
+    return work
+
+
+def _put_together(job: tuple[Question, Parts, str | None]) -> Workspace | None:
+    """Write the files of a result from its parts, in a process of its own.
+
+    Returns:
+        Of a dexterity map, what it is to be computed from instead.
+    """
+    asked, parts, digest = job
+    survey = Survey(asked.plan)
+    for part in parts.of(_SAMPLES, asked.plan.parts):
+        survey.add(_part(part))
+    found = survey.result(Robot(asked.description, (asked.chain.base_frame, asked.chain.tip_frame)), asked.chain)
+    if asked.asked is not None:
+        return found
+    for name, content in _files(asked, found, None, digest).items():
+        write_result(parts.folder, name, content)
+    return None
+
+
+def _files(asked: Question, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
+    """What the job leaves behind."""
+    table = found.points if found.points is not None else found.voxel_rows(asked.plan)
+    array = table if dexterity is None else np.column_stack((table, dexterity))
+    told = _summary(asked, found, dexterity) | {"robot_digest": robot_digest}
+    summary = orjson.dumps(told, option=orjson.OPT_SERIALIZE_NUMPY)
+    return {
+        ARRAY: lambda target: np.lib.format.write_array(target, array, allow_pickle=False),
+        SUMMARY: lambda target: target.write(summary),
+    }
+
+
+def check_size(asked: Question) -> None:
+    """Refuse samples that fall into more voxels than there may be, before there is a job.
+
+    Raises:
+        InvalidField: There are more; it says what voxels and how many samples there may be.
+    """
+    plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
+    most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
+    if min(plan.sampling.count, plan.grid.most_cells(plan.extent)) <= most:
+        return
+    voxels = _voxels_met(plan)
+    if voxels <= most:
+        return
+    told = f"the samples fall into some {voxels:,} voxels"
+    if asked.asked is not None:
+        told += f", at each of which {rotations} orientations are asked for"
+    ways = [f"at most {most:,} `samples`"]
+    if (size := plan.grid.least_size(plan.extent, most)) < plan.extent:
+        ways.insert(0, f"voxels of {_rounded_up(size):g} m or more")
+    if asked.asked is not None:
+        ways.append("fewer `orientations`")
+    raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
+
+
+def _voxels_met(plan: Plan) -> int:
+    """How many voxels the samples fall into: counted where the samples are few, else estimated from the first of them.
+
+    Good and Turing: the next sample meets a new voxel as probably as those so far are alone in theirs, and later ones
+    less probably. Chao: how many are still unseen follows from those met once and twice; of voxels that are not equally
+    likely that is too low, by up to a fifth where it was tried.
+    """
+    counted = min(plan.parts, _COUNTED_PARTS)
+    table = merged([sampled((plan, k)).voxels for k in range(counted)])
+    samples = min(plan.sampling.count, counted * PART)
+    later, once, twice = plan.sampling.count - samples, *(int(np.sum(table.counts == k)) for k in (1, 2))
+    if not later or not once:
+        return len(table)
+    unseen = once**2 / (2.0 * max(twice, 1))
+    met = len(table) + unseen * (1.0 - (1.0 - once / (samples * unseen + once)) ** later)
+    return math.ceil(min(len(table) + once / samples * later, _TOO_LOW * met))
+
+
+def _rounded_up(length: float) -> float:
+    """Three digits of a length, not less than it."""
+    step = 10.0 ** (math.floor(math.log10(length)) - 2)
+    return float(f"{math.ceil(length / step) * step:.6g}")
+
+
+def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
+    """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
+    assert asked.asked is not None  # noqa: S101 - what it is called for
+    centres = asked.plan.grid.centres(found.voxels.keys)
+    arm = pickle.dumps(_arm(asked))
+    size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
+
+    def part(k: int) -> tuple[bytes, Array, Indices]:
+        cells = slice(k * size, (k + 1) * size)
+        return arm, centres[cells], found.voxels.first[cells]
+
+    count = -(-len(centres) // size)
+    run.map(_VOXELS, _shares, part, count, (_SAMPLING_SHARE, _DONE), size)
+    return np.concatenate([np.empty(0), *(unpacked(part)["shares"] for part in run.parts.of(_VOXELS, count))])
+
+
+def _sampled(job: tuple[Plan, int]) -> bytes:
+    """Part number k of a plan, in a process of its own; see `sampled`."""
+    part = sampled(job)
+    return packed(
+        numbers=(part.first, part.count, part.best),
+        points=part.points,
+        **asdict(part.voxels),
+        box=(part.lower, part.upper),
+        distances=part.distances,
+        measures=part.measures,
+    )
+
+
+def _part(content: bytes) -> Part:
+    """What `_sampled` has packed."""
+    values = unpacked(content)
+    first, count, best = values["numbers"].tolist()
+    near, far = values["distances"].tolist()
+    least, most, total = values["measures"].tolist()
+    voxels = VoxelTable(*(values[entry.name] for entry in fields(VoxelTable)))
+    lower, upper = values["box"]
+    return Part(first, values.get("points"), voxels, count, lower, upper, (near, far), (least, most, total), best)
+
+
+@dataclass(frozen=True, slots=True)
+class _Arm:
+    """What another process needs for inverse kinematics.
+
+    Attributes:
+        description: The robot.
+        ends: Base and tip.
+        lower: Bounds of the variables; shape (n,), [rad or m].
+        upper: Likewise.
+        sampling: The configurations that have come to the voxels.
+        orientations: What is asked for.
+    """
+
+    description: Description
+    ends: tuple[str, str]
+    lower: Array
+    upper: Array
+    sampling: Sampling
+    orientations: Orientations
+
+
+def _arm(asked: Question) -> _Arm:
+    """Within the joint limits unless requested otherwise; a joint that turns freely does so here too."""
+    assert asked.asked is not None  # noqa: S101
+    chain, ranges = asked.chain, asked.plan.sampling.ranges
+    sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
+    bound = np.array(
+        [i in sliding or name in (asked.wish.ranges or {}) for i, name in enumerate(chain.joint_names)], dtype=bool
+    )
+    return _Arm(
+        asked.description,
+        (chain.base_frame, chain.tip_frame),
+        np.where(bound, ranges.lower, chain.lower),
+        np.where(bound, ranges.upper, chain.upper),
+        asked.plan.sampling,
+        asked.asked,
+    )
+
+
+def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
+    """The dexterity at some voxels, in a process of its own; see `shares`."""
+    pickled, centres, numbers = job
+    robot, chain, arm = _unpacked(pickled)
+    return packed(shares=shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations))
+
+
+@lru_cache(maxsize=2)
+def _unpacked(pickled: bytes) -> tuple[Robot, Chain, _Arm]:
+    arm: _Arm = pickle.loads(pickled)  # noqa: S301 - written by this service
+    robot = Robot(arm.description, arm.ends)
+    return robot, replace(robot.chain(*arm.ends), lower=arm.lower, upper=arm.upper), arm
+
+
+def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
+    """What travels as JSON."""
+    chain, work, wish = asked.chain, asked.plan, asked.wish
+    certificate = found.certificate
+    return {
+        "robot": asked.name,
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "kind": wish.kind,
+        "samples": wish.samples,
+        "samples_counted": found.count,
+        "plane": None if wish.plane is None else asdict(wish.plane),
+        "sequence": wish.sequence,
+        "random_seed": wish.seed,
+        "joint_ranges": np.column_stack((work.sampling.ranges.lower, work.sampling.ranges.upper)).tolist(),
+        "bounding_box": None if found.bounds is None else dict(zip(("lower", "upper"), found.bounds, strict=True)),
+        "reach": None if found.reach is None else dict(zip(("min", "max"), found.reach, strict=True)),
+        "voxels": _voxels(work, found),
+        "measure": _measure(asked, found),
+        "dexterity": None if dexterity is None else _dexterity_summary(asked, found, dexterity),
+        "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
+        | {"columns": asked.columns},
+        "notes": work.notes,
+        "certificate": asdict(certificate.poses)
+        | {"max_jacobian_error": certificate.max_jacobian_error, "max_measure_error": certificate.max_measure_error},
+    }
+
+
+def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
+    grid, count = work.grid, len(found.voxels)
+    return {
+        "size": grid.size,
+        "dimensions": grid.dimensions,
+        "origin": grid.origin,
+        "axes": grid.axes.T.tolist(),
+        "count": count,
+        "inner_count": found.inner,
+        "volume": count * grid.cell,
+        "inner_volume": found.inner * grid.cell,
+        "volume_bounds": found.volume,
+        "late_share": found.late,
+    }
+
+
+def _measure(asked: Question, found: Workspace) -> dict[str, Any]:
+    work, measures = asked.plan, found.measures
+    axes = (np.eye(3) if work.turn is None else work.turn).T
+    directions = np.zeros((len(work.rows), 6))
+    for k, row in enumerate(work.rows.tolist()):
+        directions[k, 3 * (row // 3) : 3 * (row // 3) + 3] = axes[row % 3]
+    content: dict[str, Any] = {"directions": directions.tolist()}
+    names = ("min", "mean", "max", "position", "joint_positions")
+    if measures is None:
+        return content | dict.fromkeys(names)
+    values = (measures.least, measures.mean, measures.most, measures.position, measures.joint_positions)
+    return content | dict(zip(names, values, strict=True))
+
+
+def _dexterity_summary(asked: Question, found: Workspace, values: Array) -> dict[str, Any]:
+    assert asked.asked is not None  # noqa: S101
+    grid, full = asked.plan.grid, found.voxels.keys[values == 1.0]
+    counts = (0, 0, 0) if asked.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))
+    lower, volume, upper = (count * grid.cell for count in counts)
+    return {
+        "method": "inverse_kinematics",
+        "spread": asked.asked.spread,
+        "orientations": len(asked.asked.rotations),
+        "mean_share": float(values.mean()) if len(values) else None,
+        "max_share": float(values.max()) if len(values) else None,
+        "reached_count": int(np.sum(values > 0.0)),
+        "full_count": len(full),
+        "full_volume": volume,
+        "full_volume_bounds": (lower, min(upper, found.volume[1])),
+        "excluded": asked.excluded,
+    }

@@ -1,0 +1,151 @@
+"""Repaired tables tried on a chain: what makes a table describe it is a diagnosis."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.kinematics.comparison.alignment import Freedom
+from gelenk.kinematics.comparison.invariants import Invariants
+from gelenk.kinematics.comparison.numbers import Difference, wrapped
+from gelenk.kinematics.comparison.placement import Placement, Subject, placed
+from gelenk.kinematics.comparison.repairs import Repairs, Undone
+from gelenk.kinematics.comparison.screws import PARAMETERS, parameters_of
+from gelenk.kinematics.comparison.words import Mistake
+from gelenk.model.arrays import Array
+from gelenk.model.dh import Convention, DhJoint, DhTable
+
+LOOKS = 24
+"""Configurations at which a repaired table is looked at."""
+_MOST_LOOKS = 24
+"""Repaired tables that are looked at, of those whose axes agree."""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What explains everything.
+
+    Attributes:
+        mistakes: One mistake, or two.
+        detail: One sentence.
+        differences: The numbers that differ, in the order of the table.
+        placement: The table with the mistakes made good, on the chain.
+    """
+
+    mistakes: tuple[Mistake, ...]
+    detail: str
+    differences: tuple[Difference, ...]
+    placement: Placement
+
+
+def numbers_of(table: DhTable) -> Array:
+    """a, α, d, θ as they are written; shape (n, 4)."""
+    return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
+
+
+def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[tuple[Convention, Repairs]]:
+    """The repairs whose rows are of the chain's types, those of either convention together."""
+    slides = np.array([row.type == "prismatic" for row in table.joints])
+    rows = repairs.rows
+    fits = ((slides[rows] == on.target.slides) | (rows < 0)).all(axis=1)
+    other: Convention = "modified" if table.convention == "standard" else "standard"
+    for switched, convention in ((False, table.convention), (True, other)):
+        chosen = np.flatnonzero(fits & (repairs.switched == switched))
+        if len(chosen):
+            yield convention, repairs.only(chosen)
+
+
+def parameters(table: DhTable, repairs: Repairs) -> Array:
+    """The numbers of repaired tables, with what rows that follow others add; shape (N, m, 4)."""
+    numbers = repairs.numbers(numbers_of(table))
+    added = parameters_of(table) - numbers_of(table)
+    return numbers + added if added.any() else numbers
+
+
+def explaining(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs) -> list[Diagnosis]:
+    """The repairs that make a table describe a chain, in their order, each repaired table once."""
+    if not len(repairs.undone):
+        return []
+    invariants = Invariants(on, freedom)
+    found: list[Diagnosis] = []
+    tried: set[tuple[str, bytes, bytes]] = set()
+    for convention, some in by_convention(on, table, repairs):
+        axes = invariants.axes(convention, parameters(table, some), some.senses * on.senses, table)
+        for one in invariants.agreeing(axes).tolist():
+            repair = some.only(np.array([one]))
+            numbers = repair.numbers(numbers_of(table))[0]
+            key = convention, (np.round(numbers, 9) + 0.0).tobytes(), repair.senses.tobytes()
+            if key in tried or len(tried) >= _MOST_LOOKS:
+                continue
+            tried.add(key)
+            repaired = table_of(on, table, convention, repair, numbers)
+            diagnosis = judged(on, table, freedom, repair, repaired)
+            found += [] if diagnosis is None else [diagnosis]
+    return found
+
+
+def judged(
+    on: Subject, table: DhTable, freedom: Freedom, repair: Repairs, repaired: DhTable, further: Sequence[Undone] = ()
+) -> Diagnosis | None:
+    """The diagnosis that a repaired table is, if it describes the chain; other mistakes may be made good in it."""
+    placement = placed(on.fewer(LOOKS), repaired, freedom, strict=True, senses=repair.senses[0])
+    if placement is None:
+        return None
+    undone = [*repair.undone[0], *further]
+    detail = ", and ".join(each.detail for each in undone)
+    differences = between(table, repaired, repair.rows[0].tolist(), repair.senses[0])
+    return Diagnosis(tuple(each.mistake for each in undone), detail, differences, placement)
+
+
+def table_of(on: Subject, table: DhTable, convention: Convention, repair: Repairs, numbers: Array) -> DhTable:
+    """A repaired table with other numbers; shape (m, 4)."""
+    joints = []
+    for i, (source, row) in enumerate(zip(repair.rows[0].tolist(), numbers.tolist(), strict=True)):
+        missing = DhJoint(f"missing row {i + 1}", "prismatic" if on.target.slides[i] else "revolute", *row)
+        joint = missing if source < 0 else table.joints[source]
+        joints.append(replace(joint, **dict(zip(PARAMETERS, row, strict=True))))
+    return replace(table, convention=convention, joints=tuple(joints))
+
+
+def between(table: DhTable, repaired: DhTable, rows: Sequence[int], senses: Array) -> tuple[Difference, ...]:
+    """What differs in two tables; numbers of the other convention are first written in this one's.
+
+    Args:
+        table: As it was given.
+        repaired: Of one row more or less, or as many.
+        rows: The row of the first one that each of the other one comes from, -1 where it is missing.
+        senses: -1 where a joint of the repaired table turns the other way.
+    """
+    expected = numbers_of(repaired)
+    if repaired.convention != table.convention:
+        expected = _shifted(expected, towards_standard=table.convention == "standard")
+    given = numbers_of(table)
+    same_count = len(given) == len(expected) and -1 not in rows
+    counts = float(len(given)), float(len(expected))
+    left_out = [] if same_count else sorted(set(range(len(given))) - set(rows))
+    differences = [Difference(i + 1, table.joints[i].name, "joints", *counts) for i in left_out]
+    for i, (source, wanted) in enumerate(zip(rows, expected.tolist(), strict=True)):
+        if source < 0:
+            differences.append(Difference(i + 1, None, "joints", *counts))
+            differences += [Difference(i + 1, None, *each) for each in zip(PARAMETERS, [None] * 4, wanted, strict=True)]
+            continue
+        place = i if same_count else source
+        joint = table.joints[place].name
+        for name, value, number in zip(PARAMETERS, given[place].tolist(), wanted, strict=True):
+            apart = wrapped(value - number) if name in {"alpha", "theta"} else value - number
+            if abs(apart) > 1e-12:
+                differences.append(Difference(place + 1, joint, name, value, number))
+        if senses[i] < 0.0:
+            differences.append(Difference(place + 1, joint, "sign", 1.0, -1.0))
+    return tuple(differences)
+
+
+def _shifted(numbers: Array, towards_standard: bool) -> Array:
+    """A table in the other convention, base and tool apart: a and α belong to the link behind, or before, a joint."""
+    shifted = numbers.copy()
+    shifted[:, :2] = 0.0
+    if towards_standard:
+        shifted[:-1, :2] = numbers[1:, :2]
+    else:
+        shifted[1:, :2] = numbers[:-1, :2]
+    return shifted

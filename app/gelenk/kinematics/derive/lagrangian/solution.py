@@ -1,0 +1,156 @@
+"""The equations of motion of a table: formulas, numbers at given configurations, each compared with Pinocchio."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.kinematics.configuration import configurations
+from gelenk.kinematics.derive.check import Checks
+from gelenk.kinematics.derive.lagrangian.bodies import Body, Dynamics, Gravity
+from gelenk.kinematics.derive.lagrangian.check import MotionCertificate, certify_formulas, certify_numbers
+from gelenk.kinematics.derive.lagrangian.numeric import NumericMotion, numeric_motion
+from gelenk.kinematics.derive.lagrangian.steps import motion_steps
+from gelenk.kinematics.derive.lagrangian.texts import MotionQuestion, MotionSample, MotionTexts
+from gelenk.kinematics.derive.steps import Step
+from gelenk.kinematics.derive.table import exact_number
+from gelenk.kinematics.derive.texts import Question
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.dh import DhTable
+from gelenk.model.errors import CertificationFailed, InvalidField, counted
+
+LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
+"""What these fields of a request are called in errors."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSolution:
+    """The equations of motion.
+
+    Attributes:
+        texts: In symbols.
+        numeric: One each given configuration; none where a number is missing.
+        steps: In words.
+        notes: What stays out, and why.
+        certificate: Of the formulas.
+        numeric_certificate: Of the numbers; None where there are none.
+    """
+
+    texts: MotionTexts
+    numeric: list[NumericMotion]
+    steps: list[Step]
+    notes: list[str]
+    certificate: MotionCertificate
+    numeric_certificate: MotionCertificate | None
+
+
+def checked_dynamics(table: DhTable, chain: Chain, dynamics: Dynamics, count: int) -> tuple[Dynamics, Array | None]:
+    """The same with a body each row, and the velocities in the chain's order; shape (count, n), [rad/s or m/s].
+
+    Raises:
+        InvalidField: Not one link a row, or not one entry of velocities a configuration.
+        WrongJointCount, MissingJoint, UnknownJoint: An entry of the velocities is none of the table.
+    """
+    n, given = len(table.joints), len(dynamics.bodies)
+    if given not in {0, n}:
+        raise InvalidField(
+            LINKS, f"has {counted(given, 'entry')} where the table has {counted(n, 'joint')}: one link a joint, or none"
+        )
+    velocities = None
+    if dynamics.velocities is not None:
+        velocities = configurations(chain, dynamics.velocities, VELOCITIES)
+        if len(velocities) != count:
+            reason = f"has {counted(len(velocities), 'entry')} where joint_positions has {count}: one a configuration"
+            raise InvalidField(VELOCITIES, reason)
+    return replace(dynamics, bodies=dynamics.bodies or (Body(),) * n), velocities
+
+
+def motion_question(question: Question, table: DhTable, dynamics: Dynamics, seed: int) -> MotionQuestion:
+    """What the symbolic part is asked: gravity in frame 0, and samples with a number for everything."""
+    direction = tuple(_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
+    gravity = Gravity(dynamics.gravity.size, (direction[0], direction[1], direction[2]))
+    random = np.random.default_rng(seed)
+    samples = []
+    for q in question.samples:
+        v, a = random.uniform(-2.0, 2.0, (2, len(q))).tolist()
+        numbers = random.uniform(0.1, 1.0, (len(q), 3)).tolist()
+        bodies = tuple(_filled(body, *row) for body, row in zip(dynamics.bodies, numbers, strict=True))
+        samples.append(MotionSample(q, tuple(v), tuple(a), bodies))
+    return MotionQuestion(
+        question.table, question.style, question.keeps_symbols, dynamics.bodies, gravity, tuple(samples)
+    )
+
+
+def _snapped(component: float) -> float:
+    """A component of a unit vector as the formulas read it."""
+    exact = exact_number(component)
+    if exact is None:
+        return component
+    return exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
+
+
+def _filled(body: Body, mass: float, center: float, inertia: float) -> Body:
+    return Body(
+        mass if body.mass is None else body.mass,
+        center if body.center is None else body.center,
+        inertia if body.inertia is None else body.inertia,
+    )
+
+
+def motion_solution(
+    texts: MotionTexts,
+    question: MotionQuestion,
+    table: DhTable,
+    as_read: DhTable,
+    dynamics: Dynamics,
+    velocities: Array | None,
+    qs: Array,
+    seed: int,
+    checks: Checks,
+) -> MotionSolution | None:
+    """Formulas and numbers, both certified; None where a formula is not what Pinocchio has.
+
+    Everything after a wrong formula follows from it, so that all of them are left out then.
+
+    Args:
+        texts: The formulas.
+        question: What they answer.
+        table: As it was given.
+        as_read: As the formulas read it.
+        dynamics: One body a row.
+        velocities: At the configurations, shape (N, n), [rad/s or m/s]; or None.
+        qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
+        seed: Of the samples.
+        checks: Takes a formula that fails.
+
+    Raises:
+        CertificationFailed: Numbers at given configurations are not Pinocchio's.
+    """
+    in_frame_0 = replace(as_read, base=np.eye(4))
+    fall = np.array(question.gravity.vector)
+    try:
+        certificate = certify_formulas(in_frame_0, fall, question.samples, texts.values, seed)
+    except CertificationFailed as failure:
+        quantity = f"{failure.quantity} of the equations of motion in symbols"
+        checks.left_out(replace(failure, quantity=quantity), "the equations of motion are left out")
+        return None
+    notes, numeric = _notes(texts, question, len(qs)), list[NumericMotion]()
+    gravity = np.array(dynamics.gravity.vector)
+    if not texts.missing:
+        rows = [None] * len(qs) if velocities is None else velocities
+        numeric = [numeric_motion(table, dynamics.bodies, gravity, q, v) for q, v in zip(qs, rows, strict=True)]
+    judged = certify_numbers(table, dynamics.bodies, gravity, numeric) if numeric else None
+    return MotionSolution(texts, numeric, motion_steps(texts), notes, certificate, judged)
+
+
+def _notes(texts: MotionTexts, question: MotionQuestion, count: int) -> list[str]:
+    notes = []
+    if question.gravity.size and all(row == ["0"] for row in texts.gravity_vector.plain):
+        notes.append(
+            "gravity does no work in the plane of motion, so that g(q) = 0; for an arm in a vertical plane turn the "
+            "base, or give another direction of gravity"
+        )
+    if count and texts.missing:
+        notes.append(f"M, C and g in numbers need values of {', '.join(texts.missing)}: give them in `dynamics`")
+    return notes

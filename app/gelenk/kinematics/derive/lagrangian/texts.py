@@ -1,0 +1,124 @@
+"""What goes into the symbolic part of the equations of motion and comes out of it: plain data."""
+
+from dataclasses import dataclass
+
+from gelenk.kinematics.derive.lagrangian.bodies import Body, Gravity
+from gelenk.kinematics.derive.table import TableNumbers
+from gelenk.kinematics.derive.texts import Configuration, Entry, Grid
+from gelenk.kinematics.derive.typeset import MatrixText, Style, Text
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSample:
+    """A state of the arm, and its bodies with a number for whatever was left out.
+
+    Attributes:
+        q: Joint positions, [rad or m].
+        v: Joint velocities, [rad/s or m/s].
+        a: Joint accelerations, [rad/s² or m/s²].
+        bodies: One a joint.
+    """
+
+    q: Configuration
+    v: Configuration
+    a: Configuration
+    bodies: tuple[Body, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MotionQuestion:
+    """What is asked.
+
+    Attributes:
+        table: The table.
+        style: `short` for c_{12}, `full` for cos(q_1 + q_2).
+        keeps_symbols: Whether lengths and masses stay symbols; else what values they have stand in the formulas.
+        bodies: One a joint.
+        gravity: In the axes of frame 0.
+        samples: States at which the formulas are evaluated as well.
+    """
+
+    table: TableNumbers
+    style: Style
+    keeps_symbols: bool
+    bodies: tuple[Body, ...]
+    gravity: Gravity
+    samples: tuple[MotionSample, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BodyText:
+    """A link: where its centre of mass is, how it moves, and its energies."""
+
+    center: MatrixText
+    velocity: MatrixText
+    angular_velocity: Text
+    kinetic: Text
+    potential: Text
+
+
+@dataclass(frozen=True, slots=True)
+class ChristoffelText:
+    """c_ijk = c_ikj, by numbers of joints from 1, j ≤ k."""
+
+    i: int
+    j: int
+    k: int
+    formula: Text
+
+
+@dataclass(frozen=True, slots=True)
+class MotionValues:
+    """Everything at one sample; vectors in frame 0, Christoffel symbols as c[i][j][k]."""
+
+    centers: Grid
+    velocities: Grid
+    kinetic: list[float]
+    potential: list[float]
+    mass_matrix: Grid
+    christoffel: list[Grid]
+    coriolis: Grid
+    coriolis_vector: list[float]
+    gravity_vector: list[float]
+    skew: Grid
+    torques: list[float]
+
+
+@dataclass(frozen=True, slots=True)
+class MotionTexts:
+    """The equations of motion.
+
+    Attributes:
+        legend: Symbols beyond those of the transforms.
+        gravity: The acceleration of free fall in frame 0.
+        bodies: One a joint.
+        mass_matrix: M.
+        christoffel: Those that differ from zero.
+        coriolis: C.
+        coriolis_vector: C q̇.
+        gravity_vector: g.
+        skew: Ṁ - 2C.
+        rows: M q̈ + C q̇ + g = τ, row by row.
+        missing: Symbols of M, C and g that have no value.
+        values: At each sample.
+    """
+
+    legend: list[Entry]
+    gravity: MatrixText
+    bodies: list[BodyText]
+    mass_matrix: MatrixText
+    christoffel: list[ChristoffelText]
+    coriolis: MatrixText
+    coriolis_vector: MatrixText
+    gravity_vector: MatrixText
+    skew: MatrixText
+    rows: list[Text]
+    missing: tuple[str, ...]
+    values: list[MotionValues]
+
+
+@dataclass(frozen=True, slots=True)
+class NoMotion:
+    """Why there are no equations of motion."""
+
+    reason: str

@@ -1,0 +1,263 @@
+"""Every distinct solution of a target: starts spread over the joints, what they converge to sorted out."""
+
+import math
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from gelenk.kinematics.ik import kernels
+from gelenk.kinematics.ik.null_space import Objective, settle
+from gelenk.kinematics.ik.search import ITERATIONS_PER_START, free_variables, limits_of, make_goal
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.compilation import compiled
+from gelenk.model.poses import Poses
+
+STARTS = 2048
+"""Starts of one target, half of them without regard to the limits: what they find may still be within."""
+
+_TIGHT = 1e-10
+"""Tolerances to which solutions are found, [m] and [rad]."""
+_SAME = 1e-4
+"""Distance in every joint up to which two solutions are one, [rad or m]."""
+SPACING = 0.2
+"""The same where solutions form a continuum, of which a sample is given."""
+_NEIGHBOURS = 0.02
+"""Distance up to which two solutions are one if the middle between them is a solution too, [rad or m]."""
+_MOST_DISTINCT = 256
+"""Solutions that are looked at to tell whether they form a continuum."""
+_MOST_ISOLATED = 32
+"""More solutions than this form a continuum: a 6R arm has at most 16 that stand alone [Raghavan1993]."""
+_MOST_WINDINGS = 100_000
+"""Solutions with all their full turns that are looked at."""
+_ROUNDING = 1e-9
+"""How far beyond a limit counts as at it, [rad or m]."""
+_TURN = 2.0 * np.pi
+SEARCHED = "these are the results of a search from many starts; there may be others"
+TRUNCATED = "this is the requested number; there are others"
+
+
+@dataclass(frozen=True, slots=True)
+class Branches:
+    """Solutions of one target, nearest to the seed first.
+
+    Attributes:
+        qs: Shape (k, n), [rad or m].
+        doubt: Why these may not be all: a search never proves that they are.
+    """
+
+    qs: Array
+    doubt: str
+
+
+def all_branches(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    *,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+    most: int,
+    windings: bool,
+) -> Branches:
+    """Every distinct solution, modulo full turns unless `windings` are wanted.
+
+    A redundant arm, and any arm at a singularity where a joint turns for nothing, has infinitely many: then the answer
+    is a sample of them, no two nearer than 0.2 rad or m in every joint, picked from the nearest to the seed outwards.
+
+    Args:
+        chain: Base and tip.
+        row: The target: rotation row by row, then position; shape (12,).
+        seed: What distances are measured from; shape (n,).
+        task: Which directions count.
+        tolerances: Of position [m] and orientation [rad].
+        respect_limits: Whether solutions are to be within the limits.
+        random_seed: Of the starts.
+        most: Largest number of solutions.
+        windings: Whether solutions that differ by full turns count as different, where limits allow them.
+    """
+    candidates = _converged(chain, row, seed, task, tolerances, respect_limits, random_seed)
+    target = Poses(row[None, 9:].copy(), row[:9].reshape(1, 3, 3).copy())
+    free = free_variables(chain)
+    if len(chain) <= len(task):
+        distinct = sorted_by_distance(candidates[thin_out(candidates, free, _SAME, _MOST_DISTINCT)], seed)
+        isolated = _without_doubles(chain, target, distinct, task, tolerances)
+        continuum = len(isolated) > _MOST_ISOLATED
+    else:
+        continuum = True
+    if continuum:
+        candidates = sorted_by_distance(candidates, seed)
+        # Of infinitely many the nearest is none of those found, but close to the first.
+        objective = Objective("posture", seed)
+        nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
+        candidates = np.concatenate((nearest, candidates))
+        isolated = candidates[thin_out(candidates, free, SPACING, most)]
+    qs = isolated[:most]
+    if windings and len(qs):
+        qs, _, _ = wound(chain, qs, seed, most, False, respect_limits)
+    return Branches(qs, "infinitely many solutions, of which these are a sample" if continuum else SEARCHED)
+
+
+def _without_doubles(chain: Chain, target: Poses, qs: Array, task: Task, tolerances: tuple[float, float]) -> Array:
+    """One of two neighbours between which everything is a solution too: there two solutions meet in a singularity."""
+    kept: list[int] = []
+    free = free_variables(chain)
+    for i in range(len(qs)):
+        differences = qs[kept] - qs[i]
+        differences -= np.where(free, _TURN * np.rint(differences / _TURN), 0.0)
+        near = differences[np.abs(differences).max(axis=1, initial=0.0) <= _NEIGHBOURS]
+        middles = Poses(*chain_poses(chain.flat, qs[i] + 0.5 * near))
+        targets = Poses(np.repeat(target.positions, len(near), axis=0), np.repeat(target.rotations, len(near), axis=0))
+        errors = task.errors(targets, middles)
+        if not ((errors[0] <= tolerances[0]) & (errors[1] <= tolerances[1])).any():
+            kept.append(i)
+    return qs[kept]
+
+
+def _converged(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+) -> Array:
+    """Where starts converge, within the limits and as near to the seed as full turns allow; shape (k, n)."""
+    found = []
+    ways = (True, False) if respect_limits else (False,)
+    for limited in ways:
+        # Rounding apart, so that a double solution does not come as two; if it is beyond that, as near as asked for.
+        for tolerance in ((_TIGHT, _TIGHT), tolerances):
+            goal = make_goal(
+                chain,
+                task,
+                min(tolerance[0], tolerances[0]),
+                min(tolerance[1], tolerances[1]),
+                limited,
+                STARTS // len(ways) * ITERATIONS_PER_START,
+                random_seed + limited,
+            )
+            qs = kernels.gather(chain.flat, goal, row, seed)
+            if len(qs):
+                found.append(qs)
+                break
+    if not found:
+        return np.empty((0, len(chain)))
+    qs = np.concatenate(found)
+    lower, upper = limits_of(chain, respect_limits)
+    qs = wound_near(chain, qs, seed, lower, upper)
+    # A solution at a limit may miss it by rounding.
+    within = ((qs >= lower - _ROUNDING) & (qs <= upper + _ROUNDING)).all(axis=1)
+    return np.clip(qs[within], lower, upper)
+
+
+def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:
+    """Configurations with their free variables turned by full turns into the limits, as near to the seed as they allow.
+
+    What has no place within the limits is left as near to them as full turns bring it; what rounding has carried over
+    a limit is put back on it.
+    """
+    wound = qs.copy()
+    for j in np.flatnonzero(free_variables(chain)):
+        # Whole turns are counted first and added once: going there and back would round.
+        turns = np.rint((seed[j] - qs[:, j]) / _TURN)
+        if np.isfinite(upper[j]):
+            turns -= np.maximum(0.0, np.ceil((qs[:, j] + _TURN * turns - upper[j] - _ROUNDING) / _TURN))
+        if np.isfinite(lower[j]):
+            raised = turns + np.maximum(0.0, np.ceil((lower[j] - qs[:, j] - _TURN * turns - _ROUNDING) / _TURN))
+            # Where neither is within, the nearer of the two.
+            above, below = qs[:, j] + _TURN * raised - upper[j], lower[j] - qs[:, j] - _TURN * turns
+            turns = np.where((above > _ROUNDING) & (above > below), turns, raised)
+        wound[:, j] = np.where(turns == 0.0, qs[:, j], qs[:, j] + _TURN * turns)
+    inside = np.clip(wound, lower, upper)
+    return np.where(np.abs(wound - inside) <= _ROUNDING, inside, wound)
+
+
+def sorted_by_distance(qs: Array, seed: Array) -> Array:
+    """Configurations, nearest to the seed first; shape (N, n)."""
+    return qs[np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")]
+
+
+@compiled
+def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
+    """Pick rows in order, each further than `spacing` in some variable from all before it; at most so many.
+
+    Args:
+        qs: Configurations; shape (N, n).
+        free: Which variables count modulo full turns; shape (n,).
+        spacing: [rad or m].
+        most: Bound on the number.
+
+    Returns:
+        Their indices; shape (k,).
+    """
+    chosen = np.empty(min(most, len(qs)), np.int64)
+    count = 0
+    for i in range(len(qs)):
+        if count == most:
+            break
+        distinct = True
+        for c in range(count):
+            largest = 0.0
+            for j in range(qs.shape[1]):
+                difference = qs[i, j] - qs[chosen[c], j]
+                if free[j]:
+                    difference -= 2.0 * np.pi * np.rint(difference / (2.0 * np.pi))
+                largest = max(largest, abs(difference))
+            if largest <= spacing:
+                distinct = False
+                break
+        if distinct:
+            chosen[count] = i
+            count += 1
+    return chosen[:count]
+
+
+def wound(
+    chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool
+) -> tuple[Array, Indices, bool]:
+    """Each solution in all the full turns that the limits allow, nearest to the seed first.
+
+    A joint without limits keeps the turn nearest to the seed.
+
+    Args:
+        chain: The chain.
+        qs: The solutions; shape (k, n).
+        seed: What distances are measured from; shape (n,).
+        most: Largest number of them.
+        complete: Whether these are all.
+        respect_limits: Whether the limits count; without them nothing is turned.
+
+    Returns:
+        Configurations, shape (m, n); the solution that each is a turn of, shape (m,); and whether they are all.
+    """
+    free = free_variables(chain)
+    results: list[tuple[float, ...]] = []
+    owners: list[int] = []
+    for k, q in enumerate(qs):
+        ranges = [_turns(chain, j, value, respect_limits and bool(free[j])) for j, value in enumerate(q)]
+        count = math.prod(len(turns) for turns in ranges)
+        if len(results) + count > _MOST_WINDINGS:
+            ranges = [range(1)] * len(q)
+            count, complete = 1, False
+        results.extend(product(*([value + _TURN * t for t in turns] for value, turns in zip(q, ranges, strict=True))))
+        owners.extend([k] * count)
+    table = np.array(results)
+    if respect_limits:
+        table = np.clip(table, chain.lower, chain.upper)
+    order = np.argsort(np.square(table - seed).sum(axis=1), kind="stable")[:most]
+    return table[order], np.array(owners, dtype=np.int64)[order], complete and len(table) <= most
+
+
+def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
+    """By how many full turns a variable may be moved within its limits."""
+    lower, upper = chain.lower[j], chain.upper[j]
+    if not (turning and np.isfinite(lower) and np.isfinite(upper)):
+        return range(1)
+    return range(math.ceil((lower - value) / _TURN - 1e-10), math.floor((upper - value) / _TURN + 1e-10) + 1)

@@ -1,0 +1,345 @@
+"""All solutions of any six joints with a proof by counting: what isolated solutions there are is followed to a target.
+
+Joint values and targets may be complex. Then all targets but special ones have the same number of solutions, 16 of six
+turning joints of general geometry [Raghavan1993], and no target has more that stand alone. Those of one target lead to
+those of any other [Morgan1989]; on the way round a loop they change places, so that one leads to all [Sommese2005]. So
+many that stand alone at the target asked for are all there are, however they were found.
+
+An arm of any joints of the same kinds is solved by loops once, from it each arm, from that each target.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from gelenk.kinematics.ik.branches import SEARCHED, Branches, sorted_by_distance, wound_near
+from gelenk.kinematics.ik.closed_form import screws_of_six
+from gelenk.kinematics.ik.homotopy import JOINTS, ComplexArray, follow
+from gelenk.kinematics.ik.search import limits_of
+from gelenk.kinematics.ik.special import drawn, geometry, reaches
+from gelenk.kinematics.ik.valleys import with_partners
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+
+_GENERAL = (16, 16, 8, 2)
+"""Solutions of six joints of which so many slide, the others turn, of general geometry [Mavroidis1994]."""
+_LOOPS, _BARREN = 60, 3
+"""Loops at most, and how many without a new solution end the search for more."""
+_LONGEST = (0.05, 0.01)
+"""Largest corrections of the first and the second try [rad, or sizes of the arm]."""
+_FAR = 18.0
+"""Imaginary part of a solution at infinity: beyond it rounding is all that is left [rad]."""
+_ALONE, _ALONE_FAR = 1e-8, 1e-4
+"""Newton's last step at a solution that stands alone: near to real values, and far away, where numbers are large."""
+_APART, _APART_STEPS = 1e-5, 1e3
+"""How far apart two solutions are: so far, and so many of Newton's last steps [rad or sizes of the arm]."""
+_AROUND = 0.3
+"""Imaginary part of what may lead to a real solution [rad or sizes of the arm]."""
+_EXACTLY, _NEARLY = 1e-12, tuple(10.0**-k for k in range(11, 1, -1))
+"""Sines and distances [sizes of the arm] that are none but for rounding, and that make an arm nearly special."""
+_SEEDS = (11, 12, 13)
+"""Of targets at which all solutions of an arm are looked for."""
+
+_ROUNDING = 1e-14
+"""Errors up to which refining has come to a solution next to a singularity [m, rad]."""
+_AS_IT_IS = np.eye(4)
+
+
+class Arm(NamedTuple):
+    """An arm in complex numbers, a target, and all its solutions.
+
+    Attributes:
+        screws: Axes, then points, in sizes of the arm; shape (12, 3).
+        slides: 1 where a joint slides; shape (6,).
+        target: Quaternion w x y z and position; shape (7,).
+        starts: The solutions; shape (k, 6).
+    """
+
+    screws: ComplexArray
+    slides: Indices
+    target: ComplexArray
+    starts: ComplexArray
+
+
+class Special(NamedTuple):
+    """An arm that is exactly special in the place of one that is so but for a little.
+
+    Attributes:
+        arm: The one, with all its solutions of some target.
+        by: What a target of the other times this is a target of it; shape (4, 4).
+        off: How far beside it at most, wherever the joints are: angle [rad], and distance [sizes of the arm].
+    """
+
+    arm: Arm
+    by: Array
+    off: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation:
+    """How the solutions of an arm are found.
+
+    Attributes:
+        chain: Of six joints.
+        zero: T_0⁻¹ at zero; shape (12,).
+        centre: What is taken as the origin; shape (3,), [m].
+        size: Of the arm, [m].
+        arm: In these terms, with solutions of some target.
+        is_counted: Whether these are as many as arms have that are special in the same way, or the most that any has.
+        special: Where they are not, an arm next to it with as many.
+    """
+
+    chain: Chain
+    zero: Array
+    centre: Array
+    size: float
+    arm: Arm
+    is_counted: bool
+    special: Special | None
+
+    def solve(self, target: Poses) -> tuple[Array, str]:
+        """Solutions of one target, and why there may be others; no words where these are proved to be all.
+
+        Without a proof, they may be no solutions either, but places near some.
+        """
+        goal = self._goal(target)
+        if self.special is not None:
+            start = self._goal(target, self.special.by)
+            ends, near = self._ends(self.special.arm, start, _LONGEST)
+            qs = self._carried(self.special, start, goal, ends)
+            if qs is not None:
+                return self._variables(qs), ""
+        else:
+            ends, near = self._ends(self.arm, goal, _LONGEST if self.is_counted else _LONGEST[:1])
+            if self.is_counted and len(ends) == len(self.arm.starts):
+                return self._variables(ends[np.abs(ends.imag).max(axis=1) <= _APART].real), ""
+        qs = self._variables(near[np.abs(near.imag).max(axis=1) <= _AROUND].real)
+        if not self.is_counted:
+            return qs, "the arm is nearly of a special geometry: solutions that rounding has lost may be real ones"
+        return qs, (
+            f"of the {len(self.arm.starts)} in complex numbers {min(len(ends), len(self.arm.starts))} stand alone "
+            "at this target; others meet at a singularity, or are lost near to it"
+        )
+
+    def _ends(self, arm: Arm, goal: ComplexArray, tries: tuple[float, ...]) -> tuple[ComplexArray, ComplexArray]:
+        """The solutions that stand alone, and where all paths have come to."""
+        found, places = _Ends.none(), []
+        for longest in tries:
+            ends, steps = follow(
+                np.stack((arm.screws, arm.screws)), np.stack((arm.target, goal)), arm.slides, arm.starts, longest, _FAR
+            )
+            found = found.joined(ends, steps, arm.slides)
+            places.append(ends)
+            if found.alone.sum() == len(arm.starts):
+                break
+        return found.qs[found.alone], np.concatenate(places)
+
+    def _carried(self, special: Special, start: ComplexArray, goal: ComplexArray, qs: ComplexArray) -> Array | None:
+        """The real ones of all solutions of the special arm, carried over to the arm; None if others may come of them.
+
+        To a configuration that solves the target the special arm gives a target next to it. Where none of its
+        solutions meets another one up to there, each has one solution of the arm around it, and there is no other.
+        """
+        is_whole = len(qs) == len(special.arm.starts)
+        boxes = reaches(special.arm.screws, special.off, qs) if is_whole else None
+        if boxes is None:
+            return None
+        real = (np.abs(qs.imag) <= boxes).all(axis=1)
+        # Either sign of a quaternion is the same rotation.
+        start[:4] *= np.sign((start[:4] * goal[:4]).real.sum())
+        screws, targets = np.stack((special.arm.screws, self.arm.screws)), np.stack((start, goal))
+        ends, steps = follow(screws, targets, self.arm.slides, qs[real].real.astype(complex), _LONGEST[1], _FAR)
+        is_near = (np.abs(ends - qs[real]) <= boxes[real] + _ALONE).all() and (np.abs(ends.imag) <= _APART).all()
+        return ends.real if is_near and (steps <= _ALONE).all() else None
+
+    def _variables(self, values: Array) -> Array:
+        """What the chain's variables are where the joints have such values, of slides in sizes of the arm."""
+        drives, units = self.chain.flat.drives, np.where(self.arm.slides == 1, self.size, 1.0)
+        return np.asarray((values * units - drives[:, 1]) * drives[:, 0])
+
+    def _goal(self, target: Poses, by: Array = _AS_IT_IS) -> ComplexArray:
+        R = target.rotations[0] @ self.zero[:9].reshape(3, 3)
+        p = target.positions[0] + target.rotations[0] @ self.zero[9:]
+        p = (p + R @ self.centre - self.centre) / self.size + R @ by[:3, 3]
+        return np.append(_quaternion((R @ by[:3, :3]).astype(complex)), p)
+
+
+class _Ends(NamedTuple):
+    """Where paths have come to, the lengths of Newton's last steps [rad or sizes of the arm], and which stand alone."""
+
+    qs: ComplexArray
+    steps: Array
+    alone: Flags
+
+    @staticmethod
+    def none() -> "_Ends":
+        return _Ends(np.empty((0, JOINTS), dtype=complex), np.empty(0), np.zeros(0, dtype=bool))
+
+    def joined(self, qs: ComplexArray, steps: Array, slides: Indices) -> "_Ends":
+        """These and others, one of each; at a real target the conjugate of a solution is one too."""
+        good = np.isfinite(steps)
+        qs, steps = qs[good], steps[good]
+        order = np.argsort(np.concatenate((self.steps, steps, steps)), kind="stable")
+        qs = np.concatenate((self.qs, qs, qs.conj()))[order]
+        steps = np.concatenate((self.steps, steps, steps))[order]
+        chosen = _distinct(qs, steps, slides)
+        qs, steps = qs[chosen], steps[chosen]
+        far = np.exp(2.0 * np.abs(qs.imag * (slides == 0)).max(axis=1, initial=0.0))
+        return _Ends(qs, steps, steps <= np.minimum(_ALONE * far, _ALONE_FAR))
+
+
+def counted(question: Question, i: int, system: Continuation, search: Callable[[], Branches] | None) -> Branches:
+    """All solutions of one target within the limits, nearest to the seed first; see `Continuation.solve`.
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        system: Of the chain.
+        search: Another way to solutions, where the proof fails; None where that is not wanted.
+    """
+    qs, doubt = system.solve(question.target(i))
+    if doubt:
+        other = search() if search else Branches(qs[:0], doubt)
+        if search and other.doubt != SEARCHED:
+            return other
+        found = with_partners(question, i, np.concatenate((qs, other.qs)), _ROUNDING * (1.0 + system.size))
+        qs = found if len(found) else other.qs
+    else:
+        qs = within_limits(question, i, qs)
+    return Branches(sorted_by_distance(qs, question.seed(i)), doubt)
+
+
+def within_limits(question: Question, i: int, qs: Array) -> Array:
+    """Those of some solutions that full turns bring within the limits; shape (k, n)."""
+    lower, upper = limits_of(question.chain, question.respect_limits)
+    qs = wound_near(question.chain, qs, question.seed(i), lower, upper)
+    return np.asarray(qs[((qs >= lower) & (qs <= upper)).all(axis=1)])
+
+
+@lru_cache(maxsize=256)
+def continuation(chain: Chain) -> Continuation | None:
+    """How all solutions of six joints are found and counted; None where a target has infinitely many, or is none."""
+    screws = screws_of_six(chain)
+    if screws is None:
+        return None
+    axes, points, slides = screws.axes, screws.points, tuple(screws.slides.tolist())
+    centre = points.mean(axis=0)
+    points = points - ((points - centre) * axes).sum(axis=1)[:, None] * axes
+    size = max(float(np.abs(points - centre).max()), 0.1 * float(np.abs(screws.tip - centre).max()), 1e-3)
+    points = (points - centre) / size
+    most = _count(geometry(axes, points, _EXACTLY).kind(), slides)
+    arm = _arm(slides, axes, points, most)
+    if not len(arm.starts):
+        return None
+    is_counted = len(arm.starts) >= most
+    special = None if is_counted or any(slides) else _special(axes, points)
+    return Continuation(chain, screws.zero, centre, size, arm, is_counted, special)
+
+
+def _special(axes: Array, points: Array) -> Special | None:
+    """The arm nearest to one of turning joints that has as many solutions as it should."""
+    slides, before = (False,) * JOINTS, geometry(axes, points, _EXACTLY)
+    for tolerance in _NEARLY:
+        near = geometry(axes, points, tolerance)
+        if near.kind() != before.kind():
+            lines, most = near.lines(), _count(near.kind(), slides)
+            arm = _arm(slides, *lines[:2], most)
+            if len(arm.starts) >= most:
+                return Special(arm, near.last @ np.linalg.inv(lines[2]), near.off)
+        before = near
+    return None
+
+
+@lru_cache(maxsize=256)
+def _count(kind: tuple[tuple[float, ...], ...], slides: tuple[bool, ...]) -> int:
+    """How many solutions arms have that are special in some way: of one that is so in no other."""
+    return len(_arm(slides, *drawn(kind, slides, np.random.default_rng(3)), _general_count(slides)).starts)
+
+
+def _arm(slides: tuple[bool, ...], axes: Array, points: Array, most: int) -> Arm:
+    """Solutions of an arm at some target, from those of an arm of general geometry; those at infinity are lost."""
+    general, lines = _general(slides), np.concatenate((axes, points)).astype(complex)
+    found: list[Arm] = []
+    for seed in _SEEDS:
+        rng = np.random.default_rng(seed)
+        target = _drawn_target(rng)
+        screws, targets = np.stack((general.screws, lines)), np.stack((general.target, target))
+        ends, steps = follow(screws, targets, general.slides, general.starts, _LONGEST[1], _FAR)
+        reached = _distinct(ends, np.where(steps <= _ALONE_FAR, steps, np.inf), general.slides)
+        found.append(_with_loops(Arm(lines, general.slides, target, ends[reached]), rng, most))
+        if len(found[-1].starts) >= most:
+            break
+    return max(found, key=lambda arm: len(arm.starts))
+
+
+@lru_cache(maxsize=64)
+def _general(slides: tuple[bool, ...]) -> Arm:
+    """An arm of general geometry, and all its solutions of some target."""
+    rng = np.random.default_rng(5)
+    flags = np.array(slides, dtype=np.int64)
+    axes, points = _drawn(rng, (JOINTS, 3), 0.5), _drawn(rng, (JOINTS, 3), 0.5)
+    axes /= np.sqrt((axes * axes).sum(axis=1))[:, None]
+    q = _drawn(rng, JOINTS, 0.4)
+    R, p = np.eye(3, dtype=complex), np.zeros(3, dtype=complex)
+    for h, o, slide, angle in zip(axes, points, slides, q, strict=True):
+        cross = np.cross(h, np.eye(3)).T
+        turn = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+        p = p + R @ (angle * h if slide else o - turn @ o)
+        R = R if slide else R @ turn
+    arm = Arm(np.concatenate((axes, points)), flags, np.append(_quaternion(R), p), q[None])
+    return _with_loops(arm, rng, _general_count(slides))
+
+
+def _general_count(slides: tuple[bool, ...]) -> int:
+    return _GENERAL[sum(slides)]
+
+
+def _with_loops(arm: Arm, rng: np.random.Generator, most: int) -> Arm:
+    """The arm with the solutions to which loops of the target lead from those that it has."""
+    starts, barren, screws = arm.starts, 0, np.stack((arm.screws, arm.screws))
+    for _ in range(_LOOPS):
+        if len(starts) in {0, most} or barren == _BARREN:
+            break
+        qs, stops = starts, (arm.target, _drawn_target(rng), _drawn_target(rng), arm.target)
+        for k in range(3):
+            qs, steps = follow(screws, np.stack(stops[k : k + 2]), arm.slides, qs, _LONGEST[0], _FAR)
+            qs = qs[steps <= _ALONE]
+        together = np.concatenate((starts, qs))
+        together = together[_distinct(together, np.zeros(len(together)), arm.slides)]
+        barren = barren + 1 if len(together) == len(starts) else 0
+        starts = together
+    return arm._replace(starts=np.ascontiguousarray(starts))
+
+
+def _distinct(qs: ComplexArray, steps: Array, slides: Indices) -> list[int]:
+    """Which solutions are the first of their kind; none whose last step was infinite."""
+    chosen: list[int] = []
+    for i in np.flatnonzero(np.isfinite(steps)).tolist():
+        apart = qs[chosen] - qs[i]
+        apart -= np.where(slides == 1, 0.0, 2.0 * np.pi * np.rint(apart.real / (2.0 * np.pi)))
+        close = np.maximum(_APART, _APART_STEPS * np.maximum(steps[chosen], steps[i]))
+        if (np.abs(apart).max(axis=1, initial=0.0) > close).all():
+            chosen.append(i)
+    return chosen
+
+
+def _drawn(rng: np.random.Generator, shape: int | tuple[int, ...], imaginary: float) -> ComplexArray:
+    return np.asarray(rng.normal(size=shape) + 1j * imaginary * rng.normal(size=shape))
+
+
+def _drawn_target(rng: np.random.Generator) -> ComplexArray:
+    return np.append(_drawn(rng, 4, 1.0), 0.6 * _drawn(rng, 3, 1.0))
+
+
+def _quaternion(R: ComplexArray) -> ComplexArray:
+    """Components w x y z, of a rotation in real or complex numbers, up to a factor: the longest row of its products."""
+    w = np.array([1.0 + np.trace(R), R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    products = np.empty((4, 4), dtype=complex)
+    products[0], products[:, 0] = w, w
+    products[1:, 1:] = R + R.T + (1.0 - np.trace(R)) * np.eye(3)
+    return np.asarray(products[int(np.argmax(np.linalg.norm(products, axis=1)))])

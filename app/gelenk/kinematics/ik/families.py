@@ -1,0 +1,207 @@
+"""Families: where infinitely many solutions meet a target, which joints move among them and how they are tied.
+
+A singular Jacobian is no proof of a family: from there the arm may not be able to go on. So each family is walked, step
+by step on the target, and what is told of it is what the walk has shown.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.ik.fixed import widened
+from gelenk.kinematics.ik.judge import judged
+from gelenk.kinematics.ik.linearise import linearise
+from gelenk.kinematics.ik.result import Family
+from gelenk.kinematics.ik.search import free_variables, is_over, limits_of
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.chain import Chain
+from gelenk.model.errors import quoted
+
+MOST_FAMILIES = 32
+"""Families of a target that are told: an arm of six joints has at most 16 branches [Raghavan1993]."""
+
+_SINGULAR, _USELESS = 1e-6, 1e-8
+"""Shares of σ_max below which a direction counts as lost, and below which a correction leaves it alone."""
+_STEPS = (0.2, 0.05, 0.0125, 0.003)
+"""Steps that are tried in turn, of the joint that moves most, [rad or m]."""
+_DRIFT, _OFF_TARGET = 1e-8, 5e-10
+"""How far off the target a step may lead, for each rad or m of it and at most, [m, rad]."""
+_ROUNDING, _CORRECTIONS = 1e-12, 8
+_MOST_STEPS = 200
+"""In each direction, where a walk comes neither back nor to a limit."""
+_EXPLORED = 4
+"""Steps in each of several directions, where there is more than one to go."""
+_MOVES = 1e-3
+"""By how much a joint of a family moves at least, [rad or m]."""
+_LARGEST, _TIED = 4.0, 1e-6
+"""Of sums of joints that stay: the largest factor, and how nearly they do, [rad or m]."""
+_TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """A walk along a family.
+
+    Attributes:
+        path: Configurations; shape (k, n), [rad or m].
+        moving: Which joints move; shape (n,).
+        ties: Factors of the sums of moving joints that stay; shape (r, n).
+    """
+
+    path: Array
+    moving: Flags
+    ties: Array
+
+    def has(self, chain: Chain, q: Array) -> bool:
+        """Whether a configuration has the other joints, and the sums, where the walk has them."""
+        kept = np.concatenate((np.eye(len(q))[~self.moving], self.ties))
+        apart = kept @ (q - self.path[0])
+        whole_turns = np.abs(kept) @ ~free_variables(chain) == 0.0
+        apart -= np.where(whole_turns, _TURN * np.rint(apart / _TURN), 0.0)
+        return bool((np.abs(apart) <= _MOVES).all())
+
+
+def families_of(question: Question, i: int, qs: Array, most: int, deadline: float | None) -> tuple[Family, ...]:
+    """The families to which solutions of a target belong, those of the first solutions first.
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        qs: Its solutions; shape (k, n), [rad or m].
+        most: Largest number of configurations in all sweeps together.
+        deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
+    """
+    own = question.taken(np.array([i]))
+    Js = linearise(own.chain, own.taken(np.zeros(len(qs), dtype=np.int64)).targets, qs, own.task)[1]
+    sizes = np.linalg.svd(Js, compute_uv=False)
+    ranks = (sizes > _SINGULAR * sizes[:, :1]).sum(axis=1)
+    motions: list[_Motion] = []
+    for q in qs[ranks < qs.shape[1]]:
+        if is_over(deadline) or len(motions) == min(most, MOST_FAMILIES):
+            break
+        if not any(motion.has(own.chain, q) for motion in motions):
+            motion = _motion(own, q)
+            motions += [motion] if motion else []
+    return tuple(_family(own.chain, motion, most // len(motions)) for motion in motions)
+
+
+def _family(chain: Chain, motion: _Motion, most: int) -> Family:
+    """A walk in words, and at most so many configurations of it."""
+    whole, path = widened(chain, motion.path)
+    names = [quoted(name) for name in chain.joint_names]
+    symbols = [f"q_{whole.joint_names.index(name) + 1}" for name in chain.joint_names]
+    constants = ["c"] if len(motion.ties) == 1 else [f"c_{k}" for k in range(1, len(motion.ties) + 1)]
+    relations = [f"{_sum(tie, symbols)} = {c}" for tie, c in zip(motion.ties, constants, strict=True)]
+    moving = [names[j] for j in np.flatnonzero(motion.moving)]
+    said = f"{', '.join(moving[:-1])} and {moving[-1]} move together" if len(moving) > 1 else f"{moving[0]} is free"
+    sums = [f"{_sum(tie, names)} stays {tie @ motion.path[0]:.6g}" for tie in motion.ties]
+    rows = np.unique(np.linspace(0, len(path) - 1, min(most, len(path))).round().astype(np.int64))
+    return Family(
+        tuple(chain.joint_names[j] for j in np.flatnonzero(motion.moving)),
+        ", ".join(relations) or None,
+        ", ".join([said, *sums]),
+        path[rows],
+    )
+
+
+def _sum(factors: Array, names: list[str]) -> str:
+    """`q_4 + q_6`, `q_2 - 2 q_3`."""
+    terms = [
+        f"{'-' if factor < 0 else '+'} {'' if abs(factor) == 1 else f'{abs(factor)} '}{name}"
+        for factor, name in zip(factors.astype(int).tolist(), names, strict=True)
+        if factor
+    ]
+    return " ".join(terms).removeprefix("+ ")
+
+
+def _motion(question: Question, q: Array) -> _Motion | None:
+    """The motion on the target from a solution, where there is one."""
+    q, kernel, _ = _corrected(question, q)
+    for direction in kernel:
+        ahead, is_loop = _walk(question, q, direction, _MOST_STEPS)
+        behind = ahead[:1] if is_loop else _walk(question, q, -direction, _MOST_STEPS)[0]
+        path = np.concatenate((behind[:0:-1], ahead))
+        if len(path) > 1:
+            break
+    else:
+        return None
+    ways = path
+    # Where the walk began families may cross; further on it is in one alone, of as many directions as the kernel has.
+    on, kernel, _ = _corrected(question, path[len(path) // 4])
+    if len(kernel) > 1:
+        directions = [sign * direction for direction in (*kernel, kernel.sum(axis=0)) for sign in (1.0, -1.0)]
+        ways = np.concatenate([path, *(_walk(question, on, direction, _EXPLORED)[0] for direction in directions)])
+    moving = np.ptp(ways, axis=0) > _MOVES
+    rows = np.zeros(len(path), dtype=np.int64)
+    good, *errors = judged(question.taken(rows), path, np.ones(len(path), dtype=bool))
+    if not (moving.any() and good.all() and np.max(errors) <= 2.0 * _OFF_TARGET):
+        return None
+    return _Motion(path, moving, _ties(ways - ways[0], moving))
+
+
+def _corrected(question: Question, q: Array) -> tuple[Array, Array, float]:
+    """A configuration brought onto the target by Newton's steps of least length.
+
+    Returns:
+        It, shape (n,); orthonormal motions that leave the target met there to first order, shape (k, n); the error.
+    """
+    for k in range(_CORRECTIONS + 1):
+        es, Js = linearise(question.chain, question.targets, q[None], question.task)
+        U, sizes, Vt = np.linalg.svd(Js[0])
+        error = float(np.linalg.norm(es))
+        if error <= _ROUNDING or k == _CORRECTIONS:
+            break
+        used = int((sizes > _USELESS * sizes[0]).sum())
+        q = q + (es[0] @ U[:, :used] / sizes[:used]) @ Vt[:used]
+    return q, Vt[int((sizes > _SINGULAR * sizes[0]).sum()) :], error
+
+
+def _walk(question: Question, start: Array, direction: Array, most: int) -> tuple[Array, bool]:
+    """Configurations on the target from one onwards, until a limit or nothing comes next, and whether back to it."""
+    lower, upper = limits_of(question.chain, question.respect_limits)
+    free = free_variables(question.chain)
+    path = [start]
+    while len(path) <= most and np.abs(direction).max() > 0.0:
+        for size in _STEPS:
+            step = size / np.abs(direction).max() * direction
+            q, kernel, error = _corrected(question, path[-1] + step)
+            goes_on = np.abs(q - path[-1] - step).max() <= 0.5 * size
+            if goes_on and error <= min(_OFF_TARGET, _DRIFT * size) and ((q >= lower) & (q <= upper)).all():
+                break
+        else:
+            break
+        direction = kernel.T @ (kernel @ (q - path[-1]))
+        path.append(q)
+        apart = q - start - np.where(free, _TURN * np.rint((q - start) / _TURN), 0.0)
+        if len(path) > 3 and np.abs(apart).max() < 0.75 * size:
+            return np.array(path), True
+    return np.array(path), False
+
+
+def _ties(ways: Array, moving: Flags) -> Array:
+    """Factors, whole numbers, of the sums of moving joints that stay along all ways; shape (r, n)."""
+    joints = np.flatnonzero(moving)
+    _, sizes, Vt = np.linalg.svd(ways[:, joints])
+    rest = _reduced(Vt[int((sizes > _TIED * sizes[0]).sum()) :])
+    ties = np.zeros((len(rest), len(moving)))
+    ties[:, joints] = rest / np.where(rest == 0.0, np.inf, np.abs(rest)).min(axis=1, initial=np.inf, keepdims=True)
+    ties = np.rint(ties)
+    stay = (np.abs(ties) <= _LARGEST).all(axis=1) & (np.ptp(ways @ ties.T, axis=0) <= _TIED)
+    held: Array = ties[stay]
+    return held
+
+
+def _reduced(rows: Array) -> Array:
+    """Rows of the same span in reduced echelon form."""
+    rows, column = rows.copy(), 0
+    for k in range(len(rows)):
+        while np.abs(rows[k:, column]).max() < _TIED:
+            column += 1
+        best = k + int(np.argmax(np.abs(rows[k:, column])))
+        rows[[k, best]] = rows[[best, k]]
+        rows[k] /= rows[k, column]
+        others = np.arange(len(rows)) != k
+        rows[others] -= np.outer(rows[others, column], rows[k])
+        column += 1
+    return np.where(np.abs(rows) < _TIED, 0.0, rows)

@@ -1,0 +1,60 @@
+"""Whether configurations are solutions, recomputed through Pinocchio."""
+
+import numpy as np
+
+from gelenk.kinematics.certify import pinocchio_poses
+from gelenk.kinematics.ik.fixed import widened
+from gelenk.kinematics.ik.search import limits_of
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.compilation import compiled
+from gelenk.model.poses import Poses
+
+_WITHIN = 1e-9
+"""How far beyond a limit rounding may put a joint, [rad or m]."""
+
+
+def judged(question: Question, qs: Array, claimed: Flags, worth: Flags | None = None) -> tuple[Flags, Array, Array]:
+    """Which configurations solve their targets, recomputed through Pinocchio and within the limits; and the errors.
+
+    Args:
+        question: The targets, one a configuration.
+        qs: Shape (N, n).
+        claimed: Which of them are said to; shape (N,).
+        worth: Which of them are worth recomputing; all if left out. Of the others the kernels tell the errors.
+
+    Returns:
+        Flags, shape (N,); distances [m] and angles [rad], shape (N,).
+    """
+    chain = question.chain
+    whole, full = widened(chain, qs)
+    if worth is None or worth.all():
+        poses = pinocchio_poses(question.robot, whole, chain.tip_frame, full, range(len(qs)))
+    else:
+        poses = Poses(*chain_poses(chain.flat, qs))
+        rows = np.flatnonzero(worth)
+        recomputed = pinocchio_poses(question.robot, whole, chain.tip_frame, full, rows.tolist())
+        poses.positions[rows], poses.rotations[rows] = recomputed.positions, recomputed.rotations
+    errors = question.task.errors(question.targets, poses)
+    limits = limits_of(chain, question.respect_limits)
+    return accepted(qs, claimed, errors, *question.tolerances, *limits), errors[0], errors[1]
+
+
+@compiled
+def accepted(
+    qs: Array,
+    claimed: Flags,
+    errors: Array,
+    position_tolerance: float,
+    orientation_tolerance: float,
+    lower: Array,
+    upper: Array,
+) -> Flags:
+    """Which of the configurations that are said to be solutions are within the tolerances and the limits."""
+    good = claimed.copy()
+    for i in range(len(qs)):
+        good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance
+        for j in range(qs.shape[1]):
+            good[i] &= lower[j] - _WITHIN <= qs[i, j] <= upper[j] + _WITHIN
+    return good

@@ -1,0 +1,62 @@
+"""The error to a target and its Jacobian, in the directions that count."""
+
+import numpy as np
+
+from gelenk.kinematics.ik.iteration import AXIS, FULL
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.kinematics.kernels import chain_jacobians
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.notations import vectors_from_rotations
+from gelenk.model.poses import Poses
+
+
+def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bool = False) -> tuple[Array, Array]:
+    """Errors e and Jacobians J with e(q + Δq) ≈ e(q) - J Δq, the rows that count alone.
+
+    e is the way still to go: the position's difference, and the rotation vector from the tip to the target, in the
+    base's axes where the whole orientation counts, else about the target's. J is the geometric Jacobian in the same
+    axes. With one axis to be aligned, the rotation is the shortest one that does it.
+
+    Args:
+        chain: Base and tip.
+        targets: T_base_tip wanted; N.
+        qs: Configurations; shape (N, n), [rad or m].
+        task: Which directions count; m of them.
+        chords: Whether a rotation counts 2 sin(θ/2), as in the kernels, instead of its angle θ.
+
+    Returns:
+        e, shape (N, m), [m, rad], and J, shape (N, m, n).
+    """
+    positions, Rs, Js = chain_jacobians(chain.flat, qs)
+    errors = np.empty((len(qs), 6))
+    errors[:, :3] = targets.positions - positions
+    if task.kind == AXIS:
+        errors[:, 3:] = _swings(Rs[:, :, task.axis], targets.rotations[:, :, task.axis])
+    else:
+        errors[:, 3:] = vectors_from_rotations(np.ascontiguousarray(targets.rotations @ Rs.transpose(0, 2, 1)))
+    if chords:
+        angles = np.linalg.norm(errors[:, 3:], axis=1)
+        errors[:, 3:] *= np.sinc(0.5 * angles / np.pi)[:, None]
+    if task.kind == FULL:
+        return errors, Js
+    to_target = targets.rotations.transpose(0, 2, 1)
+    errors[:, 3:] = (to_target @ errors[:, 3:, None])[:, :, 0]
+    Js[:, 3:] = to_target @ Js[:, 3:]
+    rows = [i for i, direction in enumerate(DIRECTIONS) if direction in task.directions]
+    return np.ascontiguousarray(errors[:, rows]), np.ascontiguousarray(Js[:, rows])
+
+
+def _swings(axes: Array, goals: Array) -> Array:
+    """The rotation vector of the shortest rotation of each axis onto its goal; shape (N, 3) each."""
+    normals = np.cross(axes, goals)
+    sines = np.linalg.norm(normals, axis=1)
+    cosines = np.sum(axes * goals, axis=1)
+    # Opposite axes have no shortest rotation: any square to them will do.
+    opposite = (sines < 1e-12) & (cosines < 0.0)
+    spare = np.cross(axes, np.eye(3)[np.argmin(np.abs(axes), axis=1)])
+    normals = np.where(opposite[:, None], spare, normals)
+    lengths = np.linalg.norm(normals, axis=1)
+    scales = np.where(lengths > 0.0, np.arctan2(sines, cosines) / np.where(lengths > 0.0, lengths, 1.0), 0.0)
+    return normals * scales[:, None]

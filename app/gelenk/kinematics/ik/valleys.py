@@ -1,0 +1,198 @@
+"""Solutions next to a singularity, from places near them.
+
+There all equations but one or two hold along a narrow valley, somewhere on which a solution lies, and solutions come in
+pairs: where the path of the tip bends back, both of its crossings with the target are one step apart.
+"""
+
+import numpy as np
+
+from gelenk.kinematics.ik.branches import thin_out, wound_near
+from gelenk.kinematics.ik.linearise import linearise
+from gelenk.kinematics.ik.search import free_variables, limits_of
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.kinematics.kernels import chain_hessians, chain_jacobians
+from gelenk.model.arrays import Array, Indices
+
+_STEPS, _CORRECTIONS, _LONGEST, _SHORTEST_SHARE = 30, 4, 0.5, 1e-3
+"""Of refining: steps, corrections after each, the longest step [rad or m], the share of one after which it ends."""
+_SINGULAR, _WEAK = 1e-15, 1e-3
+"""Shares of the largest singular value: what is none but rounding, and what leads along a valley."""
+_PERFECT = 1e-15
+"""Error that is left alone, [m, rad]."""
+_SAME, _NEAR, _BETWEEN = 1e-7, 1e-3, 2e-14
+"""Distance up to which two solutions are one, [rad or m]; and up to which they are if halfway along the valley the
+error is rounding, [m, rad]: so far that moves them."""
+_FURTHEST = 0.7
+"""How far a partner may be for the curvature to tell where it is, [rad or m]."""
+_MOST = 64
+"""Solutions of a target."""
+_LANES, _LANES_APART, _NARROW = 8, 0.3, 1e-6
+"""Valleys that are walked along: how many, how far apart they begin [rad], and the singular value of one [m, rad]."""
+_WALK, _STRIDE = 16, 0.3
+"""Of such a walk: steps, and how long each is, [rad]."""
+
+
+def refined(question: Question, i: int, qs: Array, least: float) -> Array:
+    """Configurations driven to rounding by Newton's method; those that come to an error so small, the best first.
+
+    The equations that a valley meets are met first, and again after each step before the errors are compared, as in
+    `branch_kernels`: off the valley the one that is left tells nothing.
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        qs: Where to begin; shape (N, n), [rad or m].
+        least: The error, [m, rad].
+    """
+    chain, target = question.chain, question.target(i)
+    limits = limits_of(chain, question.respect_limits)
+
+    def stepped(qs: Array, weak: float, shares: Array) -> Array:
+        steps = _steps(*linearise(chain, target, qs, question.task), weak)
+        shares = shares * np.minimum(1.0, _LONGEST / np.maximum(np.abs(steps).max(axis=1, initial=0.0), _LONGEST))
+        return np.asarray(np.clip(qs + shares[:, None] * steps, *limits))
+
+    def corrected(qs: Array) -> Array:
+        for _ in range(_CORRECTIONS):
+            qs = stepped(qs, _WEAK, np.ones(len(qs)))
+        return qs
+
+    def misses(qs: Array) -> Array:
+        return np.asarray(np.linalg.norm(linearise(chain, target, qs, question.task)[0], axis=1))
+
+    qs = corrected(wound_near(chain, qs, question.seed(i), *limits))
+    errors, shares = misses(qs), np.ones(len(qs))
+    for _ in range(_STEPS):
+        rows = np.flatnonzero((errors > _PERFECT) & (shares > _SHORTEST_SHARE))
+        if not len(rows):
+            break
+        moved = corrected(stepped(qs[rows], _SINGULAR, shares[rows]))
+        after = misses(moved)
+        better = after < errors[rows]
+        qs[rows[better]], errors[rows[better]] = moved[better], after[better]
+        shares[rows] = np.where(better, np.minimum(2.0 * shares[rows], 1.0), 0.25 * shares[rows])
+    order = np.argsort(errors, kind="stable")[: np.count_nonzero(errors <= least)]
+    return wound_near(chain, qs[order], question.seed(i), *limits)
+
+
+def _steps(es: Array, Js: Array, weak: float) -> Array:
+    """Newton's steps, without what leads along directions whose singular value is below a share of the largest."""
+    return np.asarray(np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=weak), es))
+
+
+def with_partners(question: Question, i: int, qs: Array, least: float) -> Array:
+    """Configurations refined, and the solutions that pair with these; of those that are the same one, (k, n).
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        qs: Where to begin; shape (N, n), [rad or m].
+        least: The error that solutions come to, [m, rad].
+    """
+    found = refined(question, i, qs, least)
+    for look in (_further, _partners):
+        found = found[distinct(question, i, found)]
+        found = np.concatenate((found, refined(question, i, look(question, i, found), least)))
+    return found[distinct(question, i, found)]
+
+
+def distinct(question: Question, i: int, qs: Array) -> Indices:
+    """Which solutions of a target are one each: the first of those that rounding alone tells apart.
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        qs: Its solutions; shape (N, n), [rad or m].
+
+    Returns:
+        Their indices; shape (k,).
+    """
+    chain, target, free = question.chain, question.target(i), free_variables(question.chain)
+    kept: list[int] = []
+    for k in thin_out(qs, free, _SAME, len(qs)).tolist():
+        apart = qs[kept] - qs[k]
+        apart -= np.where(free, 2.0 * np.pi * np.rint(apart / (2.0 * np.pi)), 0.0)
+        near = apart[np.abs(apart).max(axis=1, initial=0.0) <= _NEAR]
+        if len(near):
+            halfway = qs[k] + 0.5 * near
+            for _ in range(2):
+                halfway = halfway + _steps(*linearise(chain, target, halfway, question.task), _WEAK)
+            es = linearise(chain, target, halfway, question.task)[0]
+            if np.linalg.norm(es, axis=1).min() <= _BETWEEN:
+                continue
+        kept.append(k)
+    return np.array(kept[:_MOST], dtype=np.int64)
+
+
+def _further(question: Question, i: int, qs: Array) -> Array:
+    """Places along the valleys of some solutions where the error that is left changes its sign, or is least; (k, n)."""
+    if not _is_square(question) or not len(qs):
+        return qs[:0]
+    qs = qs[thin_out(qs, free_variables(question.chain), _LANES_APART, _LANES)]
+    narrow = np.linalg.svd(chain_jacobians(question.chain.flat, qs)[2], compute_uv=False)[:, -1] < _NARROW
+    if not narrow.any():
+        return qs[:0]
+    path, levels = _walk(question, i, np.repeat(qs[narrow], 2, axis=0))
+    sizes, turns = np.abs(levels), (levels[:-1] > 0.0) != (levels[1:] > 0.0)
+    picked = np.zeros(levels.shape, dtype=bool)
+    picked[:-1] |= turns
+    picked[1:] |= turns
+    picked[1:-1] |= (sizes[1:-1] <= sizes[:-2]) & (sizes[1:-1] <= sizes[2:])
+    # Where it is rounding all along, every place is as good a solution as the next.
+    return np.asarray(path[picked & (sizes.max(axis=0) > _BETWEEN)])
+
+
+def _walk(question: Question, i: int, qs: Array) -> tuple[Array, Array]:
+    """Along valleys in steps, from which the other equations are met again.
+
+    Args:
+        question: The targets.
+        i: Which of them.
+        qs: Solutions, each twice, as the walk goes both ways; shape (N, n), [rad or m].
+
+    Returns:
+        Configurations, shape (k, N, n), and the error in the direction that is left, shape (k, N).
+    """
+    path, levels = np.empty((_WALK, *qs.shape)), np.empty((_WALK, len(qs)))
+    ahead, beside = np.zeros(qs.shape), np.zeros(qs.shape)
+    for k in range(_WALK):
+        for _ in range(_CORRECTIONS if k else 0):
+            qs = qs + _steps(*linearise(question.chain, question.target(i), qs, question.task), _WEAK)
+        es, Js = linearise(question.chain, question.target(i), qs, question.task)
+        Us, _, Vs = np.linalg.svd(Js)
+        u, v = Us[:, :, -1], Vs[:, -1]
+        if k == 0:
+            ahead, beside = np.where(np.arange(len(qs)) % 2, 1.0, -1.0)[:, None] * v, u
+        # A singular vector's sign is arbitrary: on the walk it stays.
+        beside = u * np.where((u * beside).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
+        ahead = v * np.where((v * ahead).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
+        path[k], levels[k] = qs, (beside * es).sum(axis=1)
+        qs = qs + _STRIDE * ahead
+    return path, levels
+
+
+def _is_square(question: Question) -> bool:
+    return len(question.chain) == len(DIRECTIONS) == len(question.task)
+
+
+def _partners(question: Question, _: int, qs: Array) -> Array:
+    """Where the solutions are to be that pair with given ones along one of the two weakest directions, or along both.
+
+    Along y in the direction v of a singular value σ the error's part along u is -σ y - ½ uᵀH(v, v) y², which vanishes
+    a second time at y = -2σ / uᵀH(v, v): the equation of a fold, of Liapunov's and Schmidt's reduction.
+    """
+    chain = question.chain
+    if not _is_square(question) or not len(qs):
+        return qs[:0]
+    Us, sizes, Vs = np.linalg.svd(chain_jacobians(chain.flat, qs)[2])
+    Hs = chain_hessians(chain.flat, qs)
+    steps = []
+    for k in (-1, -2):
+        v = Vs[:, k]
+        bends = np.einsum("na,naij,ni,nj->n", Us[:, :, k], Hs, v, v)
+        near = 2.0 * sizes[:, k] < _FURTHEST * np.abs(bends)
+        lengths = np.where(near, -2.0 * sizes[:, k] / np.where(near, bends, 1.0), 0.0)
+        steps.append(lengths[:, None] * v)
+    moves = np.concatenate((steps[0], steps[1], steps[0] + steps[1]))
+    return np.asarray((np.tile(qs, (3, 1)) + moves)[np.abs(moves).max(axis=1) > _SAME])

@@ -1,0 +1,129 @@
+"""Velocities and forces of the tip with every joint within its limits, by part, configuration and direction."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.manipulability import Ellipsoids, is_within_task
+from gelenk.kinematics.polytope import (
+    force_polygon,
+    largest_force_components,
+    largest_forces,
+    largest_velocities,
+    largest_velocity_components,
+    subsets,
+    velocity_polygon,
+)
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.chain import Chain
+from gelenk.model.errors import TooLarge
+from gelenk.model.robot import Robot
+
+MAX_SUBSETS = 2_000_000
+"""Sets of joints that one call goes through, a few microseconds each."""
+
+_WITHIN = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class JointBounds:
+    """Symmetric limits of a chain's variables, NaN where there is none.
+
+    Attributes:
+        velocity: q̇max; shape (n,), [rad/s or m/s].
+        effort: τmax; shape (n,), [N m or N].
+    """
+
+    velocity: Array
+    effort: Array
+
+
+@dataclass(frozen=True, slots=True)
+class LimitedMotion:
+    """One part at one configuration, in D directions.
+
+    Attributes:
+        velocities: Largest along each direction alone, and largest component; shape (D, 2), None where a joint has no
+            velocity limit.
+        velocity_vertices: Of the polytope, where all motion keeps to a plane, by the part's rows; shape (V, k).
+        forces: Likewise, NaN where unbounded; None where a joint has no effort limit.
+        force_vertices: Likewise, None too where the polytope is unbounded.
+    """
+
+    velocities: Array | None
+    velocity_vertices: Array | None
+    forces: Array | None
+    force_vertices: Array | None
+
+
+def joint_bounds(robot: Robot, chain: Chain) -> JointBounds:
+    """The limits that the robot's description gives the chain's variables."""
+    limits = [robot.description.joint[name].limits for name in chain.joint_names]
+    return JointBounds(
+        np.array([np.nan if limit.velocity is None else limit.velocity for limit in limits], dtype=float),
+        np.array([np.nan if limit.effort is None else limit.effort for limit in limits], dtype=float),
+    )
+
+
+def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, directions: Array) -> list[LimitedMotion]:
+    """What the tip can do within the limits, one entry a configuration.
+
+    Args:
+        ellipsoids: Of translation or of rotation.
+        Js: The Jacobians that they are of; shape (N, 6, n).
+        bounds: The limits.
+        directions: Unit vectors in the base's axes; shape (D, 3). Of those that are not in the task the numbers mean
+            nothing.
+
+    Raises:
+        TooLarge: More sets of joints than `MAX_SUBSETS`.
+    """
+    space = ellipsoids.space
+    work = len(Js) * len(directions) * subsets(Js.shape[2], min(3, space.dimension))
+    if work > MAX_SUBSETS:
+        raise TooLarge("sets of joints, times directions and configurations", work, MAX_SUBSETS)
+    along = directions[:, [row % 3 for row in space.rows]]
+    inside = is_within_task(space, directions)
+    entries = []
+    for J, axes, sigmas in zip(Js[:, space.rows], ellipsoids.axes, ellipsoids.sigmas, strict=True):
+        range_ = axes[:, sigmas > 0.0]
+        entries.append(_at(J, range_, bounds, along, inside, space.basis if space.is_plane else None))
+    return entries
+
+
+def _at(
+    J: Array, range_: Array, bounds: JointBounds, along: Array, inside: Flags, plane: Array | None
+) -> LimitedMotion:
+    """One configuration; `range_` holds an orthonormal basis of range(J), `plane` one of the plane of all motion."""
+    reduced, shares = range_.T @ J, along @ range_
+    moves = inside & (np.linalg.norm(along - shares @ range_.T, axis=1) <= _WITHIN)
+    # Of a direction that is lost rounding alone is left, which would be drawn out into a polygon.
+    flat = None if plane is None else plane.T @ range_ @ reduced
+    has_velocity, has_effort = not np.isnan(bounds.velocity).any(), not np.isnan(bounds.effort).any()
+    return LimitedMotion(
+        _velocities(reduced, bounds.velocity, shares, moves) if has_velocity else None,
+        velocity_polygon(flat, bounds.velocity) @ plane.T
+        if has_velocity and plane is not None and flat is not None
+        else None,
+        _forces(reduced, bounds.effort, shares, moves) if has_effort else None,
+        force_polygon(flat, bounds.effort) @ plane.T
+        if has_effort and plane is not None and flat is not None and len(reduced) == 2
+        else None,
+    )
+
+
+def _velocities(J: Array, limits: Array, shares: Array, moves: Flags) -> Array:
+    velocities = np.zeros((len(shares), 2))
+    if len(J):
+        velocities[moves, 0] = largest_velocities(J, limits, shares[moves])
+        velocities[:, 1] = largest_velocity_components(J, limits, shares)
+    return velocities
+
+
+def _forces(J: Array, limits: Array, shares: Array, moves: Flags) -> Array:
+    """A component is unbounded where no joint feels a part of it; a force alone, where no joint feels any of it."""
+    forces = np.full((len(shares), 2), np.nan)
+    if len(J):
+        forces[:, 0] = largest_forces(J, limits, shares)
+        forces[moves, 1] = largest_force_components(J, limits, shares[moves])
+    return forces

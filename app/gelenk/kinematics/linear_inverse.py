@@ -1,0 +1,250 @@
+"""Linear equations J x = b that have no inverse, too many solutions or none: exact, pseudo- and damped inverses.
+
+All come from one singular value decomposition, of
+
+    A = S J W^(-1/2) = Σ u_i σ_i v_iᵀ
+
+where W weighs the joints (larger: moves less) and S multiplies the angular rows by a characteristic length. Without
+that length metres and radians are mixed: J#, σ and the condition number then depend on the unit of length, and so does
+what is near to a singularity. Only where J x = b has one solution is that choice without effect.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.kinematics.jacobian import ranks
+from gelenk.kinematics.words import InverseName, InverseStatus
+from gelenk.model.arrays import Array, Flags, Indices
+
+SOLVED = 1e-9
+"""Largest entry of a residual that counts as none, relative to the largest of 1 and of the entries of b."""
+
+_LARGEST = 1e100
+"""A joint velocity beyond it is no answer."""
+_DAMPINGS = 10.0 ** np.arange(-16.0, 33.0, 0.25)
+"""Where the smallest damping that keeps the velocity limits is looked for, in proportion to σ_max²."""
+_ROUNDS, _POINTS = 6, 65
+"""How often that search is made finer, and into how many steps."""
+_ROUNDING = 1e-15
+"""A singular value below this times the largest is rounding, and no damping makes it count."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """How J x = b is solved.
+
+    Attributes:
+        inverse: `exact`: x = J⁻¹ b of a square J. `pseudo_inverse`: of all x that minimise ‖S(Jx - b)‖ the one of
+            smallest xᵀWx. `damped`: λ xᵀWx + ‖S(Jx - b)‖² is minimal, x = (JᵀS²J + λW)⁻¹ JᵀS² b.
+        rank_tolerance: A singular value of A counts where it exceeds this times the largest.
+        damping: λ ≥ 0, the course's (others write λ² for it); None: as small as `damping_threshold` and the velocity
+            limits allow.
+        damping_threshold: σ₀ of the adaptive λ = max(0, σ₀² - σ_min²), so that no gain exceeds 1/σ₀.
+        weights: The diagonal of W, positive; shape (n,); ones where None.
+    """
+
+    inverse: InverseName = "pseudo_inverse"
+    rank_tolerance: float = 1e-10
+    damping: float | None = None
+    damping_threshold: float = 0.05
+    weights: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Decomposition:
+    """A = U diag(σ) Vᵀ of N configurations.
+
+    Attributes:
+        left: Columns u_i; shape (N, k, k).
+        sigmas: σ, largest first; shape (N, min(k, n)), units mixed unless a length is given.
+        right: Rows v_iᵀ; shape (N, n, n).
+        ranks: How many σ count; shape (N,).
+        least: σ of no more than this are rounding, which no damping makes count; shape (N,).
+        row_scales: The diagonal of S; shape (k,).
+        column_scales: The diagonal of W^(-1/2); shape (n,).
+    """
+
+    left: Array
+    sigmas: Array
+    right: Array
+    ranks: Indices
+    least: Array
+    row_scales: Array
+    column_scales: Array
+
+    @property
+    def condition_numbers(self) -> list[float | None]:
+        """σ_max / σ_min, none where the rank is not full."""
+        full = self.sigmas.shape[1]
+        return [
+            float(sigma[0] / sigma[-1]) if full and rank == full else None
+            for sigma, rank in zip(self.sigmas, self.ranks, strict=True)
+        ]
+
+    def lost_directions(self, row: int) -> Array:
+        """Unit vectors in the directions that count along which the tip cannot move; shape (lost, k)."""
+        lost = self.left[row, :, self.ranks[row] :].T / self.row_scales
+        unit: Array = lost / np.linalg.norm(lost, axis=1, keepdims=True)
+        return unit
+
+    def gains(self, damping: Array) -> Array:
+        """By what each uᵢᵀSb is multiplied: σ/(σ² + λ), or 1/σ of those that count where λ = 0; (N, min(k, n))."""
+        dampings = np.reshape(damping, (-1, 1))
+        counts = np.arange(self.sigmas.shape[1]) < self.ranks[:, None]
+        usable = np.where(dampings > 0.0, self.sigmas > self.least[:, None], counts)
+        # σ² may vanish where σ does not.
+        denominators = self.sigmas + dampings / np.where(usable, self.sigmas, 1.0)
+        return np.where(usable, 1.0 / np.where(usable, denominators, 1.0), 0.0)
+
+    def apply(self, gains: Array, bs: Array) -> Array:
+        """Solutions x = W^(-1/2) V diag(gains) Uᵀ S b; shape (N, n)."""
+        few = self.sigmas.shape[1]
+        parts = gains * np.einsum("bki,bk->bi", self.left[:, :, :few], bs * self.row_scales)
+        xs: Array = np.einsum("bij,bi->bj", self.right[:, :few], parts) * self.column_scales
+        return xs
+
+    def kernel_parts(self, xs: Array) -> Array:
+        """(I - J#J) ξ, with the weighted pseudo-inverse; shape (N, n)."""
+        counts = np.arange(self.right.shape[1]) < self.ranks[:, None]
+        coordinates = np.einsum("bij,bj->bi", self.right, xs / self.column_scales)
+        free = np.where(counts, 0.0, coordinates)
+        parts: Array = np.einsum("bij,bi->bj", self.right, free) * self.column_scales
+        return parts
+
+
+@dataclass(frozen=True, slots=True)
+class Inversion:
+    """What became of N equations J x = b.
+
+    Attributes:
+        xs: Solutions; shape (N, n); zero where there is none.
+        residuals: b - J x; shape (N, k).
+        statuses: `solved`; `approximate`: no x gives b, or damping keeps from it; `singular`: there is no inverse.
+        dampings: λ of each; shape (N,).
+        shares: How much of the null-space motion the velocity limits left room for, in [0, 1]; shape (N,).
+        decomposition: Singular values and ranks.
+    """
+
+    xs: Array
+    residuals: Array
+    statuses: tuple[InverseStatus, ...]
+    dampings: Array
+    shares: Array
+    decomposition: Decomposition
+
+
+def decompose(Js: Array, rule: Rule, row_scales: Array, least: Array | None = None) -> Decomposition:
+    """Singular values of A = S J W^(-1/2) at each configuration.
+
+    Args:
+        Js: The rows that count; shape (N, k, n).
+        rule: Weights and rank tolerance.
+        row_scales: The diagonal of S; shape (k,).
+        least: Entries of Js that may be none but the rounding of what they are sums of; shape (N,). None if left out.
+    """
+    column_scales = np.ones(Js.shape[2]) if rule.weights is None else 1.0 / np.sqrt(rule.weights)
+    left, sigmas, right = np.linalg.svd(row_scales[:, None] * Js * column_scales)
+    floors = np.zeros(len(Js)) if least is None else least * (row_scales.max() * column_scales.max(initial=1.0))
+    floors = np.maximum(floors, _ROUNDING * sigmas[:, :1].sum(axis=1))
+    counted = np.minimum(ranks(sigmas, rule.rank_tolerance), np.sum(sigmas > floors[:, None], axis=1))
+    return Decomposition(left, sigmas, right, counted, floors, row_scales, column_scales)
+
+
+def invert(
+    Js: Array,
+    bs: Array,
+    rule: Rule,
+    row_scales: Array,
+    null_motion: Array | None = None,
+    limits: Array | None = None,
+    least: Array | None = None,
+) -> Inversion:
+    """Solve J x = b at N configurations.
+
+    Args:
+        Js: The rows that count; shape (N, k, n).
+        bs: What they are to give; shape (N, k).
+        rule: How.
+        row_scales: The diagonal of S; shape (k,).
+        null_motion: ξ, whose part in ker J is added; shape (N, n).
+        limits: Largest |x| of each joint that the adaptive damping is to keep; shape (n,), inf where there is none.
+        least: Entries of Js that may be none but rounding; shape (N,).
+    """
+    parts = decompose(Js, rule, row_scales, least)
+    dampings = _dampings(parts, rule)
+    xs = parts.apply(parts.gains(dampings), bs)
+    adaptive = rule.inverse == "damped" and rule.damping is None and limits is not None
+    if adaptive and limits is not None:
+        for row in np.flatnonzero((np.abs(xs) > limits).any(axis=1)):
+            dampings[row], xs[row] = _damped_to_limits(parts, int(row), bs[row], dampings[row], limits)
+    shares = np.ones(len(Js))
+    if null_motion is not None:
+        added = parts.kernel_parts(null_motion)
+        if adaptive and limits is not None:
+            shares = _room(xs, added, limits)
+        xs = xs + shares[:, None] * added
+    return _judged(Js, bs, rule, Inversion(xs, np.zeros(bs.shape), (), dampings, shares, parts))
+
+
+def _dampings(parts: Decomposition, rule: Rule) -> Array:
+    """λ of each configuration before velocity limits are looked at; shape (N,)."""
+    count = len(parts.sigmas)
+    if rule.inverse != "damped" or parts.sigmas.shape[1] == 0:
+        return np.zeros(count)
+    if rule.damping is not None:
+        return np.full(count, rule.damping)
+    return np.maximum(0.0, rule.damping_threshold**2 - np.square(parts.sigmas[:, -1]))
+
+
+def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, limits: Array) -> tuple[float, Array]:
+    """The smallest λ, no less than `least`, at which no joint is too fast, and the joint velocities there.
+
+    The weighted length of x falls as λ grows, but single joints may become faster meanwhile: a grid over all magnitudes
+    finds where all of them keep their limits for the first time, finer ones between its points find it more closely.
+    """
+    sigmas = parts.sigmas[row]
+    few = len(sigmas)
+    counted = np.where(sigmas > parts.least[row], sigmas, 0.0)
+    shares = counted * (parts.left[row, :, :few].T @ (b * parts.row_scales))
+    joints = parts.right[row, :few] * parts.column_scales
+
+    def at(dampings: Array) -> Array:
+        moved: Array = (shares / (np.square(sigmas) + dampings[:, None])) @ joints
+        return moved
+
+    grid = least + _DAMPINGS * max(float(np.square(sigmas[:1]).sum()), 1e-300)
+    low = least
+    for _ in range(_ROUNDS):
+        kept = (np.abs(at(grid)) <= limits).all(axis=1)
+        if not kept.any():
+            break
+        first = int(np.argmax(kept))
+        low, high = float(grid[first - 1]) if first else low, float(grid[first])
+        grid = np.linspace(low, high, _POINTS)[1:]
+    return float(grid[-1]), at(grid[-1:])[0]
+
+
+def _room(xs: Array, added: Array, limits: Array) -> Array:
+    """The largest share in [0, 1] of an addition that keeps every joint within its limit; shape (N,)."""
+    rooms = np.maximum(np.where(added > 0.0, limits - xs, limits + xs), 0.0)
+    too_far = np.abs(added) > rooms
+    shares = np.where(too_far, rooms, 1.0) / np.where(too_far, np.abs(added), 1.0)
+    least: Array = shares.min(axis=1, initial=1.0)
+    return least
+
+
+def _judged(Js: Array, bs: Array, rule: Rule, inversion: Inversion) -> Inversion:
+    """The residuals and what they mean; a row without an inverse, or whose numbers leave all bounds, is zero."""
+    parts = inversion.decomposition
+    void: Flags = np.logical_not((np.abs(inversion.xs) <= _LARGEST).all(axis=1))
+    if rule.inverse == "exact":
+        void |= parts.ranks < Js.shape[1]
+    xs = np.where(void[:, None], 0.0, inversion.xs)
+    residuals = bs - np.einsum("bki,bi->bk", Js, xs)
+    largest = np.maximum(1.0, np.abs(bs).max(axis=1, initial=0.0))
+    solved: Flags = np.abs(residuals).max(axis=1, initial=0.0) <= SOLVED * largest
+    statuses: tuple[InverseStatus, ...] = tuple(
+        "singular" if none else "solved" if good else "approximate" for none, good in zip(void, solved, strict=True)
+    )
+    return replace(inversion, xs=xs, residuals=residuals, statuses=statuses)

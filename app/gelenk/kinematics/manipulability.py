@@ -1,0 +1,349 @@
+"""Manipulability: what the tip can do with joint velocities, or torques, of norm one [Yoshikawa1985].
+
+J = U Σ Vᵀ maps the unit sphere of joint velocities to the velocity ellipsoid vᵀ(JJᵀ)#v = 1 with semi-axes σ_i along
+u_i, and the unit sphere of joint torques comes from the force ellipsoid FᵀJJᵀF = 1 with semi-axes 1/σ_i along the same
+u_i. Translation and rotation are two ellipsoids, because metres and radians have no common norm; with a characteristic
+length L there is a third one of (v; L ω) and (F; M / L).
+
+Directions in which a chain never moves are no axes: a planar arm has an ellipse. Which these are is its structure,
+found at random configurations, and a singularity is where a semi-axis of those that are left vanishes.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Literal, TypeAlias, cast
+
+import numpy as np
+
+from gelenk.kinematics.certify import JacobianCertificate, certify_jacobians
+from gelenk.kinematics.ik.words import DIRECTIONS, Direction
+from gelenk.kinematics.jacobian import Reference
+from gelenk.kinematics.kernels import chain_hessians, chain_jacobians
+from gelenk.kinematics.subspaces import rounding
+from gelenk.kinematics.task_space import hessians_in_reference, jacobians_with_terms, random_configurations
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.errors import CertificationFailed, InvalidField
+from gelenk.model.robot import Robot
+
+Part: TypeAlias = Literal["translation", "rotation", "combined"]
+
+STRUCTURAL_TOLERANCE = 1e-9
+"""A direction in which no random configuration moves by more than this, relative to the largest motion, is none."""
+ELLIPSOID_TOLERANCE = 10.0 * STRUCTURAL_TOLERANCE
+"""Allowed relative difference between JJᵀ and what the ellipsoids say of it, motion that is none included."""
+WITHIN = 1e-9
+"""How far a unit vector may be from a space that it is said to be in."""
+_ROUNDING = 1e-14
+"""Share of a unit vector in a direction, or of a torque in the largest, that is none."""
+
+_SAMPLES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Space:
+    """The directions of translation, of rotation or of both in which a chain moves at some configuration.
+
+    Attributes:
+        rows: Rows of J that count; k of them.
+        basis: Orthonormal columns that span the velocities of all configurations together; shape (k, e).
+        dimension: Rank of these rows of J at almost every configuration; at most e, and less where the tip keeps to
+            a surface that is not flat.
+        components: How many numbers a vector of the part has: 3, or 6 of translation and rotation together.
+    """
+
+    rows: tuple[int, ...]
+    basis: Array
+    dimension: int
+    components: int = 3
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether all motion keeps to one plane."""
+        return int(self.basis.shape[1]) == 2
+
+    def spread(self, vectors: Array) -> Array:
+        """Vectors by rows (..., k) → by all components, (..., 3), or (..., 6) of translation and rotation together."""
+        full = np.zeros((*vectors.shape[:-1], self.components))
+        full[..., [row % self.components for row in self.rows]] = vectors
+        return full
+
+
+@dataclass(frozen=True, slots=True)
+class Ellipsoids:
+    """Velocity and force ellipsoids of one part at N configurations, d axes each.
+
+    Attributes:
+        space: The directions that count.
+        sigmas: Semi-axes of the velocity ellipsoids, largest first, exactly 0 where they vanish; shape (N, d).
+        axes: Principal axes of both ellipsoids as unit columns in `space.rows`; shape (N, k, d).
+        gradients: Of Yoshikawa's measure by each variable, NaN where the measure vanishes and has a kink; shape
+            (N, n), where asked for.
+    """
+
+    space: Space
+    sigmas: Array
+    axes: Array
+    gradients: Array | None
+
+    @property
+    def measures(self) -> Array:
+        """Yoshikawa's measure, the product of the semi-axes, which is √det(JJᵀ) of a regular chain; shape (N,)."""
+        return cast(Array, np.prod(self.sigmas, axis=1))
+
+    @property
+    def volumes(self) -> Array:
+        """Volume of the velocity ellipsoids, area of ellipses, length of segments; shape (N,)."""
+        d = self.space.dimension
+        return cast(Array, self.measures * (math.pi ** (d / 2) / math.gamma(d / 2 + 1)))
+
+    @property
+    def ranks(self) -> Indices:
+        """How many axes do not vanish; shape (N,)."""
+        return cast(Indices, np.count_nonzero(self.sigmas, axis=1))
+
+
+@dataclass(frozen=True, slots=True)
+class ManipulabilityCertificate:
+    """How good ellipsoids are.
+
+    Attributes:
+        jacobians: How far Pinocchio's Jacobians are from those behind them.
+        max_ellipsoid_error: Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to σ₁² or the
+            square of the largest entry of J: also what motion there is along an axis that is said not to be one.
+    """
+
+    jacobians: JacobianCertificate
+    max_ellipsoid_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class Manipulability:
+    """Ellipsoids at N configurations, by part.
+
+    Attributes:
+        parts: Those that the task has rows of.
+        Js: Jacobians in the reference; shape (N, 6, n).
+        certificate: How good they are.
+    """
+
+    parts: dict[Part, Ellipsoids]
+    Js: Array
+    certificate: ManipulabilityCertificate
+
+
+def manipulability(
+    robot: Robot,
+    chain: Chain,
+    qs: Array,
+    *,
+    task: Sequence[Direction] = DIRECTIONS,
+    reference: Reference = "local_world_aligned",
+    characteristic_length: float | None = None,
+    rank_tolerance: float = 1e-10,
+    gradient: bool = False,
+) -> Manipulability:
+    """Ellipsoids of a chain, certified.
+
+    Args:
+        robot: The robot.
+        chain: Base and tip.
+        qs: Configurations in the chain's order; shape (N, n), [rad or m].
+        task: The directions that count, in the axes of the reference.
+        reference: In whose axes all vectors are, `local_world_aligned` (the base's) or `local` (the tip's).
+        characteristic_length: L > 0 of the combined ellipsoid, [m]; without it there is none.
+        rank_tolerance: A semi-axis vanishes where it is no longer than this times the longest.
+        gradient: Whether the gradients of Yoshikawa's measure are wanted.
+
+    Raises:
+        InvalidField: A direction of the task stands there twice.
+        CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids are not those of the Jacobians.
+    """
+    rows = task_rows(task)
+    Js, terms = jacobians_with_terms(chain, qs, reference)
+    certified = _certified(robot, chain, qs, Js, reference, derivatives=gradient)
+    Hs = hessians_in_reference(chain, qs, reference) if gradient else None
+    wanted: list[tuple[Part, tuple[int, ...], float]] = [
+        ("translation", tuple(row for row in rows if row < 3), 1.0),
+        ("rotation", tuple(row for row in rows if row >= 3), 1.0),
+    ]
+    if characteristic_length is not None:
+        wanted.append(("combined", rows, characteristic_length))
+    parts: dict[Part, Ellipsoids] = {}
+    worst = 0.0
+    for part, some, length in wanted:
+        if some:
+            space = space_of(chain, some, length, reference, components=6 if part == "combined" else 3)
+            stretched = terms * _stretches(some, length).max()
+            parts[part], error = _ellipsoids(space, Js, Hs, length, stretched, rank_tolerance)
+            worst = max(worst, error)
+    return Manipulability(parts, Js, ManipulabilityCertificate(certified, worst))
+
+
+def _certified(
+    robot: Robot, chain: Chain, qs: Array, values: Array, reference: Reference, *, derivatives: bool
+) -> JacobianCertificate:
+    """The geometric Jacobians, which those in the tip's axes are compared with too, and their derivatives."""
+    Hs = chain_hessians(chain.flat, qs) if derivatives else None
+    if reference == "local_world_aligned":
+        return certify_jacobians(robot, chain, qs, values, Hs)
+    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2], Hs, reference, values)
+
+
+def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
+    """The rows of J of a task, in their own order.
+
+    Raises:
+        InvalidField: A direction stands there twice.
+    """
+    if len(set(task)) < len(task):
+        raise InvalidField("task", "each direction at most once")
+    return tuple(row for row, direction in enumerate(DIRECTIONS) if direction in task)
+
+
+def space_of(
+    chain: Chain,
+    rows: tuple[int, ...],
+    length: float = 1.0,
+    reference: Reference = "local_world_aligned",
+    components: int = 3,
+) -> Space:
+    """The directions among some rows of J in which a chain moves at all, angular rows times a length [m].
+
+    Args:
+        chain: Base and tip.
+        rows: Which rows count.
+        length: What angular ones are multiplied by, [m].
+        reference: Whose rows they are.
+        components: How many numbers a vector of the part has, 3 or 6.
+    """
+    space = _structure(chain, rows, reference)
+    if length == 1.0 or space.basis.shape[1] == len(rows):
+        return replace(space, components=components)
+    stretched = _stretches(rows, length)[:, None] * space.basis
+    left = np.linalg.svd(stretched, full_matrices=False)[0]
+    return Space(rows, _aligned_basis(left @ left.T, left.shape[1]), space.dimension, components)
+
+
+@lru_cache(maxsize=1024)
+def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Space:
+    """From random configurations: turning joints all the way round, sliding ones within a metre."""
+    whole, terms = jacobians_with_terms(chain, random_configurations(chain, _SAMPLES), reference)
+    Js, least = whole[:, rows], float(rounding(terms).max())
+    sigmas = np.linalg.svd(Js, compute_uv=False)
+    largest = float(sigmas.max(initial=0.0))
+    if largest <= least:
+        return Space(rows, np.zeros((len(rows), 0)), 0)
+    dimension = int(np.sum(sigmas > STRUCTURAL_TOLERANCE * largest, axis=1).max())
+    left, sizes, _ = np.linalg.svd(np.concatenate(list(Js), axis=1), full_matrices=False)
+    span = left[:, sizes > STRUCTURAL_TOLERANCE * sizes[0]]
+    return Space(rows, _aligned_basis(span @ span.T, span.shape[1]), dimension)
+
+
+def _aligned_basis(projector: Array, dimension: int) -> Array:
+    """An orthonormal basis of a projector's range, as near to the coordinate axes as can be; shape (k, dimension)."""
+    whole = np.rint(projector)
+    left = whole if np.abs(projector - whole).max() < STRUCTURAL_TOLERANCE else projector
+    columns = []
+    for _ in range(dimension):
+        pivot = int(np.argmax(np.round(np.diag(left), 9)))
+        column = left[:, pivot] / math.sqrt(left[pivot, pivot])
+        columns.append(column)
+        left = left - np.outer(column, column)
+    # Adding zero makes -0 a plain one.
+    return np.array(columns).reshape(dimension, len(projector)).T + 0.0
+
+
+def _stretches(rows: tuple[int, ...], length: float) -> Array:
+    """1 for each linear row and the length for each angular one."""
+    return np.array([length if row >= 3 else 1.0 for row in rows])
+
+
+def _ellipsoids(
+    space: Space, Js: Array, Hs: Array | None, length: float, terms: Array, rank_tolerance: float
+) -> tuple[Ellipsoids, float]:
+    """The ellipsoids of a part, and their largest relative error; semi-axes no longer than terms' rounding vanish."""
+    d, stretches = space.dimension, _stretches(space.rows, length)
+    Js = Js[:, space.rows] * stretches[:, None]
+    if d == 0:
+        gradients = None if Hs is None else np.full((len(Js), Js.shape[2]), np.nan)
+        return Ellipsoids(space, np.zeros((len(Js), 0)), np.zeros((*Js.shape[:2], 0)), gradients), 0.0
+    left, sigmas, right = np.linalg.svd(space.basis.T @ Js, full_matrices=False)
+    axes, sigmas, right = _signed(space.basis @ left[:, :, :d]), sigmas[:, :d], right[:, :d]
+    error = _ellipsoid_error(Js, axes, sigmas, np.abs(terms).max(axis=(1, 2), initial=0.0))
+    counted = np.where(sigmas > np.maximum(rank_tolerance * sigmas[:, :1], rounding(terms)[:, None]), sigmas, 0.0)
+    gradients = None
+    if Hs is not None:
+        # The signs of the columns that the pseudo-inverse is made of must be those of the decomposition.
+        inverses = _pseudo_inverses(space.basis @ left[:, :, :d], counted, right)
+        traces = np.einsum("bik,bkij->bj", inverses, Hs[:, space.rows] * stretches[:, None, None])
+        gradients = np.prod(counted, axis=1)[:, None] * traces
+    return Ellipsoids(space, counted, axes, gradients), error
+
+
+def _pseudo_inverses(left: Array, sigmas: Array, right: Array) -> Array:
+    """J# of J = Σ u_i σ_i v_iᵀ; NaN where a σ_i vanishes; shape (N, n, k)."""
+    with np.errstate(divide="ignore"):
+        inverted = np.where(sigmas > 0.0, 1.0 / sigmas, np.nan)
+    return cast(Array, np.einsum("bdi,bd,bkd->bik", right, inverted, left))
+
+
+def _signed(axes: Array) -> Array:
+    """Unit columns turned so that the largest component of each is positive; shape (N, k, d)."""
+    largest = np.argmax(np.abs(axes) > np.abs(axes).max(axis=1, keepdims=True) - WITHIN, axis=1)
+    signs = np.sign(np.take_along_axis(axes, largest[:, None, :], axis=1))
+    return axes * np.where(signs == 0.0, 1.0, signs)
+
+
+def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> float:
+    """How far Σ u_i σ_i² u_iᵀ is from JJᵀ, relative to the square of the largest semi-axis or entry of the whole J.
+
+    Where all rows of a part nearly vanish, what the structure calls no direction is as large as they are.
+
+    Raises:
+        CertificationFailed: By more than rounding.
+    """
+    squares = (Js @ Js.transpose(0, 2, 1)) - (axes * sigmas[:, None, :] ** 2) @ axes.transpose(0, 2, 1)
+    largest = np.maximum(sigmas[:, 0], sizes)
+    scales = np.where(largest > 0.0, largest, 1.0) ** 2
+    error = float((np.abs(squares).max(axis=(1, 2)) / scales).max(initial=0.0))
+    if not error <= ELLIPSOID_TOLERANCE:
+        raise CertificationFailed("an ellipsoid", error, ELLIPSOID_TOLERANCE)
+    return error
+
+
+def is_within_task(space: Space, directions: Array) -> Flags:
+    """Of each unit vector, shape (D, 3), whether it has no component but in the rows that count; shape (D,)."""
+    return cast(Flags, np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
+
+
+def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: float) -> tuple[Array, Array]:
+    """How far the ellipsoids of translation or of rotation reach along unit vectors u.
+
+    The velocity [uᵀ(JJᵀ)#u]^(-½) is the largest along u, with no other component, of joint velocities of norm one; 0
+    where the tip cannot move along u alone. The force [uᵀJJᵀu]^(-½) is the largest along u that joint torques of
+    norm one balance; NaN where it is unbounded, that is where u needs no more torque than `tolerance` times the
+    largest.
+
+    Args:
+        ellipsoids: At N configurations.
+        directions: Unit vectors in the base's axes; shape (D, 3).
+        tolerance: Of the force that is unbounded.
+
+    Returns:
+        Velocities and forces; shape (N, D) each.
+    """
+    along = directions[:, [row % 3 for row in ellipsoids.space.rows]]
+    sigmas = ellipsoids.sigmas[:, None, :]
+    shares = np.einsum("dk,bki->bdi", along, ellipsoids.axes)
+    torques = np.linalg.norm(shares * sigmas, axis=2)
+    moving = np.where(sigmas > 0.0, shares, 0.0)
+    lost = np.linalg.norm(along - np.einsum("bdi,bki->bdk", moving, ellipsoids.axes), axis=2)
+    speeds = np.linalg.norm(np.divide(shares, sigmas, out=np.zeros_like(shares), where=sigmas > 0.0), axis=2)
+    largest = ellipsoids.sigmas.max(axis=1, initial=0.0)[:, None]
+    velocities = np.divide(1.0, speeds, out=np.zeros_like(speeds), where=(lost <= WITHIN) & (speeds > 0.0))
+    felt = torques > max(tolerance, _ROUNDING) * largest
+    forces = np.divide(1.0, torques, out=np.full_like(torques, np.nan), where=felt)
+    return velocities, forces

@@ -1,0 +1,211 @@
+"""A robot as the variables of one chain move it, and Pinocchio's algorithms on that, reduced to these variables.
+
+All other joints are locked at zero, so that a hand's fingers are one body with the hand, and Pinocchio's model has no
+joint too many. With q_model = q₀ + E q, a follower of a mimic joint included, forces of constraint do no work and
+
+    τ = Eᵀ τ_model,    M = Eᵀ M_model E,    C = Eᵀ C_model E    (E is constant, so Ṁ - 2C stays skew).
+
+The root link stands still, and gravity is given in its axes.
+"""
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from weakref import WeakKeyDictionary
+
+import numpy as np
+import pinocchio as pin
+
+from gelenk.kinematics.bodies import Body, Load, bodies, loaded, locked
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
+
+STANDARD_GRAVITY = (0.0, 0.0, -9.81)
+"""Along -z of the root, [m/s²]."""
+_KEPT = 16
+"""Mechanisms of a robot that are kept: a new one takes milliseconds."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mechanism:
+    """A robot with the joints locked that a chain does not move.
+
+    Attributes:
+        robot: It, as a robot of its own.
+        chain: The chain in it: the same variables.
+        bodies: What the variables carry.
+        without_mass: Names of moved links that have no mass, though they have a shape or all that moves with them has
+            none either; a mere frame on a body with mass is left out.
+        base: Pinocchio's joint that carries the base (0: none), and the base's placement on that.
+        tip: The same of the tip.
+    """
+
+    robot: Robot
+    chain: Chain
+    bodies: tuple[Body, ...]
+    without_mass: tuple[str, ...]
+    base: tuple[int, pin.SE3]
+    tip: tuple[int, pin.SE3]
+
+    def carried(self, load: Load | None) -> tuple[Body, ...]:
+        """The bodies, and a payload where there is one that moves."""
+        if load is None or not self.moves_tip:
+            return self.bodies
+        return *self.bodies, loaded(self.robot.description, self.chain, load)
+
+    @property
+    def moves_tip(self) -> bool:
+        """Whether the tip moves against the root, as it does unless the chain leads up to the root."""
+        return self.tip[0] > 0
+
+
+_known: WeakKeyDictionary[Robot, dict[tuple[str, str], Mechanism]] = WeakKeyDictionary()
+_lock = threading.Lock()
+
+
+def known_mechanism(robot: Robot, chain: Chain) -> Mechanism | None:
+    """The mechanism of a chain, where it was needed before."""
+    with _lock:
+        return _known.get(robot, {}).get((chain.base_frame, chain.tip_frame))
+
+
+def mechanism(robot: Robot, chain: Chain) -> Mechanism:
+    """The mechanism of a chain."""
+    found = known_mechanism(robot, chain)
+    if found is not None:
+        return found
+    description = locked(robot.description, chain)
+    ends = chain.base_frame, chain.tip_frame
+    made = Robot(description, ends)
+    parts = bodies(description, chain)
+    base, tip = (_carrier(made, frame) for frame in ends)
+    found = Mechanism(made, made.chain(*ends), parts, _without_mass(robot, parts), base, tip)
+    with _lock:
+        kept = _known.setdefault(robot, {})
+        if len(kept) >= _KEPT:
+            del kept[next(iter(kept))]
+        kept[ends] = found
+    return found
+
+
+def _carrier(robot: Robot, frame: str) -> tuple[int, pin.SE3]:
+    """The joint that carries a frame, and the frame's placement on it."""
+    found = robot.model.frames[robot.frame_id(frame)]
+    return int(found.parentJoint), found.placement.copy()
+
+
+def _without_mass(robot: Robot, parts: Sequence[Body]) -> tuple[str, ...]:
+    shaped = {link.name for link in robot.description.links if link.shapes}
+    heavy = {link.name for link in robot.description.links if link.inertial is not None and link.inertial.mass > 0.0}
+    return tuple(
+        name for body in parts for name in body.links if name not in heavy and (name in shaped or body.mass == 0.0)
+    )
+
+
+class PinocchioDynamics:
+    """Pinocchio's algorithms on a mechanism, with a model and a work space of this object's own.
+
+    So no thread needs to wait for another. Not for a chain without joints: Pinocchio's algorithms crash on it.
+
+    Args:
+        found: The mechanism.
+        gravity: In the root's axes; shape (3,), [m/s²].
+        load: On the tip.
+    """
+
+    def __init__(self, found: Mechanism, gravity: Array, load: Load | None = None) -> None:
+        robot, chain = found.robot, found.chain
+        self._model = pin.Model(robot.model)
+        self._model.gravity = pin.Motion(gravity, np.zeros(3))
+        self._base, self._tip = found.base, found.tip
+        if load is not None and found.moves_tip:
+            inertia = pin.Inertia(load.mass, load.center, load.inertia)
+            self._model.appendBodyToJoint(self._tip[0], inertia, self._tip[1])
+        self._data = self._model.createData()
+        expansion = robot.expansion(chain)
+        self._offset, self._matrix = expansion.offset, expansion.matrix
+        self._upper = ~np.tri(self._model.nv, k=-1, dtype=bool)
+        # Without followers the matrix is a permutation.
+        self.has_followers = self._matrix.shape[0] != self._matrix.shape[1]
+
+    def mass_matrix(self, q: Array) -> Array:
+        """M by the composite rigid body algorithm [Featherstone2008, 6.2]; shape (n, n)."""
+        M = np.asarray(pin.crba(self._model, self._data, self._full(q))).reshape(self._square)
+        # Pinocchio fills the upper triangle.
+        return self._reduced(np.where(self._upper, M, M.T))
+
+    def coriolis_matrix(self, q: Array, v: Array) -> Array:
+        """C, the one with Ṁ - 2C skew [Echeandia2021]; shape (n, n)."""
+        C = pin.computeCoriolisMatrix(self._model, self._data, self._full(q), self._matrix @ v)
+        return self._reduced(np.asarray(C).reshape(self._square))
+
+    def gravity_torques(self, q: Array) -> Array:
+        """g(q); shape (n,), [N m or N]."""
+        return self._torques(pin.computeGeneralizedGravity(self._model, self._data, self._full(q)))
+
+    def inverse(self, q: Array, v: Array, a: Array) -> Array:
+        """τ = M q̈ + C q̇ + g by the recursive Newton-Euler algorithm [Featherstone2008, 5.3]; shape (n,), [N m or N]."""
+        matrix = self._matrix
+        return self._torques(pin.rnea(self._model, self._data, self._full(q), matrix @ v, matrix @ a))
+
+    def forward(self, q: Array, v: Array, torques: Array) -> Array:
+        """q̈ by the articulated body algorithm [Featherstone2008, 7.3]; shape (n,). Not where mimic joints follow."""
+        matrix = self._matrix
+        a = pin.aba(self._model, self._data, self._full(q), matrix @ v, matrix @ torques)
+        accelerations: Array = matrix.T @ np.asarray(a).reshape(-1)
+        return accelerations
+
+    def energies(self, q: Array, v: Array) -> tuple[float, float]:
+        """T and U [J], U zero where the centre of mass of what moves is level with the root."""
+        full_q = self._full(q)
+        kinetic = pin.computeKineticEnergy(self._model, self._data, full_q, self._matrix @ v)
+        return float(kinetic), float(pin.computePotentialEnergy(self._model, self._data, full_q))
+
+    def static_torques(self, q: Array, v: Array, point: Array, wrench: Array) -> tuple[Array, float]:
+        """Torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
+
+        The wrench acts from the tip on its surroundings, which are at rest in the base frame: where the chain moves the
+        base against the root, the base takes the reaction.
+
+        Args:
+            q: Configuration; shape (n,).
+            v: Joint velocities; shape (n,).
+            point: Where the force acts, in the base frame; shape (3,), [m].
+            wrench: Force and moment in the base's axes; shape (6,), [N] and [N m].
+        """
+        model, data, full_q = self._model, self._data, self._full(q)
+        pin.forwardKinematics(model, data, full_q, self._matrix @ v)
+        T_root_base = data.oMi[self._base[0]] * self._base[1]
+        force = (T_root_base * pin.SE3(np.eye(3), point)).act(pin.Force(wrench[:3], wrench[3:]))
+        forces = [pin.Force.Zero() for _ in range(model.njoints)]
+        twist = pin.Motion.Zero()
+        for sign, joint in ((1.0, self._tip[0]), (-1.0, self._base[0])):
+            twist += sign * data.oMi[joint].act(data.v[joint])
+            # The surroundings act on the robot the other way round.
+            forces[joint] -= sign * data.oMi[joint].actInv(force)
+        torques = pin.computeStaticTorque(model, data, full_q, _force_vector(forces))
+        return self._torques(torques), float(force.dot(twist))
+
+    @property
+    def _square(self) -> tuple[int, int]:
+        return self._model.nv, self._model.nv
+
+    def _full(self, q: Array) -> Array:
+        full: Array = self._offset + self._matrix @ q
+        return full
+
+    def _torques(self, full: Array) -> Array:
+        torques: Array = self._matrix.T @ np.asarray(full).reshape(-1)
+        return torques
+
+    def _reduced(self, full: Array) -> Array:
+        reduced: Array = self._matrix.T @ full @ self._matrix
+        return reduced
+
+
+def _force_vector(forces: Sequence[pin.Force]) -> pin.StdVec_Force:
+    vector = pin.StdVec_Force()
+    for force in forces:
+        vector.append(force)
+    return vector

@@ -1,0 +1,159 @@
+"""Configurations spread over the joint space of a chain, between its limits.
+
+Row i is the same whatever part of the rows it is computed with, so that parts may go to any number of processes: the
+numbers are one stream of a generator that can be entered anywhere, or a sequence that knows each of its numbers.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, quoted
+
+Sequence: TypeAlias = Literal["random", "low_discrepancy"]
+
+SLIDE = 1.0
+"""How far a sliding joint without a limit is moved, [m]."""
+FAR = 1000.0
+"""A limit at least as far out, [rad or m], says that there is none."""
+
+_TABLE = 4096
+"""Numbers in a table of a low-discrepancy sequence, at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ranges:
+    """Between what bounds each variable is sampled.
+
+    Attributes:
+        lower: Shape (n,), [rad or m].
+        upper: Likewise.
+        notes: What was assumed, one sentence each.
+    """
+
+    lower: Array
+    upper: Array
+    notes: tuple[str, ...]
+
+
+def joint_ranges(chain: Chain, given: Mapping[str, tuple[float, float]]) -> Ranges:
+    """The limits of a chain's variables, or what is given for some of them within these.
+
+    A turning joint without a limit turns once round, a sliding one moves `SLIDE` to either side.
+
+    Raises:
+        InvalidField: A range is for no variable of the chain, is upside down or leads beyond the limits.
+    """
+    sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
+    lower, upper, notes = chain.lower.copy(), chain.upper.copy(), []
+    for i, name in enumerate(chain.joint_names):
+        if name in given:
+            lower[i], upper[i] = _within_limits(name, given[name], (lower[i], upper[i]))
+            continue
+        low, high = _sampled_range(lower[i], upper[i], SLIDE if i in sliding else np.pi)
+        if i in sliding and (low, high) != (lower[i], upper[i]):
+            notes.append(f"joint {quoted(name)} slides without a limit: it was moved from {low:g} m to {high:g} m")
+        lower[i], upper[i] = low, high
+    for name in given:
+        if name not in chain.joint_names:
+            known = ", ".join(map(quoted, chain.joint_names[:12]))
+            raise InvalidField("joint_ranges", f"{quoted(name)} is not a joint of the chain; its joints are {known}")
+    return Ranges(lower, upper, tuple(notes))
+
+
+def _within_limits(name: str, given: tuple[float, float], limits: tuple[float, float]) -> tuple[float, float]:
+    if not limits[0] <= given[0] <= given[1] <= limits[1]:
+        allowed = f"[{limits[0]:.17g}, {limits[1]:.17g}]"
+        raise InvalidField("joint_ranges", f"{quoted(name)}: lower ≤ upper, both within the limits {allowed}")
+    return given
+
+
+def _sampled_range(lower: float, upper: float, spread: float) -> tuple[float, float]:
+    low, high = lower > -FAR, upper < FAR
+    if low and high:
+        return lower, upper
+    if low:
+        return lower, lower + 2.0 * spread
+    if high:
+        return upper - 2.0 * spread, upper
+    return -spread, spread
+
+
+@dataclass(frozen=True, slots=True)
+class Sampling:
+    """Configurations, uniform between bounds.
+
+    `random`: row i is row i of `lower + numpy.random.default_rng(seed).random((count, n)) * (upper - lower)`.
+    `low_discrepancy`: Halton's sequence with the digits of each place permuted at random [Owen2017]; it leaves smaller
+    gaps and no clusters.
+
+    Attributes:
+        ranges: The bounds.
+        count: How many.
+        sequence: Which.
+        seed: Of the random numbers.
+    """
+
+    ranges: Ranges
+    count: int
+    sequence: Sequence
+    seed: int
+
+    def configurations(self, first: int, count: int) -> Array:
+        """Samples `first` to `first + count`; shape (count, n), [rad or m]."""
+        lower, upper = self.ranges.lower, self.ranges.upper
+        n = len(lower)
+        if self.sequence == "random":
+            stream = np.random.PCG64(self.seed).advance(first * n)
+            shares = np.random.Generator(stream).random((count, n))
+        else:
+            shares = np.empty((count, n))
+            for j in range(n):
+                shares[:, j] = _radical_inverses(first, count, j, self.seed)
+        qs: Array = lower + shares * (upper - lower)
+        return qs
+
+    def chosen(self, numbers: Indices) -> Array:
+        """Samples by their numbers; shape (k, n)."""
+        rows = [self.configurations(number, 1) for number in numbers.tolist()]
+        return np.concatenate([*rows, np.empty((0, len(self.ranges.lower)))])
+
+
+def _radical_inverses(first: int, count: int, j: int, seed: int) -> Array:
+    """Numbers from `first` on, their digits permuted and mirrored at the point; shape (count,), from 0 to 1.
+
+    The base is the j-th prime. The last digits of many numbers, and the first ones, come out of short tables.
+    """
+    base, permutations, low, table = _digits(j, seed)
+    highs, lows = np.divmod(np.arange(first, first + count), len(table))
+    rest = np.arange(highs[0], highs[-1] + 1) if count else highs
+    values = np.zeros(len(rest))
+    scale = 1.0 / len(table)
+    for permutation in permutations[low:]:
+        scale /= base
+        rest, digits = np.divmod(rest, base)
+        values += permutation[digits] * scale
+    shares: Array = table[lows] + values[highs - highs[0]] if count else np.empty(0)
+    return shares
+
+
+@lru_cache(maxsize=512)
+def _digits(j: int, seed: int) -> tuple[int, Indices, int, Array]:
+    """The j-th prime, a permutation for each place, how many places the table covers, and what its numbers become."""
+    primes = [p for p in range(2, 800) if all(p % d for d in range(2, int(p**0.5) + 1))]
+    base = primes[j]
+    places = math.ceil(32 / math.log2(base))
+    generator = np.random.default_rng((seed, j))
+    permutations = generator.permuted(np.tile(np.arange(base), (places, 1)), axis=1)
+    low = max(1, int(math.log(_TABLE, base)))
+    rest, table = np.arange(base**low), np.zeros(base**low)
+    for place in range(low):
+        rest, digits = np.divmod(rest, base)
+        table += permutations[place, digits] * float(base) ** -(place + 1)
+    return base, permutations, low, table

@@ -1,0 +1,231 @@
+"""Forces at rest: joint torques and the wrench that the tip exerts, and the four subspaces behind the two.
+
+By the principle of virtual work τᵀq̇ = γᵀJq̇ for every q̇, so τ = Jᵀγ: the Jacobian that leads from joint to tip
+velocities leads back from wrenches to torques. The motors of a robot with mass also hold its weight, τ = Jᵀγ + g(q).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.bodies import Load, motions
+from gelenk.kinematics.certify import agreed, pinocchio_poses, sampled_rows
+from gelenk.kinematics.mechanism import PinocchioDynamics, mechanism
+from gelenk.kinematics.subspaces import Subspaces, subspaces
+from gelenk.kinematics.wrenches import WrenchFrame, frame_jacobians, in_base_axes
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+
+ALL_ROWS: Indices = np.arange(6)
+AT_TIP = WrenchFrame()
+_NUMBERS_AT_ONCE = 1_000_000
+"""Entries of the Jacobians of all bodies that are held in memory at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class StaticsCertificate:
+    """How good an answer is.
+
+    Attributes:
+        samples: Configurations that were recomputed through Pinocchio.
+        max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
+            external force), [N m or N].
+        max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
+        seed: Of the choice of samples, of q̇ and of a wrench that tries the whole Jacobian.
+    """
+
+    samples: int
+    max_torque_error: float
+    max_virtual_work_error: float
+    seed: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Statics:
+    """A robot at rest at N configurations.
+
+    Attributes:
+        robot: The robot.
+        chain: Base and tip.
+        qs: Configurations; shape (N, n), [rad or m].
+        frame: Axes and point of twists and wrenches.
+        rows: Which of their six components count; shape (m,).
+        places: Where the frame is in the base.
+        Js: The rows of the Jacobian there that count; shape (N, m, n).
+        terms: All of its rows, and what they are sums of: what is no more than their rounding is zero; shape (N, 9, n).
+        gravity: In the root's axes, [m/s²]; None where weight is left out.
+        load: On the tip.
+        gravity_torques: g(q); shape (N, n), [N m or N], zero where weight is left out.
+        gravity_scale: Largest term of the sums that these are.
+    """
+
+    robot: Robot
+    chain: Chain
+    qs: Array
+    frame: WrenchFrame
+    rows: Indices
+    places: Poses
+    Js: Array
+    terms: Array
+    gravity: Array | None
+    load: Load | None
+    gravity_torques: Array
+    gravity_scale: float
+
+    def wrench_torques(self, wrenches: Array) -> Array:
+        """Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
+        torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
+        return torques
+
+    def subspaces(self, tolerance: float) -> list[Subspaces]:
+        """The four subspaces at each configuration."""
+        return [subspaces(J, tolerance, terms) for J, terms in zip(self.Js, self.terms, strict=True)]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Balance:
+    """The wrench of least norm that comes nearest to explaining joint torques.
+
+    Attributes:
+        wrenches: γ; shape (N, m), [N] and [N m].
+        residuals: τ - g - Jᵀγ, which no wrench balances: it accelerates the robot; shape (N, n), [N m or N].
+        splits: The subspaces; ker(Jᵀ) may be added to γ.
+    """
+
+    wrenches: Array
+    residuals: Array
+    splits: list[Subspaces]
+
+
+def statics(
+    robot: Robot,
+    chain: Chain,
+    qs: Array,
+    frame: WrenchFrame = AT_TIP,
+    *,
+    rows: Indices = ALL_ROWS,
+    gravity: Array | None = None,
+    load: Load | None = None,
+) -> Statics:
+    """A robot at rest: its Jacobians where the wrench acts, and what its weight asks of the motors.
+
+    Args:
+        robot: The robot; joints that the chain does not have stand at zero, and their links weigh too.
+        chain: Base and tip.
+        qs: Configurations; shape (N, n), [rad or m].
+        frame: Axes and point of the wrench.
+        rows: Components of the wrench that count; shape (m,).
+        gravity: In the axes of the robot's root; shape (3,), [m/s²].
+        load: A payload on the tip; weighs only where there is gravity.
+
+    Raises:
+        UnknownFrame: The robot has no such frame.
+        InvalidField: The frame contradicts itself.
+    """
+    places, Js, sums = frame_jacobians(robot, chain, qs, frame)
+    torques, scale = np.zeros_like(qs), 0.0
+    if gravity is not None and len(chain):
+        carried = mechanism(robot, chain).carried(load)
+        size = max(1, _NUMBERS_AT_ONCE // (6 * len(carried) * len(chain)))
+        for first in range(0, len(qs), size):
+            moving = motions(carried, qs[first : first + size])
+            torques[first : first + size] = moving.gravity_torques(gravity)
+            scale = max(scale, moving.gravity_scale(gravity))
+    terms = np.concatenate((Js, sums), axis=1)
+    return Statics(robot, chain, qs, frame, rows, places, Js[:, rows], terms, gravity, load, torques, scale)
+
+
+def balance(still: Statics, torques: Array, tolerance: float) -> Balance:
+    """The wrench behind joint torques: γ = (Jᵀ)#(τ - g), which is J⁻ᵀ(τ - g) of a square regular Jacobian.
+
+    Args:
+        still: The robot at rest.
+        torques: Of the motors; shape (N, n), [N m or N].
+        tolerance: A singular value counts where it exceeds this times the largest.
+    """
+    splits = still.subspaces(tolerance)
+    wanted = torques - still.gravity_torques
+    wrenches = np.zeros((len(torques), len(still.rows)))
+    for k, split in enumerate(splits):
+        wrenches[k] = split.range @ ((split.row_space.T @ wanted[k]) / split.sigmas[: split.rank])
+    return Balance(wrenches, wanted - still.wrench_torques(wrenches), splits)
+
+
+def components(
+    inside: Array, outside: Array, vector: Array, tolerance: float
+) -> tuple[Array, Array, tuple[bool, bool]]:
+    """A vector as the sum of two in subspaces that are each other's orthogonal complement.
+
+    Args:
+        inside: Orthonormal basis of the first as columns.
+        outside: Of the second.
+        vector: To be split.
+        tolerance: It lies in one of them where the other component is no longer than this times its length.
+
+    Returns:
+        Both components, and whether it lies in the first and in the second: a zero vector lies in both.
+    """
+    first, second = inside @ (inside.T @ vector), outside @ (outside.T @ vector)
+    most = tolerance * float(np.linalg.norm(vector))
+    return first, second, (float(np.linalg.norm(second)) <= most, float(np.linalg.norm(first)) <= most)
+
+
+def overloaded_joints(robot: Robot, chain: Chain, torques: Array) -> list[list[str]]:
+    """Joints whose torque is beyond the description's effort limit, at each configuration; zero says no limit.
+
+    Args:
+        robot: The robot.
+        chain: The chain.
+        torques: Shape (N, n), [N m or N].
+    """
+    given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
+    limits = np.array([limit or np.inf for limit in given])
+    beyond = np.abs(torques) > limits
+    found: list[list[str]] = [[] for _ in torques]
+    for row, column in np.argwhere(beyond).tolist():
+        found[row].append(chain.joint_names[column])
+    return found
+
+
+def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int = 0) -> StaticsCertificate:
+    """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's.
+
+    Args:
+        still: The robot at rest.
+        wrenches: Shape (N, m), [N] and [N m].
+        torques: Weight included; shape (N, n), [N m or N].
+        seed: Of the samples, the joint velocities and a further wrench that tries the whole Jacobian.
+
+    Raises:
+        CertificationFailed: They differ by more than rounding.
+    """
+    robot, chain, qs = still.robot, still.chain, still.qs
+    rows = sampled_rows(len(qs) if len(chain) else 0, seed)
+    if not rows:
+        return StaticsCertificate(0, 0.0, 0.0, seed)
+    rng = np.random.default_rng(seed)
+    found = mechanism(robot, chain)
+    places = still.frame.poses(chain, lambda name: pinocchio_poses(found.robot, found.chain, name, qs, rows))
+    gravity = np.zeros(3) if still.gravity is None else still.gravity
+    judge = PinocchioDynamics(found, gravity, still.load)
+    others = rng.uniform(-1.0, 1.0, (len(rows), len(still.rows)))
+    by_others = np.einsum("kij,ki->kj", still.Js[rows], others) + still.gravity_torques[rows]
+    worst, worst_work = 0.0, 0.0
+    for given, held in ((wrenches[rows], torques[rows]), (others, by_others)):
+        in_base = in_base_axes(places, still.rows, given)
+        for k, row in enumerate(rows):
+            q_dot = rng.uniform(-1.0, 1.0, len(chain))
+            expected, power = judge.static_torques(qs[row], q_dot, places.positions[k], in_base[k])
+            scale = max(_largest_term(still.Js[row], given[k], places.positions[k]), still.gravity_scale)
+            worst = max(worst, agreed("a torque", held[k] - expected, scale))
+            work = (held[k] - still.gravity_torques[row]) @ q_dot - power
+            worst_work = max(worst_work, agreed("the virtual work", np.array([work]), scale * len(chain)))
+    return StaticsCertificate(len(rows), worst, worst_work, seed)
+
+
+def _largest_term(J: Array, wrench: Array, point: Array) -> float:
+    """The largest term on the way from a wrench to torques, here or by way of the moment about the base origin."""
+    force = float(np.abs(wrench).max(initial=0.0))
+    return max(float((np.abs(J.T) @ np.abs(wrench)).max()), force * (1.0 + float(np.abs(point).max())))

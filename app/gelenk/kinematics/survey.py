@@ -1,0 +1,224 @@
+"""The parts of a workspace put together, and certified."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.certify import Certificate, agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.kernels import chain_jacobians, chain_poses
+from gelenk.kinematics.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
+from gelenk.kinematics.workspace import Part, Plan
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+
+POINT_COLUMNS = ("x", "y", "z", "measure")
+VOXEL_COLUMNS = ("x", "y", "z", "samples", "best_measure")
+
+_PENDING = 500_000
+"""Rows of tables that wait until they are merged."""
+_RARE = 0.02
+"""Share of the samples that may be alone in their cell, where nearly all cells are to be met [Good1953]."""
+_LATE = 0.1
+"""Of the samples, the last that say whether more of them would find more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measures:
+    """Yoshikawa's measure over the samples that count.
+
+    Attributes:
+        least: The smallest.
+        mean: Their mean.
+        most: The largest.
+        position: Where the tip is there; shape (3,), [m]. None where all measures are zero.
+        joint_positions: The configuration, likewise; shape (n,), [rad or m].
+    """
+
+    least: float
+    mean: float
+    most: float
+    position: Array | None
+    joint_positions: Array | None
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyCertificate:
+    """How far samples recomputed through Pinocchio are from those that were counted.
+
+    Attributes:
+        poses: Positions and orientations.
+        max_jacobian_error: Largest difference of an entry of the Jacobian, [m, rad per rad or m].
+        max_measure_error: Largest difference of a measure from the product of that Jacobian's singular values.
+    """
+
+    poses: Certificate
+    max_jacobian_error: float
+    max_measure_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class Workspace:
+    """What the samples of a chain tell of its workspace; the optional ones are None where no sample counts.
+
+    Attributes:
+        count: Samples that count.
+        bounds: Smallest and largest coordinates; shape (2, 3), [m].
+        reach: Smallest and largest distance of the tip from the base's origin, [m].
+        measures: Of the samples that count.
+        voxels: The cells that they fall into.
+        inner: How many of these have a neighbour on every side, also across edges and corners.
+        volume: Between what two values the volume of all that can be reached lies, [m³, m² or m].
+        late: Share of the cells that only the last tenth of the samples found.
+        points: Of each its position and measure, where wanted; shape (count, 4).
+        certificate: How good the samples are.
+    """
+
+    count: int
+    bounds: Array | None
+    reach: tuple[float, float] | None
+    measures: Measures | None
+    voxels: VoxelTable
+    inner: int
+    volume: tuple[float, float]
+    late: float | None
+    points: Array | None
+    certificate: SurveyCertificate
+
+    def voxel_rows(self, plan: Plan) -> Array:
+        """One row a cell, columns `VOXEL_COLUMNS`; shape (M, 5)."""
+        table = self.voxels
+        return np.column_stack((plan.grid.centres(table.keys), table.counts, table.best))
+
+
+class Survey:
+    """Takes the parts of a plan one by one, in the order of the samples."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._points = np.empty((plan.sampling.count, 4)) if plan.keeps_points else None
+        self._count = 0
+        self._voxels = NO_VOXELS
+        self._waiting: list[VoxelTable] = []
+        self._lower, self._upper = np.full(3, np.inf), np.full(3, -np.inf)
+        self._distances = (np.inf, -np.inf)
+        self._measures = (np.inf, -np.inf, 0.0)
+        self._best = -1
+
+    def add(self, part: Part) -> None:
+        """Take a part.
+
+        Raises:
+            TooLarge: The samples fall into too many cells.
+        """
+        if self._points is not None and part.points is not None:
+            self._points[self._count : self._count + part.count] = part.points
+        self._count += part.count
+        self._lower, self._upper = np.minimum(self._lower, part.lower), np.maximum(self._upper, part.upper)
+        (near, far), (least, most, total) = self._distances, self._measures
+        self._distances = min(near, part.distances[0]), max(far, part.distances[1])
+        if part.measures[1] > most:
+            self._best = part.best
+        self._measures = min(least, part.measures[0]), max(most, part.measures[1]), total + part.measures[2]
+        self._waiting.append(part.voxels)
+        if sum(map(len, self._waiting)) > max(_PENDING, len(self._voxels)):
+            self.merge()
+
+    def merge(self) -> VoxelTable:
+        """The cells of the parts so far."""
+        self._voxels, self._waiting = merged([self._voxels, *self._waiting]), []
+        return self._voxels
+
+    def result(self, robot: Robot, chain: Chain) -> Workspace:
+        """What all of it tells.
+
+        Raises:
+            CertificationFailed: Pinocchio's poses, Jacobians or measures differ.
+        """
+        voxels, count, plan = self.merge(), self._count, self._plan
+        points = None if self._points is None else self._points[:count]
+        late = voxels.first >= round((1.0 - _LATE) * plan.sampling.count)
+        return Workspace(
+            count,
+            np.stack((self._lower, self._upper)) if count else None,
+            self._distances if count else None,
+            self._statistics() if count else None,
+            voxels,
+            len(plan.grid.inner(voxels.keys)),
+            volume_bounds(plan.grid, voxels, plan.extent),
+            float(late.mean()) if count else None,
+            points,
+            self._certificate(robot, chain),
+        )
+
+    def _statistics(self) -> Measures:
+        least, most, total = self._measures
+        if most == 0.0:
+            return Measures(0.0, 0.0, 0.0, None, None)
+        q = self._plan.sampling.configurations(self._best, 1)
+        position = self._plan.measured(q)[0][0]
+        return Measures(least, total / self._count, most, position, q[0])
+
+    def _certificate(self, robot: Robot, chain: Chain) -> SurveyCertificate:
+        """Samples spread over all of them, computed anew and compared with what was counted, and with Pinocchio's."""
+        plan, total = self._plan, self._plan.sampling.count
+        numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
+        qs = plan.sampling.chosen(numbers)
+        positions, measures = plan.measured(qs)
+        poses = Poses(*chain_poses(chain.flat, qs))
+        agreed("a position", poses.positions - positions, plan.extent)
+        Js = chain_jacobians(chain.flat, qs)[2]
+        products, scale = _products(plan, Js)
+        error = agreed("the manipulability measure", measures - products, scale)
+        if self._points is not None and self._count == total:
+            agreed("a sample's position", self._points[numbers, :3] - positions, plan.extent)
+            agreed("a sample's measure", self._points[numbers, 3] - measures, scale)
+        return SurveyCertificate(
+            certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
+            certify_jacobians(robot, chain, qs, Js).max_error,
+            error,
+        )
+
+
+def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float, float]:
+    """Between what two values the volume of the region that samples come from lies, [m³, m² or m].
+
+    It has the inner cells, and no more than those it meets. Where the samples are too few to meet nearly all of them,
+    twice as large cells tell more. How many are still missing is estimated from those that one or two samples have
+    met [Chao1984]. Without samples there is nothing but the ball that the tip does not leave.
+
+    Args:
+        grid: The cells.
+        table: Those that samples have met.
+        farthest: No position is further from the base's origin, [m].
+    """
+    d = grid.dimensions
+    if d == 0:
+        return 0.0, 0.0
+    lower, upper = 0.0, math.pi ** (d / 2) / math.gamma(d / 2 + 1) * farthest**d
+    while len(table):
+        once, twice = (int(np.sum(table.counts == count)) for count in (1, 2))
+        lower = max(lower, len(grid.inner(table.keys)) * grid.cell)
+        if once <= _RARE * table.counts.sum():
+            return lower, min(upper, (len(table) + 0.5 * once * max(0, once - 1) / (twice + 1)) * grid.cell)
+        if len(table) <= 1 << d:
+            break
+        grid, table = coarser(grid, table)
+    return lower, upper
+
+
+def _products(plan: Plan, Js: Array) -> tuple[Array, float]:
+    """Products of the singular values of the rows that count, of Jacobians in the base frame; and what they can be.
+
+    Returns:
+        Shape (N,), and the largest singular value to the power of their number: rounding is a share of that.
+    """
+    if len(plan.rows) == 0 or Js.shape[2] == 0:
+        return np.zeros(len(Js)), 0.0
+    if plan.turn is not None:
+        Js = np.concatenate((plan.turn.T @ Js[:, :3], plan.turn.T @ Js[:, 3:]), axis=1)
+    sigmas = np.linalg.svd(Js[:, plan.rows], compute_uv=False)
+    products: Array = np.prod(sigmas, axis=1)
+    return products, float(sigmas.max()) ** sigmas.shape[1]

@@ -1,0 +1,109 @@
+"""Compile every kernel, or read it from its cache, before the first caller waits for it."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gelenk.kinematics.configuration import configurations
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.ik.branches import all_branches
+from gelenk.kinematics.ik.continuation import continuation
+from gelenk.kinematics.ik.search import mid_range, search, start_of, target_rows
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import FULL_POSE
+from gelenk.kinematics.jacobian import jacobians
+from gelenk.kinematics.kernels import chain_measures
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.compilation import note_stored
+from gelenk.model.convert import describe_dh
+from gelenk.model.dh import DhJoint, DhTable
+from gelenk.model.notations import (
+    quaternions_xyzw_from_rotations,
+    rotations_from_quaternions_xyzw,
+    rotations_from_vectors,
+    rotations_from_zyz,
+    vectors_from_rotations,
+)
+from gelenk.model.robot import Robot
+
+
+def warm_up() -> None:
+    """Compute one of everything."""
+    basics()
+    for part in PARTS:
+        part()
+    _answers()
+    note_stored()
+
+
+def basics() -> None:
+    """Poses, Jacobians, notations and methods in steps, which take seconds: what most requests need, and the parts."""
+    robot, chain, qs = _small_arm()
+    poses = forward_kinematics(robot, chain, qs).poses
+    jacobians(robot, chain, qs)
+    inverse_kinematics(robot, chain, poses, qs, Options(method="damped_least_squares"))
+    Rs = poses.rotations
+    rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
+    rotations_from_vectors(vectors_from_rotations(Rs))
+    rotations_from_zyz(np.zeros((1, 3)))
+    chain_measures(chain.flat, qs, np.arange(3))
+
+
+def _small_arm() -> tuple[Robot, Chain, Array]:
+    """An arm of our own, from base to tip, and a configuration; shape (1, 3), [rad]."""
+    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0, 0.1, 0.5) for i in (1, 2, 3)]
+    robot = Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    chain = robot.chain(None, None)
+    return robot, chain, configurations(chain, [[0.1, 0.2, 0.3]])
+
+
+def _searches() -> None:
+    """What solves by iteration and by continuation, and derivatives of Jacobians; no closed form."""
+    robot, chain, qs = _small_arm()
+    for representation in ("zyz", "rpy"):
+        poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
+    goal: dict[str, Any] = {"task": FULL_POSE, "respect_limits": True, "random_seed": 0}
+    search(chain, poses, qs, position_tolerance=1e-6, orientation_tolerance=1e-6, max_iterations=100, **goal)
+    row = target_rows(poses)[0]
+    all_branches(chain, row, qs[0], tolerances=(1e-6, 1e-6), most=1, windings=False, **goal)
+    start_of(chain, mid_range(chain), True, 0, 1)
+    continuation(_six_joints().chain(None, None))
+
+
+def _six_joints() -> Robot:
+    """An arm that is solved by following solutions: three axes parallel, the others skew."""
+    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)]
+    return Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+
+
+def _closed_forms() -> None:
+    """An arm with a free elbow: its kernels are those of every closed form."""
+    alphas = (-0.5, 0.5, 0.5, -0.5, -0.5, 0.5, 0.0)
+    lengths = (0.3, 0.0, 0.3, 0.0, 0.3, 0.0, 0.3)
+    rows = [
+        DhJoint(f"joint_{i}", "revolute", 0.0, math.pi * alpha, d, 0.0)
+        for i, (alpha, d) in enumerate(zip(alphas, lengths, strict=True))
+    ]
+    robot = Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    chain = robot.chain(None, None)
+    qs = np.full((1, 7), 0.4)
+    poses = forward_kinematics(robot, chain, qs).poses
+    for every in (False, True):
+        inverse_kinematics(robot, chain, poses, qs, Options(every=every, method="analytic"))
+
+
+def _answers() -> None:
+    """What is left: answers as requests get them."""
+    robot, chain, qs = _small_arm()
+    poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
+    for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):
+        inverse_kinematics(robot, chain, poses, start, options)
+    robot = _six_joints()
+    chain, qs = robot.chain(None, None), np.full((1, 6), 0.4)
+    inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
+
+
+PARTS = (_closed_forms, _searches)
+"""After `basics`, each may be compiled by a process of its own; what they leave out takes seconds."""

@@ -1,0 +1,111 @@
+"""Where a wrench acts and along which axes its components are: a Jacobian at that point, in these axes.
+
+A wrench and the twist it is dual to belong to one point and one set of axes, so that γᵀv is a power. The twist is that
+of the tip's body against the base, of its point that passes the given point, so for any of them τ = Jᵀγ.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.jacobian import Reference
+from gelenk.kinematics.kernels import chain_jacobians, chain_poses
+from gelenk.kinematics.mechanism import mechanism
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+
+
+@dataclass(frozen=True, slots=True)
+class WrenchFrame:
+    """Axes and point of a wrench.
+
+    Attributes:
+        reference: `local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, at
+            the base origin.
+        expressed_in: Frame whose axes are taken instead.
+        point: Coordinates of the point that is taken instead, in `point_frame`, [m].
+        point_frame: Frame of `point`; the tip if None.
+    """
+
+    reference: Reference = "local_world_aligned"
+    expressed_in: str | None = None
+    point: tuple[float, float, float] | None = None
+    point_frame: str | None = None
+
+    def check(self) -> None:
+        """Refuse what contradicts itself.
+
+        Raises:
+            InvalidField: The field, and what it goes with.
+        """
+        if self.expressed_in is not None and self.reference != "local_world_aligned":
+            raise InvalidField("expressed_in", "it names the axes itself, so it goes without another `reference`")
+        if self.point is not None and self.reference == "world":
+            raise InvalidField("point", "`world` takes the base origin, so it goes with the other references only")
+        if self.point_frame is not None and self.point is None:
+            raise InvalidField("point_frame", "it needs `point`")
+
+    def poses(self, chain: Chain, poses_of: Callable[[str], Poses]) -> Poses:
+        """Point and axes in the base frame, from the poses of frames there."""
+        tip = poses_of(chain.tip_frame)
+        points, axes = tip.positions, tip.rotations
+        if self.reference != "local":
+            axes = np.broadcast_to(np.eye(3), axes.shape)
+        if self.reference == "world":
+            points = np.zeros_like(points)
+        if self.expressed_in is not None:
+            axes = poses_of(self.expressed_in).rotations
+        if self.point is not None:
+            frame = tip if self.point_frame is None else poses_of(self.point_frame)
+            points = frame.positions + frame.rotations @ np.array(self.point)
+        return Poses(points, axes)
+
+
+def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
+    """Where a wrench frame is, and the Jacobian there.
+
+    Args:
+        robot: The robot; joints that the chain does not have stand at zero.
+        chain: Base and tip.
+        qs: Configurations; shape (N, n), [rad or m].
+        frame: Point and axes.
+
+    Returns:
+        Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and what their linear
+        rows are sums of, to which rounding is relative; shape (N, 3, n).
+
+    Raises:
+        UnknownFrame: The robot has no such frame.
+        InvalidField: The frame contradicts itself.
+    """
+    frame.check()
+    positions, rotations, Js = chain_jacobians(chain.flat, qs)
+    tip = Poses(positions, rotations)
+
+    def poses_of(name: str) -> Poses:
+        if name == chain.tip_frame:
+            return tip
+        found = mechanism(robot, chain)
+        part, columns = found.robot.frame_on(found.chain, name)
+        return Poses(*chain_poses(part.flat, np.ascontiguousarray(qs[:, columns])))
+
+    places = frame.poses(chain, poses_of)
+    if places.positions is not positions:
+        levers = (places.positions - positions)[:, :, None]
+        Js[:, :3] += np.cross(Js[:, 3:], levers, axis=1)
+    far = np.linalg.norm(positions, axis=1) + np.linalg.norm(places.positions, axis=1)
+    terms = Js[:, 3:] * far[:, None, None]
+    inverse = places.rotations.swapaxes(1, 2)
+    return places, np.concatenate((inverse @ Js[:, :3], inverse @ Js[:, 3:]), axis=1), terms
+
+
+def in_base_axes(places: Poses, rows: Indices, wrenches: Array) -> Array:
+    """Wrenches by their components that count, turned into the axes of the base; shape (N, m) → (N, 6)."""
+    full = np.zeros((len(wrenches), 6))
+    full[:, rows] = wrenches
+    turned: Array = np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6)
+    return turned

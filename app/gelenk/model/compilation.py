@@ -1,0 +1,193 @@
+"""The decorators for compiled functions, and where these are stored. Numba takes a third of a second to load."""
+
+import contextlib
+import hashlib
+import logging
+import re
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any, TypeVar, cast
+
+import llvmlite.binding
+import numba
+from numba.core import event
+from platformdirs import user_cache_path
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+_IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
+
+
+def _kernel_digest() -> str:
+    """What tells one state of the kernels' sources from another: those with kernels, and all that these import.
+
+    The errors are left out: kernels raise none, and new ones are no reason to compile all anew.
+    """
+    package = Path(__file__).parents[1]
+    texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}
+    waiting = [path for path, text in texts.items() if _KERNEL.search(text)]
+    sources: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        if path in texts and path not in sources and path.stem != "errors":
+            sources.add(path)
+            imported = (name.decode().replace(".", "/") for name in _IMPORT.findall(texts[path]))
+            waiting += [package / f"{name}.py" for name in imported]
+    digest = hashlib.sha256()
+    for path in sorted(sources):
+        digest.update(str(path.relative_to(package)).encode() + texts[path])
+    return digest.hexdigest()[:16]
+
+
+def _processor_digest() -> str:
+    """What tells one kind of processor from another: what is compiled for one need not run on the other."""
+    features = sorted(llvmlite.binding.get_host_cpu_features().items())
+    words = (llvmlite.binding.get_host_cpu_name(), features, _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES)
+    return hashlib.sha256(repr(words).encode()).hexdigest()[:8]
+
+
+def _store() -> Path | None:
+    """The first folder that can be written to: what is set, else one in the tree or in the user's cache; or none.
+
+    Numba renews what it has stored of a function when the function's own file changes, but not when one does from
+    which it took another function: so each state of the sources has a store of its own.
+    """
+    given, state = _SETTINGS.CACHE_DIR, f"{_kernel_digest()}-{_processor_digest()}"
+    own = (Path(__file__).parents[1] / "__pycache__" / "kernels", user_cache_path("gelenk") / "kernels")
+    folders = (Path(given),) if given else own
+    for store in (folder / state for folder in folders):
+        with contextlib.suppress(OSError):
+            store.mkdir(parents=True, exist_ok=True)
+            TemporaryFile(dir=store).close()
+            return store
+    logging.getLogger("gelenk").warning(
+        "the kernels are compiled anew at each start, a minute or so, because nothing can be written to %s: "
+        "NUMBA_CACHE_DIR names another folder",
+        " or ".join(map(str, folders)),
+    )
+    return None
+
+
+_SETTINGS: Any = numba.config
+STORE = _store()
+"""Where compiled kernels are kept; None where nothing can be written."""
+_SETTINGS.CACHE_DIR = str(STORE or "")
+_OPTIONS: dict[str, Any] = {
+    "cache": STORE is not None,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+}
+_UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
+
+
+def is_stored() -> bool:
+    """Whether all kernels have been compiled for this kind of processor before, and only need to be read."""
+    return STORE is not None and (STORE / "all").exists()
+
+
+def note_stored() -> None:
+    """Say that all of them have been."""
+    if STORE is not None:
+        with contextlib.suppress(OSError):
+            (STORE / "all").touch()
+
+
+_expects_others = False
+
+
+def expect_others(does: bool) -> None:
+    """Say whether another process compiles kernels that this one and its copies may need."""
+    global _expects_others  # noqa: PLW0603
+    _expects_others = does
+
+
+def is_awaited() -> bool:
+    """Whether another process is still compiling: here it would take a minute that is spent there already."""
+    return _expects_others and not is_stored()
+
+
+def wait_for_others() -> None:
+    """Wait until nothing is awaited any more."""
+    while is_awaited():
+        time.sleep(0.05)
+
+
+class _Clock(event.Listener):
+    """Stands still as long as any thread compiles, reads what was compiled, or waits until another one has."""
+
+    def __init__(self) -> None:
+        self._lock, self._depth = threading.Lock(), 0
+        self._since = self._seconds = 0.0
+
+    def on_start(self, _: Any) -> None:
+        with self._lock:
+            if not self._depth:
+                self._since = time.monotonic()
+            self._depth += 1
+
+    def on_end(self, _: Any) -> None:
+        with self._lock:
+            self._depth -= 1
+            if not self._depth:
+                self._seconds += time.monotonic() - self._since
+
+    def now(self) -> float:
+        with self._lock:
+            return (self._since if self._depth else time.monotonic()) - self._seconds
+
+
+class _Teller(event.Listener):
+    """Tells once that something is compiled, and not only read."""
+
+    def __init__(self, tell: Callable[[], None]) -> None:
+        self._tell, self._has_told = tell, False
+
+    def on_start(self, _: Any) -> None:
+        if not self._has_told:
+            self._has_told = True
+            self._tell()
+
+    def on_end(self, _: Any) -> None:
+        pass
+
+
+_CLOCK = _Clock()
+event.register("numba:compiler_lock", _CLOCK)  # type: ignore[no-untyped-call]
+
+
+def clock() -> float:
+    """Like `time.monotonic`, [s], but compiling takes no time: what a limit of time is measured with."""
+    return _CLOCK.now()
+
+
+@contextlib.contextmanager
+def when_compiling(tell: Callable[[], None]) -> Iterator[None]:
+    """Call a function when the first kernel is compiled within this context; never where all of them are stored."""
+    with event.install_listener("numba:compile", _Teller(tell)):
+        yield
+
+
+def compiled(function: _Function) -> _Function:
+    """Compile for the machine at the first call, without the GIL, cached on disk.
+
+    Division follows IEEE 754 as NumPy's does: the functions guard their own denominators. A product and a sum may
+    be contracted to one rounding, nothing else is reordered.
+    """
+    return cast(_Function, numba.njit(**_OPTIONS)(function))
+
+
+def unmanaged(function: _Function) -> _Function:
+    """Compile what neither makes nor returns an array, and then need not count references to those it is given.
+
+    In a loop over many small functions the counting costs more than the arithmetic.
+    """
+    return cast(_Function, numba.njit(**_UNMANAGED)(function))
+
+
+def inlined(function: _Function) -> _Function:
+    """The same as a part of each function that calls it, so that numbers stay in registers between the two."""
+    return cast(_Function, numba.njit(**_UNMANAGED, forceinline=True)(function))

@@ -1,0 +1,15 @@
+"""Homogeneous transforms as URDF writes placements."""
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.description import Origin
+from gelenk.model.notations import rpy_from_rotations
+
+
+def origin_of(T: Array) -> Origin:
+    """A homogeneous transform as URDF writes it; the angles give the rotation again to rounding."""
+    # Adding zero turns -0.0 into 0.0, which reads better.
+    x, y, z = (float(value) + 0.0 for value in T[:3, 3])
+    roll, pitch, yaw = (float(value) + 0.0 for value in rpy_from_rotations(np.ascontiguousarray(T[None, :3, :3]))[0])
+    return Origin((x, y, z), (roll, pitch, yaw))

@@ -1,0 +1,97 @@
+"""SO(3) and SE(3) as matrices: what is taken for a rotation, and transforms; in other notations: `notations`."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidPose
+
+ROTATION_TOLERANCE = 1e-6
+"""How far an orientation from outside may be from SO(3); within that it is projected."""
+
+_ROTATION_ROUNDING = 5e-15
+"""How far from SO(3) a product of a few rotations may be; such a matrix is taken as it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """A batch of poses T_a_b.
+
+    Attributes:
+        positions: Origins of b in a; shape (N, 3), [m].
+        rotations: Axes of b in a, as columns; shape (N, 3, 3).
+    """
+
+    positions: Array
+    rotations: Array
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def matrices(self) -> Array:
+        """Homogeneous transforms; shape (N, 4, 4)."""
+        Ts = np.zeros((len(self), 4, 4))
+        Ts[:, :3, :3] = self.rotations
+        Ts[:, :3, 3] = self.positions
+        Ts[:, 3, 3] = 1.0
+        return Ts
+
+
+def nearest_rotation(matrix: Array) -> Array:
+    """The rotation nearest to a matrix that is one but for rounding; shape (3, 3) → (3, 3).
+
+    What a double cannot tell from a rotation comes back as it is, so that a rotation that was sent returns unchanged.
+
+    Raises:
+        InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
+    """
+    U, stretches, Vt = np.linalg.svd(matrix)
+    handedness = np.linalg.det(U @ Vt)
+    R = U @ np.diag([1.0, 1.0, handedness]) @ Vt
+    distance = math.hypot(*(matrix - R).ravel())
+    if distance > ROTATION_TOLERANCE:
+        kind = (
+            "a reflection (determinant -1), not a rotation"
+            if handedness < 0.0 and np.abs(stretches - 1.0).max() < ROTATION_TOLERANCE
+            else "not a rotation (RᵀR ≠ I)"
+        )
+        raise InvalidPose(
+            f"the matrix is {kind}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)", _finite(distance)
+        )
+    return np.ascontiguousarray(R if distance > _ROTATION_ROUNDING else matrix)
+
+
+def unit_quaternion(quaternion: Array) -> Array:
+    """The unit quaternion next to one that has length 1 but for rounding; shape (4,) → (4,), any order.
+
+    Raises:
+        InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.
+    """
+    length = math.hypot(*quaternion.tolist())
+    if abs(length - 1.0) > ROTATION_TOLERANCE:
+        raise InvalidPose(
+            f"the quaternion has length {length:.9g}; allowed is 1 ± {ROTATION_TOLERANCE:g}",
+            _finite(abs(length - 1.0)),
+        )
+    return quaternion / length
+
+
+def _finite(distance: float) -> float | None:
+    """The distance, where a double can hold it."""
+    return distance if math.isfinite(distance) else None
+
+
+def transform(position: Array, rotation: Array) -> Array:
+    """Homogeneous transform from a position (3,) and a rotation (3, 3); shape (4, 4)."""
+    T = np.eye(4)
+    T[:3, :3] = rotation
+    T[:3, 3] = position
+    return T
+
+
+def inverse(T_a_b: Array) -> Array:
+    """T_b_a from T_a_b; shape (4, 4)."""
+    R = T_a_b[:3, :3]
+    return transform(-R.T @ T_a_b[:3, 3], R.T)

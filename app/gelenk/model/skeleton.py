@@ -1,0 +1,45 @@
+"""What a robot that shows nothing looks like: rods between its joints, and bodies of these; drawn, and no more."""
+
+import math
+from collections.abc import Container
+
+from gelenk.model.appearance import Solid, Stock
+from gelenk.model.description import MOVABLE, Description, Joint, Link
+
+_THICKNESS = 0.06
+"""Of a rod, half that of a body: what moves is to be seen, and nobody to take it for the robot's own shape."""
+
+
+def skeleton(description: Description, without: Container[str]) -> dict[str, list[Solid]]:
+    """Solids for the links that show nothing themselves, each in its link's frame.
+
+    Args:
+        description: Of the robot.
+        without: Names of meshes that there is no file of.
+
+    Returns:
+        By link: a rod to each joint below, and the body of the joint above where that moves; no link without any. Where
+        other links show something, one that no joint moves at, and has no shape at all, is a frame and gets none.
+    """
+    stock = Stock((math.hypot(*joint.origin.xyz) for joint in description.joints), _THICKNESS)
+    bare = [link for link in description.links if not _shows(link, without)]
+    found = {}
+    for link in bare:
+        above, below = description.joint_above.get(link.name), description.joints_below[link.name]
+        moves = any(joint.type in MOVABLE for joint in (above, *below) if joint)
+        if moves or link.shapes or len(bare) == len(description.links):
+            found[link.name] = _solids(stock, above, below)
+    return {name: solids for name, solids in found.items() if solids}
+
+
+def _shows(link: Link, without: Container[str]) -> bool:
+    return any(shape.role == "visual" and shape.mesh not in without for shape in link.shapes)
+
+
+def _solids(stock: Stock, above: Joint | None, below: tuple[Joint, ...]) -> list[Solid]:
+    solids = [rod for joint in below for rod in stock.rod((0.0, 0.0, 0.0), joint.origin.xyz)]
+    if above is None or above.type not in MOVABLE:
+        return solids
+    if above.type == "prismatic":
+        return solids + stock.slide(above.limits.lower or 0.0, above.limits.upper or 0.0, above.axis)
+    return [*solids, stock.hub(axis=above.axis)]

@@ -1,0 +1,138 @@
+"""XML from outside, as a plain tree of elements with their lines, within limits; nothing is expanded or fetched."""
+
+import re
+from dataclasses import dataclass, field
+from io import BytesIO
+from typing import Any
+from xml.sax import SAXParseException
+from xml.sax.handler import ContentHandler
+from xml.sax.xmlreader import AttributesImpl, InputSource
+
+from defusedxml.common import DefusedXmlException
+from defusedxml.sax import make_parser
+
+from gelenk.model.errors import InvalidUrdf, quoted
+
+MAX_BYTES = 2 * 1024 * 1024
+MAX_DEPTH = 64
+MAX_ELEMENTS = 50_000
+MAX_ATTRIBUTES = 64
+MAX_VALUE_LENGTH = 4096
+
+_DECLARED_ENCODING = re.compile(r"<\?xml[^>]*?\bencoding\s*=\s*[\"']([^\"']*)[\"']")
+_LATE_DECLARATION = re.compile(r"((?>[ \t\r\n\ufeff]|<!--.*?-->)++)(<\?xml\s.*?\?>)", re.DOTALL)
+_KNOWN_ENCODINGS = frozenset({"utf-8", "utf8", "us-ascii", "ascii"})
+
+
+@dataclass(slots=True)
+class Element:
+    """A tag with its attributes, its child elements and the line it starts on (1-based); text is dropped."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int = field(compare=False)
+    children: list["Element"] = field(default_factory=list)
+
+
+def with_declaration_first(text: str) -> str:
+    """A document in which only white space and comments stand before the XML declaration, put right; lines stay."""
+    text = text.removeprefix("\ufeff")
+    late = _LATE_DECLARATION.match(text)
+    return text if late is None else late[2] + late[1].replace("\ufeff", "") + text[late.end() :]
+
+
+def read_xml(text: str) -> Element:
+    """Parse a document strictly.
+
+    Args:
+        text: The document; UTF-8 where it declares an encoding.
+
+    Returns:
+        Its root element.
+
+    Raises:
+        InvalidUrdf: Not well-formed, a DTD or entity in it, or beyond a limit of this module.
+    """
+    content = _checked_bytes(text)
+    tree = _TreeBuilder()
+    parser = make_parser()
+    parser.forbid_dtd = True
+    parser.setContentHandler(tree)
+    source = InputSource()
+    source.setByteStream(BytesIO(content))
+    source.setEncoding("utf-8")
+    try:
+        parser.parse(source)
+    except DefusedXmlException as error:
+        raise InvalidUrdf("a DTD or entity is not allowed", None, tree.line) from error
+    except SAXParseException as error:
+        raise InvalidUrdf(f"not well-formed XML: {error.getMessage()}", None, error.getLineNumber()) from error
+    if tree.root is None:
+        raise InvalidUrdf("the document has no element")
+    return tree.root
+
+
+def _checked_bytes(text: str) -> bytes:
+    if "\0" in text:
+        raise InvalidUrdf("a NUL character is not allowed", None, text.count("\n", 0, text.index("\0")) + 1)
+    try:
+        content = text.removeprefix("\ufeff").encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise InvalidUrdf("the text holds half of a surrogate pair, which no UTF-8 text can") from error
+    if len(content) > MAX_BYTES:
+        raise InvalidUrdf(f"the description has {len(content)} bytes; allowed are {MAX_BYTES}")
+    declared = _DECLARED_ENCODING.match(text.removeprefix("\ufeff"))
+    if declared and declared[1].lower() not in _KNOWN_ENCODINGS:
+        raise InvalidUrdf(f"the encoding {quoted(declared[1])} is not allowed: write UTF-8", None, 1)
+    return content
+
+
+class _TreeBuilder(ContentHandler):
+    """Collects elements, and stops at the first limit that is passed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.root: Element | None = None
+        self._open: list[Element] = []
+        self._count = 0
+        self._locator: Any = None
+
+    @property
+    def line(self) -> int:
+        return int(self._locator.getLineNumber())
+
+    def setDocumentLocator(self, locator: Any) -> None:
+        self._locator = locator
+
+    def startElement(self, name: str, attrs: AttributesImpl) -> None:
+        attributes = dict(attrs.items())
+        self._count += 1
+        self._check(name, attributes)
+        element = Element(name, attributes, self.line)
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self.root = element
+        self._open.append(element)
+
+    def endElement(self, name: str) -> None:  # noqa: ARG002
+        self._open.pop()
+
+    def _check(self, name: str, attributes: dict[str, str]) -> None:
+        if self._count > MAX_ELEMENTS:
+            raise InvalidUrdf(f"more than {MAX_ELEMENTS} elements", None, self.line)
+        if len(self._open) >= MAX_DEPTH:
+            raise InvalidUrdf(f"elements nested deeper than {MAX_DEPTH}", None, self.line)
+        if len(attributes) > MAX_ATTRIBUTES:
+            raise InvalidUrdf(
+                f"element {quoted(name)} has {len(attributes)} attributes; allowed are {MAX_ATTRIBUTES}",
+                None,
+                self.line,
+            )
+        for key, value in attributes.items():
+            if len(value) > MAX_VALUE_LENGTH:
+                raise InvalidUrdf(
+                    f"attribute {quoted(key)} has {len(value)} characters; allowed are {MAX_VALUE_LENGTH}",
+                    None,
+                    self.line,
+                )

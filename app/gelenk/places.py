@@ -1,0 +1,16 @@
+"""Where the files are that come along with the package."""
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def catalogue() -> Path:
+    """The robots of the catalogue: in the package where it is installed, at the top of a checkout otherwise."""
+    installed = _PACKAGE / "robots"
+    return installed if installed.is_dir() else _PACKAGE.parents[1] / "robots"
+
+
+def studio() -> Path:
+    """The bundle of the page to look at robots with."""
+    return _PACKAGE / "studio"

@@ -1,0 +1,294 @@
+"""The arm with the velocity and the force ellipse of its tip: in its plane, or in three projections.
+
+Velocities, forces and lengths have no common scale: each ellipse is drawn as large as suits the arm, and the legend
+says how many metres of paper stand for one unit. A force that is unbounded is a strip without ends.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from gelenk.kinematics.limited_motion import LimitedMotion
+from gelenk.kinematics.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.plots.arm import ArmLine, arm_line
+from gelenk.plots.figure import (
+    FORCE,
+    INK,
+    LINE,
+    LINK,
+    VELOCITY,
+    PictureFormat,
+    as_bytes,
+    metric_axes,
+    new_figure,
+    plain,
+)
+from gelenk.plots.legend import Entry, configuration_lines, legend, legend_height, write_head, write_legend
+from gelenk.plots.shadows import (
+    DASHED,
+    SOLID,
+    Arrow,
+    Outline,
+    Quantity,
+    draw_arrow,
+    draw_outline,
+    draw_quantity,
+)
+
+View: TypeAlias = tuple[Array, str, str]
+"""Two unit vectors of a plane of projection as rows, shape (2, 3), and what its axes are called."""
+
+_LARGEST = 0.38
+"""Semi-axis of the larger extent of an ellipse, in fractions of the arm's extent."""
+_ARROW = 0.46
+"""Length of an arrow likewise."""
+_MARGIN = 0.08
+_TITLE_HEIGHT, _AXES_WIDTH, _AXES_HEIGHT, _LABELS_HEIGHT = 0.55, 5.3, 4.8, 0.65
+"""Of a picture in a plane, [inch]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a picture is to show beside the ellipsoids.
+
+    Attributes:
+        directions: Unit vectors; shape (D, 3).
+        tolerance: Of the force along one that is unbounded.
+        limited: What the joints can do within their limits, where polytopes were asked for.
+    """
+
+    directions: Array
+    tolerance: float
+    limited: LimitedMotion | None
+
+
+NOTHING_MORE = Asked(np.zeros((0, 3)), 0.0, None)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """All that is drawn.
+
+    Attributes:
+        arm: The arm.
+        extent: Its size, [m].
+        quantities: Ellipsoids at its tip.
+        outlines: Polytopes.
+        arrows: Directions.
+    """
+
+    arm: ArmLine
+    extent: float
+    quantities: tuple[Quantity, ...]
+    outlines: tuple[Outline, ...]
+    arrows: tuple[Arrow, ...]
+
+    @property
+    def halves(self) -> list[Array]:
+        """Half the extents of what is at the tip along x, y and z, shape (3,) each, [m of paper]."""
+        arrows: list[Array] = [np.abs(arrow.direction) * 1.1 * _ARROW * self.extent for arrow in self.arrows]
+        return [*(one.halves for one in self.quantities), *(one.halves for one in self.outlines), *arrows]
+
+
+def manipulability_picture(
+    name: str, chain: Chain, q: Array, translation: Ellipsoids | None, kind: PictureFormat, asked: Asked = NOTHING_MORE
+) -> bytes:
+    """The picture.
+
+    Args:
+        name: Of the robot.
+        chain: Base and tip.
+        q: One configuration; shape (n,), [rad or m].
+        translation: Ellipsoids of translation at this configuration alone, in the base's axes; None where the task has
+            no direction of it.
+        kind: What the bytes are.
+        asked: What else is to be seen.
+    """
+    arm = arm_line(chain, q)
+    extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)
+    quantities = () if translation is None else _quantities(chain, translation, extent)
+    outlines = () if translation is None or asked.limited is None else _outlines(translation, asked.limited, extent)
+    plane = _plane(chain, translation)
+    arrows = _arrows(translation, quantities, asked)
+    scene = Scene(arm, extent, quantities, outlines, arrows)
+    entries = legend(quantities, outlines, arrows, translation)
+    title = f"{plain(name)}: {plain(chain.base_frame)} → {plain(chain.tip_frame)}"
+    figure = (
+        _in_projections(scene, title, chain, q, entries)
+        if plane is None
+        else _in_plane(scene, plane, title, chain, q, entries)
+    )
+    return as_bytes(figure, kind)
+
+
+def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
+    """Two unit vectors of the plane that the picture is in: that of all motion, else of the task; shape (2, 3)."""
+    space = space_of(chain, (0, 1, 2))
+    if space.is_plane:
+        return space.spread(space.basis.T)
+    if translation is not None and translation.space.is_plane:
+        return translation.space.spread(translation.space.basis.T)
+    return None
+
+
+def _units(chain: Chain) -> tuple[str, str]:
+    """Of joint velocities and of joint forces."""
+    kinds = frozenset(chain.flat.joints[:, 0].tolist())
+    named = {frozenset({0}): ("rad/s", "N m"), frozenset({1}): ("m/s", "N")}
+    return named.get(kinds, ("joint velocity", "joint effort"))
+
+
+def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Quantity, ...]:
+    """The velocity and the force ellipsoid; none where the tip has no translation."""
+    sigmas = translation.sigmas[0]
+    if not len(sigmas):
+        return ()
+    axes = translation.space.spread(translation.axes[0].T).T
+    velocity, force = _units(chain)
+    inverses = np.divide(1.0, sigmas, out=np.full_like(sigmas, np.inf), where=sigmas > 0.0)
+    return (
+        Quantity("Velocity", f"m/s per {velocity}", VELOCITY, SOLID, axes, sigmas, _scale(sigmas, extent)),
+        Quantity("Force", f"N per {force}", FORCE, DASHED, axes, inverses, _scale(inverses, extent)),
+    )
+
+
+def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) -> tuple[Outline, ...]:
+    found = []
+    for name, unit, color, numbers, vertices in (
+        ("Velocity", "m/s", VELOCITY, limited.velocities, limited.velocity_vertices),
+        ("Force", "N", FORCE, limited.forces, limited.force_vertices),
+    ):
+        missing = f"not every joint has {'a velocity' if name == 'Velocity' else 'an effort'} limit"
+        if numbers is not None:
+            missing = "unbounded"
+        scale = 1.0 if vertices is None else _scale(np.linalg.norm(vertices, axis=1), extent)
+        corners = None if vertices is None else translation.space.spread(vertices)
+        found.append(Outline(name, unit, color, corners, scale, missing))
+    return tuple(found)
+
+
+def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Asked) -> tuple[Arrow, ...]:
+    """The directions; the legend has their components as they were given."""
+    directions = asked.directions
+    inside, ratios = np.zeros(len(directions), dtype=bool), np.full((2, len(directions)), np.nan)
+    if translation is not None and quantities and len(directions):
+        inside = is_within_task(translation.space, directions)
+        ratios = np.array(transmission_ratios(translation, directions, asked.tolerance)).reshape(2, -1)
+    arrows = []
+    for i, direction in enumerate(directions):
+        words = f"({', '.join(f'{component + 0.0:.3g}' for component in np.round(direction, 9))}): "
+        if not inside[i]:
+            arrows.append(Arrow(i + 1, direction, (), words + "not in the task"))
+            continue
+        values = [float(ratio) for ratio in ratios[:, i]]
+        texts = [f"{value:.4g}" if np.isfinite(value) else "unbounded" for value in values]
+        ends = tuple(
+            (quantity.color, value * quantity.scale)
+            for quantity, value in zip(quantities, values, strict=True)
+            if np.isfinite(value)
+        )
+        arrows.append(Arrow(i + 1, direction, ends, f"{words}v {texts[0]}, F {texts[1]}"))
+    return tuple(arrows)
+
+
+def _scale(sizes: Array, extent: float) -> float:
+    """Metres of paper a unit, one significant digit of 1, 2 or 5, so that the largest end stays within the picture."""
+    largest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
+    if not largest > 0.0:
+        return 1.0
+    wanted = _LARGEST * extent / largest
+    decade = 10.0 ** np.floor(np.log10(wanted))
+    return float(max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted))
+
+
+def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
+    width = 6.4
+    lines = configuration_lines(chain, q, width)
+    top, bottom = _TITLE_HEIGHT + len(lines) * LINE, _LABELS_HEIGHT + legend_height(entries)
+    height = top + _AXES_HEIGHT + bottom
+    figure = new_figure(width, height)
+    axes = figure.add_axes((0.13, bottom / height, _AXES_WIDTH / width, _AXES_HEIGHT / height))
+    view = (plane, f"{_axis_name(plane[0], 1)} / m", f"{_axis_name(plane[1], 2)} / m")
+    halves = [np.abs(plane) @ half for half in scene.halves]
+    middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
+    _draw(axes, view, scene)
+    # The narrower of the two is widened, so that the axes fill their place.
+    _look_at(axes, middle, np.maximum(half, half[::-1] * _shape(axes) ** np.array([1.0, -1.0])))
+    write_head(figure, title, lines)
+    write_legend(figure, (0.06, (bottom - _LABELS_HEIGHT) / height), entries)
+    return figure
+
+
+def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
+    """Front and side above, the view from above below the front, on one scale."""
+    width, side = 9.0, 3.6
+    lines = configuration_lines(chain, q, width)
+    height = _TITLE_HEIGHT + len(lines) * LINE + 2.0 * (side + _LABELS_HEIGHT)
+    figure = new_figure(width, height)
+    names, e = ("x / m", "y / m", "z / m"), np.eye(3)
+    middle, half = _box(scene.arm.points, scene.halves, scene.extent)
+    upper = side + 2.0 * _LABELS_HEIGHT
+    for (i, j), left, bottom in (((0, 2), 0.72, upper), ((1, 2), 5.13, upper), ((0, 1), 0.72, _LABELS_HEIGHT)):
+        axes = figure.add_axes((left / width, bottom / height, side / width, side / height))
+        _draw(axes, (e[[i, j]], names[i], names[j]), scene)
+        _look_at(axes, middle[[i, j]], np.full(2, half.max()))
+    write_head(figure, title, lines)
+    write_legend(figure, (5.13 / width, (side + 0.35) / height), entries)
+    return figure
+
+
+def _axis_name(direction: Array, number: int) -> str:
+    """x, y or z where the direction is one of these."""
+    for name, unit in zip("xyz", np.eye(3), strict=True):
+        if np.abs(direction - unit).max() < 1e-9:
+            return name
+    return f"in-plane direction {number}"
+
+
+def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, Array]:
+    """Middle and half the size of what holds the arm and what is at its tip."""
+    everything = np.concatenate([points, *(points[-1:] + sign * half for half in halves for sign in (1.0, -1.0))])
+    lower, upper = everything.min(axis=0), everything.max(axis=0)
+    return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
+
+
+def _shape(axes: Axes) -> float:
+    """Width over height."""
+    width, height = axes.bbox.size
+    return float(width / height)
+
+
+def _look_at(axes: Axes, middle: Array, half: Array) -> None:
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
+
+
+def _draw(axes: Axes, view: View, scene: Scene) -> None:
+    plane, x_label, y_label = view
+    metric_axes(axes, x_label, y_label)
+    points = scene.arm.points @ plane.T
+    tip = points[-1]
+    for quantity in scene.quantities:
+        draw_quantity(axes, plane, tip, quantity, scene.extent)
+    for outline in scene.outlines:
+        draw_outline(axes, plane, tip, outline)
+    _draw_arm(axes, points, scene.arm)
+    for arrow in scene.arrows:
+        draw_arrow(axes, plane, tip, arrow, _ARROW * scene.extent)
+
+
+def _draw_arm(axes: Axes, points: Array, arm: ArmLine) -> None:
+    caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
+    axes.plot(points[:, 0], points[:, 1], color=LINK, linewidth=5.0, zorder=2, **caps)
+    axes.plot(*points[0], marker="s", markersize=11, color=INK, zorder=2.5)
+    edge: dict[str, Any] = {"color": "white", "markeredgecolor": INK, "markeredgewidth": 1.4, "zorder": 3}
+    for slides, marker, size in ((False, "o", 8.0), (True, "s", 7.5)):
+        some = points[1:-1][arm.slides == slides]
+        axes.plot(some[:, 0], some[:, 1], marker, markersize=size, **edge)
+    axes.plot(*points[-1], marker="o", markersize=5.0, color=INK, zorder=5)

@@ -1,0 +1,101 @@
+"""A corner passed without a stop: the way in its plane, and speed and acceleration over time."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from gelenk.model.arrays import Array
+from gelenk.plots.figure import (
+    FORCE,
+    INK,
+    LINK,
+    TITLE,
+    VELOCITY,
+    PictureFormat,
+    as_bytes,
+    font,
+    metric_axes,
+    new_figure,
+    write,
+)
+from gelenk.plots.profiles import curve, time_axes
+from gelenk.trajectory.fly_over import Blend
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+
+_POINTS = 200
+_MARGIN = 0.12
+_LEAST = 0.25
+"""Height of the way's picture, in fractions of its width, at least: a straight way is flat."""
+
+
+def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: PictureFormat) -> bytes:
+    """The picture.
+
+    Args:
+        blend: The parabola at the corner.
+        motion: The whole motion, or the blend's; None where that takes no time. k coordinates, [m].
+        kind: What the bytes are.
+    """
+    figure = new_figure(6.4, 8.0)
+    title = f"Fly-over in {blend.time:.4g} s: d₁ = {blend.distance_before:.4g} m, d₂ = {blend.distance_after:.4g} m"
+    write(figure, 0.06, 0.98, [title], size=TITLE)
+    axes = figure.add_axes((0.13, 0.45, 0.83, 0.48))
+    _draw_way(axes, blend)
+    for bottom, order, label, color in (
+        (0.25, 1, "speed / (m/s)", VELOCITY),
+        (0.07, 2, "acceleration / (m/s²)", FORCE),
+    ):
+        part = figure.add_axes((0.13, bottom, 0.83, 0.13))
+        time_axes(part, label, is_last=order == 2)
+        if motion is not None:
+            times, values = curve(motion.derivative(order))
+            part.plot(times, np.linalg.norm(values, axis=1), color=color, linewidth=1.5)
+            part.set_xlim(motion.breaks[0], motion.breaks[-1])
+            part.set_ylim(bottom=0.0)
+    return as_bytes(figure, kind)
+
+
+def _draw_way(axes: Axes, blend: Blend) -> None:
+    corner = blend.corner
+    plane = _plane(blend)
+    A, B, C, entry, exit_ = (
+        plane(point[None])[0] for point in (corner.start, corner.corner, corner.end, blend.entry, blend.exit)
+    )
+    is_flat = len(corner.start) == 2
+    metric_axes(axes, "x / m" if is_flat else "along AB / m", "y / m" if is_flat else "across / m")
+    legs = np.array([A, B, C])
+    axes.plot(*legs.T, color=LINK, linewidth=1.2, linestyle=(0.0, (4.0, 3.0)))
+    times = np.linspace(0.0, blend.time, _POINTS)
+    parabola = plane(times[:, None] ** np.arange(3) @ blend.coefficients)
+    solid: dict[str, Any] = {"color": VELOCITY, "linewidth": 2.0, "solid_capstyle": "round"}
+    axes.plot(*np.concatenate((A[None], parabola, C[None])).T, **solid)
+    for name, point in (("A", A), ("B", B), ("C", C), ("A'", entry), ("C'", exit_)):
+        is_end = name in {"A'", "C'"}
+        axes.plot(*point, "o", markersize=5.0, color="white" if is_end else INK, markeredgecolor=INK, zorder=4)
+        # Where the way leads back the two ends of the blend are at one place.
+        offset = (6.0, -14.0) if name == "C'" else (6.0, 6.0)
+        axes.annotate(name, point, offset, textcoords="offset points", fontproperties=font(), color=INK)
+    _frame(axes, np.concatenate((legs, parabola)))
+
+
+def _plane(blend: Blend) -> Any:
+    """What brings points into the plane of the corner: as they are in two dimensions, else B its origin, x along AB."""
+    corner = blend.corner
+    if len(corner.start) == 2:
+        return lambda points: points
+    along = corner.direction_before
+    across = corner.direction_after - (corner.direction_after @ along) * along
+    length = np.linalg.norm(across)
+    across = across / length if length > 1e-9 else np.zeros_like(across)
+    return lambda points: (points - corner.corner) @ np.column_stack((along, across))
+
+
+def _frame(axes: Axes, points: Array) -> None:
+    """Room around the way."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = float((high - low).max())
+    half = np.maximum(0.5 * (high - low), 0.5 * _LEAST * size) + _MARGIN * size
+    middle = 0.5 * (low + high)
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])

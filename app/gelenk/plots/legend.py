@@ -1,0 +1,115 @@
+"""Title and legend of a picture of ellipsoids: what everything is, how large, and on which scale."""
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from gelenk.kinematics.manipulability import Ellipsoids
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.plots.figure import INK, LINE, QUIET, TITLE, write
+from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
+
+_DIGITS = {1: 4, 2: 4, 3: 3}
+_MOST_NAMED = 6
+"""Directions in the legend."""
+
+
+_MOST_LINES = 4
+"""Of a configuration."""
+_CHARACTER = 0.078
+"""Width of one, [inch]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Lines of the legend, with a piece of the line they are about where there is one."""
+
+    lines: tuple[str, ...]
+    line: Line2D | None = None
+    color: str = INK
+
+
+def legend(
+    quantities: Sequence[Quantity],
+    outlines: Sequence[Outline],
+    arrows: Sequence[Arrow],
+    translation: Ellipsoids | None,
+) -> list[Entry]:
+    """What everything is, how large, and on which scale."""
+    entries = [_entry(quantity) for quantity in quantities]
+    entries += [_outline_entry(outline) for outline in outlines]
+    if translation is None:
+        entries.append(Entry(("The task has no translation, which alone is drawn here.",), color=QUIET))
+    elif not quantities:
+        entries.append(Entry(("No joint moves the tip in the directions of the task.",), color=QUIET))
+    else:
+        sigmas = translation.sigmas[0]
+        isotropy = sigmas[-1] / sigmas[0] if sigmas[0] > 0.0 else 0.0
+        rank, d = translation.ranks[0], translation.space.dimension
+        singular = ": singular" if rank < d else ""
+        measure = f"Yoshikawa's measure {translation.measures[0]:.4g}, isotropy {isotropy:.3g}"
+        entries.append(Entry((measure, f"Rank {rank} of {d}{singular}")))
+    if arrows:
+        words = [f"{arrow.number}  {arrow.words}" for arrow in arrows[:_MOST_NAMED]]
+        more = len(arrows) - len(words)
+        words.insert(0, "Along each direction alone, velocity v and force F:")
+        entries.append(Entry((*words, *([f"and {more} more directions"] if more else []))))
+    return entries
+
+
+def _entry(quantity: Quantity) -> Entry:
+    d = len(quantity.sizes)
+    ends = ", ".join("unbounded" if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
+    lines = (
+        f"{quantity.name} {quantity.shape}, semi-{'axis' if d == 1 else 'axes'} {ends}",
+        f"1 {quantity.unit} is drawn as {quantity.scale:g} m",
+    )
+    return Entry(lines, Line2D([], [], color=quantity.color, linewidth=THIN, linestyle=quantity.dashes))
+
+
+def _outline_entry(outline: Outline) -> Entry:
+    name = f"{outline.name} polytope"
+    if outline.vertices is None:
+        return Entry((f"{name}: {outline.missing}",), color=QUIET)
+    lines = (f"{name}, within the limits of the joints", f"1 {outline.unit} is drawn as {outline.scale:g} m")
+    return Entry(lines, Line2D([], [], color=outline.color, linewidth=THIN, linestyle=DOTTED))
+
+
+def legend_height(entries: Sequence[Entry]) -> float:
+    """Of a legend, [inch]."""
+    return sum((len(entry.lines) + 0.35) * LINE for entry in entries) + 0.1
+
+
+def configuration_lines(chain: Chain, q: Array, width: float) -> list[str]:
+    """The joint positions in lines for a figure of a width, [inch]."""
+    slides = {int(variable) for prismatic, variable in chain.flat.joints.tolist() if prismatic}
+    units = ["m" if i in slides else "rad" for i in range(len(q))]
+    mixed = len(set(units)) > 1
+    values = [f"{value:.4g} {unit}" if mixed else f"{value:.4g}" for value, unit in zip(q + 0.0, units, strict=True)]
+    text = f"q = ({', '.join(values)})" + ("" if mixed or not units else f" {units[0]}")
+    lines = textwrap.wrap(text, int((width - 0.8) / _CHARACTER))
+    return lines if len(lines) <= _MOST_LINES else [*lines[: _MOST_LINES - 1], "…"]
+
+
+def write_head(figure: Figure, title: str, lines: Sequence[str]) -> None:
+    """The title, and the configuration below it."""
+    left, height = 0.06, figure.get_figheight()
+    write(figure, left, 1.0 - 0.19 / height, [title], size=TITLE)
+    write(figure, left, 1.0 - 0.46 / height, lines, color=QUIET)
+
+
+def write_legend(figure: Figure, place: tuple[float, float], entries: Sequence[Entry]) -> None:
+    """The entries, one below the other, from an upper left corner in fractions of the figure."""
+    left, top = place
+    line, swatch = LINE / figure.get_figheight(), 0.36 / figure.get_figwidth()
+    for entry in entries:
+        if entry.line is not None:
+            entry.line.set_data([left, left + swatch], [top - line / 2.0] * 2)
+            figure.add_artist(entry.line)
+        write(figure, left + 1.35 * swatch, top, entry.lines, color=entry.color)
+        top -= (len(entry.lines) + 0.35) * line

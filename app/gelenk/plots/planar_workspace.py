@@ -1,0 +1,112 @@
+"""The two workspaces of a planar arm: rings around its base, and the arm with its tip at a point."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Annulus, Circle, Patch, Rectangle
+
+from gelenk.course.planar import Interval, PlanarWorkspace, orientations, posture, share
+from gelenk.plots.figure import (
+    FORCE,
+    INK,
+    LINE,
+    LINK,
+    TITLE,
+    VELOCITY,
+    PictureFormat,
+    as_bytes,
+    metric_axes,
+    new_figure,
+    write,
+)
+
+_PRIMARY, _SECONDARY = VELOCITY, FORCE
+_MARGIN = 1.08
+_LINE = 1e-9
+"""Width of a ring that is a circle, in fractions of its radius."""
+_SMALLEST = 1e-6
+"""Half the width of a picture of next to nothing, [m]."""
+
+
+def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None, kind: PictureFormat) -> bytes:
+    """The picture.
+
+    Args:
+        arm: The arm.
+        point: x and y; the arm is drawn with its tip there where it can be, [m].
+        kind: What the bytes are.
+    """
+    figure = new_figure(6.4, 7.6)
+    axes = figure.add_axes((0.13, 0.19, 0.83, 0.73))
+    metric_axes(axes, "x / m", "y / m")
+    half = _MARGIN * max(sum(arm.links), _SMALLEST, *(abs(value) for value in point or ()))
+    axes.set_xlim(-half, half)
+    axes.set_ylim(-half, half)
+    _draw_rings(axes, arm.primary, _PRIMARY, 0.12, 2.0)
+    _draw_rings(axes, arm.secondary, _SECONDARY, 0.28, 2.1)
+    axes.plot(0.0, 0.0, marker="s", markersize=11, color=INK, zorder=3.5)
+    if point is not None:
+        _draw_arm(axes, arm, point)
+    lengths = ", ".join(f"{length:.4g}" for length in arm.links)
+    write(figure, 0.06, 0.975, [f"Planar arm with links of {lengths} m"], size=TITLE)
+    _write_legend(figure, arm, point)
+    return as_bytes(figure, kind)
+
+
+def _draw_rings(axes: Axes, rings: Sequence[Interval], color: str, strength: float, order: float) -> None:
+    """Each ring as what it is: a ring, a disc, a circle or a point."""
+    for inner, outer in rings:
+        look: dict[str, Any] = {"facecolor": (color, strength), "edgecolor": color, "linewidth": 1.4, "zorder": order}
+        if outer == 0.0:
+            axes.plot(0.0, 0.0, marker="o", markersize=16, markeredgecolor=color, color="white", zorder=order)
+        elif inner == 0.0:
+            axes.add_patch(Circle((0.0, 0.0), outer, **look))
+        elif outer - inner <= _LINE * outer:
+            axes.add_patch(Circle((0.0, 0.0), outer, **{**look, "fill": False}))
+        else:
+            axes.add_patch(Annulus((0.0, 0.0), outer, outer - inner, **look))
+
+
+def _draw_arm(axes: Axes, arm: PlanarWorkspace, point: Sequence[float]) -> None:
+    """The arm in the middle of the first orientations that it has there; the point alone where it has none."""
+    found = orientations(arm, *point)
+    if found:
+        points = posture(arm, point[0], point[1], float(np.mean(found[0])))
+        caps: dict[str, Any] = {"solid_capstyle": "round", "solid_joinstyle": "round"}
+        axes.plot(points[:, 0], points[:, 1], color=LINK, linewidth=5.0, zorder=3, **caps)
+        edge: dict[str, Any] = {"color": "white", "markeredgecolor": INK, "markeredgewidth": 1.4}
+        axes.plot(points[1:-1, 0], points[1:-1, 1], "o", markersize=8.0, zorder=4, **edge)
+    axes.plot(*point, marker="o", markersize=5.0, color=INK, zorder=5)
+
+
+def _write_legend(figure: Figure, arm: PlanarWorkspace, point: Sequence[float] | None) -> None:
+    line, left, top = LINE / figure.get_figheight(), 0.13, 0.115
+    swatch = 0.3 / figure.get_figwidth()
+    for name, rings, color, strength in (
+        ("WS₁, at least one orientation", arm.primary, _PRIMARY, 0.12),
+        ("WS₂, all orientations", arm.secondary, _SECONDARY, 0.28),
+    ):
+        patch: Patch = Rectangle((left, top - 0.75 * line), swatch, 0.6 * line, facecolor=(color, strength))
+        patch.set(edgecolor=color, linewidth=1.2, transform=figure.transFigure)
+        figure.add_artist(patch)
+        write(figure, left + 1.4 * swatch, top, [f"{name}: {' and '.join(map(_words, rings)) or 'nowhere'}"])
+        top -= 1.15 * line
+    if point is not None:
+        write(figure, left + 1.4 * swatch, top, [f"At ({point[0]:.4g}, {point[1]:.4g}) m: {_reached(arm, point)}"])
+
+
+def _reached(arm: PlanarWorkspace, point: Sequence[float]) -> str:
+    found = orientations(arm, *point)
+    if part := share(found):
+        return f"{100.0 * part:.4g} % of all orientations"
+    return {0: "not reached", 1: "one orientation"}.get(len(found), f"{len(found)} orientations")
+
+
+def _words(ring: Interval) -> str:
+    inner, outer = ring
+    if outer == 0.0:
+        return "the base alone"
+    return f"a circle at {outer:.4g} m" if outer - inner <= _LINE * outer else f"{inner:.4g} to {outer:.4g} m"

@@ -1,0 +1,235 @@
+"""Profiles of a motion over time: position, velocity, acceleration and jerk, with the limits as lines."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from gelenk.model.arrays import Array
+from gelenk.plots.figure import (
+    INK,
+    LINE,
+    LINK,
+    QUIET,
+    RULE,
+    TITLE,
+    PictureFormat,
+    as_bytes,
+    font,
+    new_figure,
+    plain,
+    write,
+)
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+
+_COLORS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b4c9a", "#1f2933")
+"""Those of Okabe and Ito that are seen on white, and two more."""
+_DASHES: Final[tuple[tuple[float, ...], ...]] = ((), (4.0, 1.5), (1.2, 1.2), (6.0, 1.5, 1.2, 1.5))
+_POINTS = 600
+_A_ROW = 4
+_MARGIN = 0.06
+_FEW_PIECES = 30
+_LIMIT_DASHES: Final = (0.0, (5.0, 3.0))
+_ROOM = 0.012
+"""Width of a character, as a share of a panel's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A part of the motion with limits of its own.
+
+    Attributes:
+        label: What it is.
+        start: [s].
+        end: [s].
+        limits: Of velocity, acceleration and jerk; each of shape (n,).
+    """
+
+    label: str
+    start: float
+    end: float
+    limits: Sequence[Array]
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """What is drawn beside the motion.
+
+    Attributes:
+        names: Of the joints.
+        units: Of a position, a velocity, …; four of them.
+        limits: Of velocity, acceleration and jerk; each of shape (n,), None where there is none.
+        knots: Times and positions that are marked; shapes (K,) and (K, n); None for none.
+        spans: Parts one after the other, whose limits stand in the place of `limits`; their ends are marked.
+    """
+
+    names: Sequence[str]
+    units: Sequence[str]
+    limits: Sequence[Array | None]
+    knots: tuple[Array, Array] | None = None
+    spans: Sequence[Span] = ()
+
+
+def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind: PictureFormat) -> bytes:
+    """The picture.
+
+    Args:
+        title: What moves, or how.
+        motion: Positions in time.
+        lines: What is drawn beside it.
+        kind: What the bytes are.
+    """
+    joints = motion.coefficients.shape[2]
+    rows = -(-joints // _A_ROW) if joints > 1 else 0
+    height = 8.0 + rows * LINE
+    figure = new_figure(7.2, height)
+    write(figure, 0.03, 1.0 - 0.14 / height, [plain(title)], size=TITLE)
+    top, bottom = 1.0 - (0.55 + rows * LINE) / height, 0.5 / height
+    step = (top - bottom) / 4.0
+    for order, name in enumerate(("position", "velocity", "acceleration", "jerk")):
+        axes = figure.add_axes((0.14, top - (order + 1) * step + 0.012, 0.825, step - 0.024))
+        time_axes(axes, f"{name}\n{lines.units[order]}", is_last=order == 3)
+        _draw(axes, motion.derivative(order))
+        if order > 0:
+            _limit(axes, lines, order - 1)
+        elif lines.knots is not None:
+            _mark(axes, *lines.knots)
+        _frame(axes, motion)
+        _divide(axes, lines.spans, is_named=order == 0)
+    if joints > 1:
+        _legend(figure, lines.names, height)
+    return as_bytes(figure, kind)
+
+
+def _look(joint: int) -> tuple[str, tuple[float, ...]]:
+    """Colour and dashes: the dashes change when all colours have been used."""
+    return _COLORS[joint % len(_COLORS)], _DASHES[joint // len(_COLORS) % len(_DASHES)]
+
+
+def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
+    """Axes of a quantity over time; the last of several below each other says what time is."""
+    axes.set_axisbelow(True)
+    axes.grid(color=RULE, linewidth=0.6)
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in {"left", "bottom"})
+        spine.set_color(QUIET)
+        spine.set_linewidth(0.8)
+    axes.tick_params(colors=QUIET, labelsize=8.0, length=3, width=0.8, labelbottom=is_last)
+    axes.set_ylabel(label, fontproperties=font(), color=INK)
+    axes.yaxis.set_label_coords(-0.09, 0.5)
+    if is_last:
+        axes.set_xlabel("t / s", fontproperties=font(), color=INK)
+
+
+def curve(motion: PiecewisePolynomial) -> tuple[Array, Array]:
+    """Points to draw a motion by: each piece with both its ends, so that a jump is a vertical line.
+
+    Returns:
+        Times, shape (N,), and values, shape (N, n).
+    """
+    pieces, degree = len(motion.breaks) - 1, motion.coefficients.shape[1] - 1
+    count = 2 if degree == 0 else max(3, _POINTS // pieces)
+    lengths = np.diff(motion.breaks)
+    local = lengths[:, None] * np.linspace(0.0, 1.0, count)
+    values = np.broadcast_to(motion.coefficients[:, -1:], (pieces, count, motion.coefficients.shape[2]))
+    for k in range(degree - 1, -1, -1):
+        values = values * local[:, :, None] + motion.coefficients[:, k : k + 1]
+    return (motion.breaks[:-1, None] + local).ravel(), values.reshape(pieces * count, -1)
+
+
+def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
+    times, values = curve(_trimmed(motion))
+    for j in range(values.shape[1]):
+        color, dashes = _look(j)
+        axes.plot(times, values[:, j], color=color, linewidth=1.5, dashes=dashes, zorder=3)
+
+
+def _limit(axes: Axes, lines: Lines, which: int) -> None:
+    """The limits of all joints to either side, one line where they have it in common."""
+    if not lines.spans:
+        limit = lines.limits[which]
+        if limit is not None:
+            for bound, color in _bounds(limit[None]):
+                for side in (bound, -bound):
+                    axes.axhline(float(side[0]), color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
+        return
+    # What is no number between two spans leaves a gap in the line.
+    times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
+    limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
+    for bound, color in _bounds(limits):
+        for side in (bound, -bound):
+            axes.plot(times, side, color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
+
+
+def _bounds(limits: Array) -> list[tuple[Array, str]]:
+    """Limits over time and their colours, each once; one that joints share is nobody's; shape (K, n) → (K,) each."""
+    found, joints, counts = np.unique(limits, axis=1, return_index=True, return_counts=True)
+    return [
+        (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else QUIET)
+        for k in range(found.shape[1])
+    ]
+
+
+def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
+    """Where one part becomes the next; what each is stands above it, where there is room."""
+    whole = spans[-1].end - spans[0].start if spans else 0.0
+    for span in spans[1:]:
+        axes.axvline(span.start, color=LINK, linewidth=1.2, zorder=1)
+    for span in spans if is_named else ():
+        if span.end - span.start > _ROOM * len(span.label) * whole:
+            axes.text(
+                0.5 * (span.start + span.end),
+                1.02,
+                plain(span.label),
+                transform=axes.get_xaxis_transform(),
+                fontproperties=font(8.0),
+                color=QUIET,
+                ha="center",
+                va="bottom",
+                parse_math=False,
+            )
+
+
+def _trimmed(motion: PiecewisePolynomial) -> PiecewisePolynomial:
+    """Without leading powers that no piece has."""
+    used = np.flatnonzero(np.abs(motion.coefficients).max(axis=(0, 2)) > 0.0)
+    size = int(used[-1]) + 1 if len(used) > 0 else 1
+    return PiecewisePolynomial(motion.breaks, motion.coefficients[:, :size])
+
+
+def _mark(axes: Axes, times: Array, positions: Array) -> None:
+    for j in range(positions.shape[1]):
+        color, _ = _look(j)
+        edge: dict[str, Any] = {"markerfacecolor": "white", "markeredgecolor": color, "markeredgewidth": 1.2}
+        axes.plot(times, positions[:, j], "o", markersize=4.5, zorder=4, clip_on=False, **edge)
+
+
+def _frame(axes: Axes, motion: PiecewisePolynomial) -> None:
+    """The same stretch of time in all four, the switching times marked where they are few, room around the values."""
+    start, end = float(motion.breaks[0]), float(motion.breaks[-1])
+    if end > start:
+        axes.set_xlim(start, end)
+    if len(motion.breaks) <= _FEW_PIECES:
+        for time in motion.breaks[1:-1]:
+            axes.axvline(float(time), color=RULE, linewidth=1.0, zorder=1)
+    axes.margins(y=_MARGIN)
+    low, high = axes.dataLim.intervaly
+    if high - low == 0.0:
+        room = max(1.0, 0.1 * abs(low))
+        axes.set_ylim(low - room, high + room)
+
+
+def _legend(figure: Figure, names: Sequence[str], height: float) -> None:
+    top = 1.0 - 0.42 / height
+    for j, name in enumerate(names):
+        x, y = 0.14 + 0.22 * (j % _A_ROW), top - (j // _A_ROW) * LINE / height
+        color, dashes = _look(j)
+        swatch = Line2D([x, x + 0.03], [y - 0.075 / height] * 2, color=color, linewidth=1.5, dashes=dashes)
+        swatch.set(transform=figure.transFigure)
+        figure.add_artist(swatch)
+        shown = plain(name)
+        write(figure, x + 0.037, y, [shown if len(shown) <= 18 else shown[:17] + "…"])

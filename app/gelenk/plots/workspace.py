@@ -1,0 +1,229 @@
+"""A workspace as seen along the axes, coloured by how manipulable or how dexterous the arm is there.
+
+Each picture element shows the largest value of what lies behind it. Drawn point by point an SVG of a million samples
+would be of no use to anybody: the elements are one image, whatever the number of samples, and all else is lines.
+"""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from gelenk.model.arrays import Array
+from gelenk.plots.figure import (
+    INK,
+    LINE,
+    QUIET,
+    TEXT,
+    TITLE,
+    PictureFormat,
+    as_bytes,
+    font,
+    metric_axes,
+    new_figure,
+    plain,
+    write,
+)
+
+View: TypeAlias = tuple[Array, Array, str, str]
+"""Unit vectors to the right and up, shape (3,) each, and what they are called."""
+
+_MOST_ELEMENTS, _FEWEST_ELEMENTS = 160, 24
+"""Picture elements along the longest side of a cloud."""
+_MOST_VOXELS = 400
+"""Those of a grid; where it has more, several voxels share an element."""
+_MARGIN = 0.06
+_TITLE_LENGTH = 66
+"""Letters of a title that fit into one line."""
+_ROUNDING = 1e-12
+_COLORS = "viridis"
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What is drawn.
+
+    Attributes:
+        rows: Positions and values; shape (N, k), the first three columns x y z, [m].
+        columns: What the columns are.
+        robot: Its name.
+        ends: Base and tip.
+        notes: Lines beside it.
+        origin: Centre of a voxel; shape (3,), [m].
+        axes: Unit vectors as columns, those that the workspace extends along first; shape (3, 3).
+        dimensions: How many these are.
+        cell: Edge of a voxel, [m], where the rows are voxels.
+    """
+
+    rows: Array
+    columns: tuple[str, ...]
+    robot: str
+    ends: tuple[str, str]
+    notes: tuple[str, ...]
+    origin: Array
+    axes: Array
+    dimensions: int
+    cell: float
+
+    @property
+    def is_cloud(self) -> bool:
+        """Whether each row is a sample."""
+        return "measure" in self.columns
+
+    @property
+    def element(self) -> float:
+        """Edge of a picture element, [m]: a voxel's or several, or such that most have some samples behind them."""
+        longest = float(np.ptp(self.rows[:, :3], axis=0).max()) if len(self.rows) else 1.0
+        if _is_one_place(self.rows[:, :3]):
+            lower, upper = _corners(self.rows[:, :3])
+            return float((upper - lower).max()) / _FEWEST_ELEMENTS
+        if not self.is_cloud:
+            return self.cell * max(1.0, float(np.ceil(longest / (self.cell * _MOST_VOXELS))))
+        count = np.clip(np.sqrt(len(self.rows)) / 2.0, _FEWEST_ELEMENTS, _MOST_ELEMENTS)
+        return longest / float(count)
+
+    @property
+    def values(self) -> Array:
+        """What the colours show; shape (N,)."""
+        return np.asarray(self.rows[:, self.columns.index(self._value)])
+
+    @property
+    def _value(self) -> str:
+        names = ("dexterity", "best_measure", "measure")
+        return next(name for name in names if name in self.columns)
+
+    @property
+    def label(self) -> str:
+        """The quantity and unit that the colours show."""
+        what = "Share of the orientations reached" if self._value == "dexterity" else "Manipulability measure"
+        return what if self.is_flat else f"{what},\nthe largest along the line of sight"
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether it is drawn in its plane."""
+        return self.dimensions == 2
+
+
+def picture_bytes(picture: Picture, kind: PictureFormat) -> bytes:
+    """The picture drawn: in its plane where the workspace is flat, else from the front, the side and above."""
+    values = picture.values
+    largest = float(values.max(initial=0.0))
+    ends = Normalize(0.0, 1.0 if picture.columns[-1] == "dexterity" else largest or 1.0)
+    figure = _in_its_plane(picture, ends) if picture.is_flat else _in_projections(picture, ends)
+    base_frame, tip_frame = picture.ends
+    robot, chain = f"Workspace of {plain(picture.robot)}", f"{plain(base_frame)} → {plain(tip_frame)}"
+    if len(robot) + len(chain) < _TITLE_LENGTH:
+        write(figure, 0.06, 0.975, [f"{robot}: {chain}"], size=TITLE)
+    else:
+        write(figure, 0.06, 0.99, [robot, chain], size=TITLE)
+    return as_bytes(figure, kind)
+
+
+def _in_its_plane(picture: Picture, ends: Normalize) -> Figure:
+    figure = new_figure(7.0, 8.6)
+    right, up = picture.axes[:, 0], picture.axes[:, 1]
+    axes = figure.add_axes((0.11, 0.26, 0.84, 0.68))
+    _draw(axes, picture, (right, up, _axis_name(right, 1), _axis_name(up, 2)), ends)
+    _colour_bar(figure, (0.11, 0.155, 0.84, 0.014), picture, ends)
+    write(figure, 0.11, 0.115, picture.notes, color=QUIET)
+    return figure
+
+
+def _in_projections(picture: Picture, ends: Normalize) -> Figure:
+    """Front and side above, the view from above below the front, on one scale."""
+    figure = new_figure(9.0, 9.0)
+    e, names = np.eye(3), ("x", "y", "z")
+    places = {(0, 2): (0.08, 0.54, 0.40, 0.39), (1, 2): (0.57, 0.54, 0.40, 0.39), (0, 1): (0.08, 0.06, 0.40, 0.39)}
+    for (i, j), place in places.items():
+        _draw(figure.add_axes(place), picture, (e[i], e[j], names[i], names[j]), ends)
+    _colour_bar(figure, (0.57, 0.38, 0.40, 0.014), picture, ends)
+    write(figure, 0.57, 0.38 - 2.2 * LINE / 9.0, picture.notes, color=QUIET)
+    return figure
+
+
+def _axis_name(direction: Array, number: int) -> str:
+    """x, y or z where the direction is one of these."""
+    for name, unit in zip("xyz", np.eye(3), strict=True):
+        if np.abs(direction - unit).max() < 1e-9:
+            return name
+    return f"in-plane direction {number}"
+
+
+def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
+    """What is seen, on a square around the middle that is as wide in every view."""
+    right, up, right_name, up_name = view
+    metric_axes(axes, f"{right_name} / m", f"{up_name} / m")
+    points = np.asarray(picture.rows[:, :3])
+    middle, half = _box(points, picture.element)
+    places, centre = points @ np.column_stack((right, up)), np.array((right @ middle, up @ middle))
+    count = int(np.ceil(2.0 * half / picture.element))
+    # Elements stand on the voxels' centres: an element holds one row of voxels, never half of two.
+    zero = np.array((right @ picture.origin, up @ picture.origin))
+    first = np.rint((centre - half - zero) / picture.element)
+    image = elements(np.rint((places - zero) / picture.element) - first, picture.values, count)
+    lower = zero + (first - 0.5) * picture.element
+    extent = (lower[0], lower[0] + count * picture.element, lower[1], lower[1] + count * picture.element)
+    axes.imshow(image, cmap=_COLORS, norm=ends, extent=extent, origin="lower", interpolation="nearest", zorder=2)
+    axes.set_xlim(centre[0] - half, centre[0] + half)
+    axes.set_ylim(centre[1] - half, centre[1] + half)
+    axes.locator_params(nbins=6)
+    axes.plot(0.0, 0.0, marker="+", markersize=10, color=INK, markeredgewidth=1.4, zorder=3)
+
+
+def _box(points: Array, element: float) -> tuple[Array, float]:
+    """Middle and half the edge of a cube that holds all points, and the base where it is not far away."""
+    lower, upper = _corners(points)
+    half = 0.5 * float((upper - lower).max()) * (1.0 + 2.0 * _MARGIN) + element
+    return 0.5 * (lower + upper), half
+
+
+def _corners(points: Array) -> tuple[Array, Array]:
+    """Smallest and largest coordinates, of the base too where it is not far away, or nothing else gives a scale."""
+    if not len(points):
+        return np.full(3, -0.5), np.full(3, 0.5)
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    longest = float((upper - lower).max())
+    near = np.clip(0.0, lower - 0.5 * longest, upper + 0.5 * longest) == 0.0
+    if near.all() or _is_one_place(points):
+        lower, upper = np.minimum(lower, 0.0), np.maximum(upper, 0.0)
+    if not (upper > lower).any():
+        lower, upper = lower - 0.5, upper + 0.5
+    return lower, upper
+
+
+def _is_one_place(points: Array) -> bool:
+    """Whether all points are one, but for rounding."""
+    if not len(points):
+        return False
+    return bool(np.ptp(points, axis=0).max() <= _ROUNDING * np.abs(points).max())
+
+
+def elements(places: Array, values: Array, count: int) -> Array:
+    """The largest value in each element of a square image, NaN where there is none.
+
+    Args:
+        places: Column and row of each value; shape (N, 2).
+        values: Shape (N,).
+        count: Elements along an edge.
+
+    Returns:
+        Shape (count, count), by row and column.
+    """
+    columns, rows = places.astype(np.int64).T
+    inside = (columns >= 0) & (columns < count) & (rows >= 0) & (rows < count)
+    image = np.full(count * count, -np.inf)
+    np.maximum.at(image, rows[inside] * count + columns[inside], values[inside])
+    image[np.isneginf(image)] = np.nan
+    return image.reshape(count, count)
+
+
+def _colour_bar(figure: Figure, place: tuple[float, float, float, float], picture: Picture, ends: Normalize) -> None:
+    axes = figure.add_axes(place)
+    bar = figure.colorbar(ScalarMappable(ends, _COLORS), cax=axes, orientation="horizontal")
+    bar.outline.set_visible(False)
+    axes.tick_params(colors=QUIET, labelsize=TEXT, length=3, width=0.8)
+    axes.set_title(picture.label, fontproperties=font(), color=INK, loc="left", pad=6.0)

@@ -1,0 +1,243 @@
+"""The process that others are copies of: it loads everything once, copies itself when asked, and does nothing else.
+
+It is asked over a socket that whoever started it has, and each of its copies. A request brings two sockets: the way to
+the copy, and its lifeline, on which the copy's number comes first and its exit code last. Whoever asked holds the other
+end of that; when it is closed, because they are gone for example, the copy is killed. The process itself ends when its
+standard input does, which the one who started it holds, and its copies end with it.
+
+Copies that are asked for before it is told to warm up are there before that: it may take a minute. What is seldom
+needed it loads when it has been idle for a while, so that the copies that it makes from then on have that too.
+"""
+
+import contextlib
+import ctypes
+import importlib
+import logging
+import os
+import selectors
+import signal
+import socket
+import struct
+import sys
+from collections.abc import Callable
+from functools import partial
+from multiprocessing.connection import Connection
+from typing import Any, NoReturn
+
+LOADED = "gelenk.preload"
+"""What is imported first.
+
+Its function `warm_up` computes one of everything, `is_compiled` tells whether another process could compile nothing for
+it, and `load` imports. `basics` computes what most requests need, and each of `PARTS` a share of the rest.
+"""
+SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
+"""Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
+COPY, WARM_UP = b"c", b"w"
+NUMBER = struct.Struct("!i")
+
+_IDLE_SECONDS, _STEP_SECONDS = 2.0, 0.1
+"""After how long without a request the first of them is loaded, and each further one."""
+_PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15
+
+logger = logging.getLogger("gelenk")
+
+
+def main(control: int) -> None:
+    """Load everything, then do what is asked until the end.
+
+    Args:
+        control: File descriptor of the socket on which requests come.
+    """
+    for stop in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(stop, signal.SIG_IGN)
+    _name("original")
+    loaded = importlib.import_module(LOADED)
+    Original(socket.socket(fileno=control), loaded).run()
+
+
+class Original:
+    """Copies this process; it must have no other thread.
+
+    Args:
+        control: Where requests come from.
+        loaded: What `LOADED` names.
+    """
+
+    def __init__(self, control: socket.socket, loaded: Any) -> None:
+        self._control, self._loaded = control, loaded
+        self._lifelines: dict[int, socket.socket] = {}
+        self._compilers: set[int] = set()
+        self._askers: list[socket.socket] = []
+        self._selector = selectors.DefaultSelector()
+        self._wakes, self._woken = socket.socketpair()
+        self._goes_on = True
+
+    def run(self) -> None:
+        """Do what is asked until nobody is left to ask."""
+        self._wakes.setblocking(False)
+        signal.set_wakeup_fd(self._wakes.fileno())
+        signal.signal(signal.SIGCHLD, lambda *_: None)
+        for source, act in (
+            (sys.stdin, self._stop),
+            (self._control, self._take),
+            (self._woken, self._reap),
+        ):
+            self._selector.register(source, selectors.EVENT_READ, act)
+        missing, pause = list(SELDOM_NEEDED), _IDLE_SECONDS
+        while self._goes_on:
+            ready = self._selector.select(pause if missing else None)
+            for key, _ in ready:
+                key.data()
+            if not ready and missing:
+                module, pause = missing.pop(0), _STEP_SECONDS
+                self._try(module, partial(self._loaded.load, module))
+
+    def _stop(self) -> None:
+        self._goes_on = False
+
+    def _take(self) -> None:
+        """Take a request."""
+        content, descriptors, _, _ = socket.recv_fds(self._control, 1, 2)
+        if content == WARM_UP:
+            self._get_warm(socket.socket(fileno=descriptors[0]))
+        elif content == COPY:
+            self._copy(descriptors[0], socket.socket(fileno=descriptors[1]))
+
+    def _get_warm(self, asker: socket.socket) -> None:
+        """Load what takes long; the end of its socket tells whoever asked that this is over."""
+        if not self._compilers and (self._loaded.is_compiled() or not self._compile_apart(self._loaded.basics)):
+            self._try("the kernels", self._loaded.warm_up)
+            asker.close()
+            return
+        if not self._askers:
+            # Who asks for a copy has to wait until what most requests need is there.
+            self._selector.unregister(self._control)
+        self._askers.append(asker)
+
+    def _compile_apart(self, compute: Callable[[], None]) -> bool:
+        """Let a process of its own compile: the gigabyte that this takes is gone with it, here and in all copies."""
+        parent = os.getpid()
+        try:
+            pid = os.fork()
+        except OSError as error:
+            logger.error("the kernels are compiled in every process, which takes memory: %s", error.strerror)
+            return False
+        if pid == 0:
+            _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == parent:  # else it has ended before that could be said
+                _name("compiler")
+                self._try("the kernels", compute)
+            os._exit(0)
+        self._compilers.add(pid)
+        return True
+
+    def _go_on(self) -> None:
+        """Load what was compiled: first the basics, then, when compilers have made the parts, all."""
+        if self._control not in self._selector.get_map():
+            self._try("the kernels", self._loaded.basics)
+            self._selector.register(self._control, selectors.EVENT_READ, self._take)
+            for part in self._loaded.PARTS:
+                self._compile_apart(part)
+        if not self._compilers:
+            self._try("the kernels", self._loaded.warm_up)
+            while self._askers:
+                self._askers.pop().close()
+
+    def _try(self, what: str, load: Callable[[], None]) -> None:
+        try:
+            load()
+        except Exception:
+            logger.exception("could not be loaded: %s", what)
+
+    def _copy(self, way: int, lifeline: socket.socket) -> None:
+        """A copy; where there is none to be had, its lifeline ends without a word."""
+        parent = os.getpid()
+        try:
+            pid = os.fork()
+        except OSError as error:
+            logger.error("no process could be started: %s", error.strerror)
+            os.close(way)
+            lifeline.close()
+            return
+        if pid == 0:
+            lifeline.close()
+            self._become(way, parent)
+        os.close(way)
+        self._lifelines[pid] = lifeline
+        self._selector.register(lifeline, selectors.EVENT_READ, partial(self._let_go, pid))
+        self._tell(lifeline, pid)
+
+    def _become(self, way: int, parent: int) -> NoReturn:
+        """Do what the other end of the way asks for, and end."""
+        code = 1
+        try:
+            _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
+            if os.getppid() == parent:  # else it has ended before that could be said
+                self._forget()
+                connection = Connection(way)
+                name, target = connection.recv()
+                _name(name)
+                target(connection)
+                code = 0
+        except SystemExit as error:
+            code = error.code if isinstance(error.code, int) else 1
+        except (EOFError, OSError):
+            code = 0  # nobody is there any more
+        except BaseException:
+            logger.exception("a process has failed")
+        finally:
+            with contextlib.suppress(Exception):
+                logging.shutdown()
+                sys.stdout.flush()
+            os._exit(code)
+
+    def _forget(self) -> None:
+        """Let go, in a copy, of what the original alone needs."""
+        signal.set_wakeup_fd(-1)
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        self._selector.close()
+        for one in (self._control, self._wakes, self._woken, *self._lifelines.values()):
+            one.close()
+        nothing = os.open(os.devnull, os.O_RDONLY)
+        os.dup2(nothing, sys.stdin.fileno())
+        os.close(nothing)
+
+    def _let_go(self, pid: int) -> None:
+        """End a copy whose lifeline was closed; `_reap` tells of it where somebody still listens."""
+        if pid in self._lifelines:  # else it was reaped in this very turn
+            self._selector.unregister(self._lifelines[pid])
+            os.kill(pid, signal.SIGKILL)
+
+    def _reap(self) -> None:
+        """Tell of the copies that have ended."""
+        self._woken.recv(4096)
+        while self._lifelines or self._compilers:
+            pid, status = os.waitpid(-1, os.WNOHANG)
+            if not pid:
+                return
+            if pid in self._compilers:
+                self._compilers.remove(pid)
+                if not self._compilers:
+                    self._go_on()
+            lifeline = self._lifelines.pop(pid, None)
+            if lifeline is None:
+                continue
+            with contextlib.suppress(KeyError):
+                self._selector.unregister(lifeline)
+            self._tell(lifeline, os.waitstatus_to_exitcode(status))
+            lifeline.close()
+
+    def _tell(self, lifeline: socket.socket, number: int) -> None:
+        with contextlib.suppress(OSError):
+            lifeline.sendall(NUMBER.pack(number))
+
+
+def _name(name: str) -> None:
+    """Say what this process is; at most eight letters."""
+    _set(_PR_SET_NAME, f"gelenk-{name}".encode("ascii"))
+
+
+def _set(what: int, value: object) -> None:
+    """Tell the system something about this process, where it takes that."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(what, value)

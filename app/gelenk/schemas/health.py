@@ -1,0 +1,11 @@
+"""What a monitor is told."""
+
+from pydantic import Field
+
+from gelenk.schemas.common import Answer
+
+
+class Health(Answer):
+    """The process is alive, or ready for work."""
+
+    status: str = Field(description="`alive`, or `ready`.")

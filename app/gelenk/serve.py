@@ -1,0 +1,169 @@
+"""Run the service: `gelenk serve`, in a checkout `./dev serve`."""
+
+import argparse
+import asyncio
+import contextlib
+import errno
+import fcntl
+import ipaddress
+import os
+import resource
+import shutil
+import socket
+import sys
+import tempfile
+from collections.abc import Iterator
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
+from typing import cast
+
+import uvicorn
+
+from gelenk.api.access.keyring import InvalidKeys, Keyring
+from gelenk.connections import BoundedProtocol, Bounds, Gate
+from gelenk.logs import configuration
+from gelenk.reload import serve_again
+from gelenk.settings import InvalidSetting, Settings
+from gelenk.store.folders import why_not
+from gelenk.supervisor import Supervisor
+
+SHUTDOWN_SECONDS = 3
+"""How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 5."""
+
+_OWN_FILES, _FILES_A_PROCESS, _FEWEST_CONNECTIONS = 32, 4, 16
+"""What a process of the service has open beside its connections, and how many of these it is not worth less than."""
+_METRICS, _LOCK = "gelenk-metrics-", "lock"
+
+OPEN_TO_ALL = (
+    "at {host} others than this machine could do everything without a key: make keys with `{keys}` and name their "
+    "file in GELENK_API_KEYS, or say with --open (or GELENK_OPEN_ACCESS=yes) that this is meant"
+)
+
+
+def main() -> None:
+    """Parse the arguments and serve until told to stop."""
+    program = sys.argv[0] if sys.argv[0] == "gelenk serve" else "./dev serve"
+    parser = argparse.ArgumentParser(prog=program, description="Run the service.", allow_abbrev=False)
+    parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
+    parser.add_argument("--port", default=8000, type=int, choices=range(1, 65536), metavar="PORT")
+    parser.add_argument("--workers", default=1, type=int, choices=range(1, 129), metavar="N", help="processes")
+    parser.add_argument("--open", action="store_true", help="accept other machines without keys")
+    parser.add_argument("--root-path", metavar="/PREFIX", help="path prefix of a proxy (or GELENK_ROOT_PATH)")
+    parser.add_argument("--reload", action="store_true", help="start again when a source file changes")
+    arguments = parser.parse_args()
+    if arguments.reload:
+        serve_again([argument for argument in sys.argv[1:] if argument != "--reload"])
+        return
+    if arguments.root_path is not None:
+        os.environ["GELENK_ROOT_PATH"] = arguments.root_path  # where the worker processes read it
+    try:
+        settings = Settings.from_environment(os.environ)
+        if settings.api_keys:
+            Keyring(settings.api_keys)
+    except InvalidSetting as error:
+        sys.exit(str(error))
+    except InvalidKeys as error:
+        sys.exit(f"GELENK_API_KEYS: {error}")
+    if settings.otlp_endpoint and find_spec("opentelemetry.sdk") is None:
+        sys.exit(
+            "GELENK_OTLP_ENDPOINT needs `gelenk[tracing]`: install that, or requirements-tracing.lock, as ./dev does"
+        )
+    if settings.ray_address and find_spec("ray") is None:
+        sys.exit("GELENK_RAY_ADDRESS needs `gelenk[ray]`: install that, or requirements-ray.lock, as ./dev does")
+    if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
+        sys.exit(OPEN_TO_ALL.format(host=arguments.host, keys=program.replace("serve", "keys")))
+    room = _room_for_connections(settings.crew_processes + settings.job_processes)
+    listener = _listening(arguments.host, arguments.port)
+    where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
+    print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
+    if (reason := why_not(settings.data_dir)) is not None:
+        told = f"nothing can be kept in {settings.data_dir}: {reason}; GELENK_DATA_DIR names another folder"
+        print(told, file=sys.stderr)
+    bounds = Bounds(connections=min(settings.connections, room), waiting=settings.requests_waiting)
+    config = uvicorn.Config(
+        "gelenk.main:from_environment",
+        factory=True,
+        host=arguments.host,
+        port=arguments.port,
+        workers=arguments.workers,
+        loop="uvloop",
+        http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=Gate(bounds))),
+        ws="none",
+        access_log=False,
+        log_config=configuration(settings.log_level),
+        server_header=False,
+        proxy_headers=bool(settings.trusted_proxies),
+        forwarded_allow_ips=list(settings.trusted_proxies),
+        timeout_keep_alive=round(bounds.head_seconds),
+        timeout_graceful_shutdown=SHUTDOWN_SECONDS,
+    )
+    with metrics_folder(arguments.workers):
+        Supervisor(config, listener).run()
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    """A socket that listens already: of two services that are started at once, one is told now and not when it serves.
+
+    Raises:
+        SystemExit: Another program listens there, or nobody can.
+    """
+    family, both = (socket.AF_INET6, socket.has_dualstack_ipv6()) if ":" in host else (socket.AF_INET, False)
+    try:
+        return socket.create_server((host, port), family=family, dualstack_ipv6=both)
+    except OSError as error:
+        reason = "another program has it" if error.errno == errno.EADDRINUSE else error.strerror or str(error)
+        is_port = error.errno in {errno.EADDRINUSE, errno.EACCES}
+        advice = f"--port names another one than {port}" if is_port else "--host takes an address of this machine"
+        sys.exit(f"cannot listen at {host}:{port}: {reason}; {advice}")
+
+
+@contextlib.contextmanager
+def metrics_folder(workers: int) -> Iterator[None]:
+    """Where several worker processes keep what each has counted, as long as the service runs.
+
+    What services left that were killed goes first: nobody holds its lock any more.
+    """
+    if workers == 1:
+        yield
+        return
+    for left in Path(tempfile.gettempdir()).glob(f"{_METRICS}*"):
+        with contextlib.suppress(OSError), (left / _LOCK).open() as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(left)
+    with tempfile.TemporaryDirectory(prefix=_METRICS) as folder, Path(folder, _LOCK).open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        os.environ["PROMETHEUS_MULTIPROC_DIR"] = folder
+        try:
+            yield
+        finally:
+            os.environ.pop("PROMETHEUS_MULTIPROC_DIR", None)
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address leads to this machine alone; of names only `localhost` is known to."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def _room_for_connections(processes: int) -> int:
+    """How many connections each process of the service may have open, which are files to the system.
+
+    Args:
+        processes: That each of them has for its work.
+
+    Raises:
+        SystemExit: Hardly any.
+    """
+    hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))  # the usual limit is for programs that count otherwise
+    own = _OWN_FILES + _FILES_A_PROCESS * processes
+    if 0 <= hard < own + _FEWEST_CONNECTIONS:
+        sys.exit(f"only {hard} files may be open (`ulimit -n`): the service needs {own + _FEWEST_CONNECTIONS} or more")
+    return sys.maxsize if hard == resource.RLIM_INFINITY else hard - own
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,180 @@
+"""A zip of one URDF and its meshes, unpacked with suspicion: names, counts and real bytes are checked.
+
+The sizes that a zip states are not believed: bytes are counted while they are unpacked. Nothing here looks inside
+a mesh; kinematics need none, and the browser gets them as they came.
+"""
+
+import os
+import stat
+import struct
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+from typing import IO, BinaryIO
+
+from gelenk.model.errors import InvalidArchive, TooLarge, quoted
+from gelenk.model.xml import MAX_BYTES
+from gelenk.store.folders import Stretch, nameless
+from gelenk.store.meshes import KEPT_SUFFIXES
+
+MAX_ENTRIES = 2000
+MAX_UNPACKED = 256 * 1024 * 1024
+MAX_PATH_BYTES = 200
+MAX_DIRECTORY = 1024 * 1024
+"""Bytes of the list of entries at the end of a zip: 2,000 of them need a quarter of it."""
+MAX_FOLDERS = 16
+"""Folders on the way to an entry; those of packages that people share are some ten at most."""
+_CHUNK = 1024 * 1024
+_END_RECORD = struct.Struct("<4s4H2LH")
+
+
+@dataclass(frozen=True, slots=True)
+class UnpackedRobot:
+    """What an archive held.
+
+    Attributes:
+        urdf: The description's bytes.
+        urdf_folder: Where it stood in the archive, "" at the top.
+        meshes: Mesh files by their path in the archive: stretches of a file without a name, which is gone with the
+            context that they were unpacked in, or with the process.
+    """
+
+    urdf: bytes
+    urdf_folder: str
+    meshes: dict[str, Stretch]
+
+
+@contextmanager
+def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None) -> Iterator[UnpackedRobot]:
+    """Unpack an archive for as long as the context lasts.
+
+    Args:
+        file: The zip.
+        max_unpacked: Bytes that may come out of it.
+        root: The folder on whose disk it is unpacked; that for temporary files if left out.
+
+    Raises:
+        InvalidArchive: Not a zip, not one URDF, or an entry that has no place in one.
+        TooLarge: More entries or bytes than allowed.
+        StorageFailed: There is no room to unpack it.
+    """
+    _check_directory(file)
+    try:
+        archive = zipfile.ZipFile(file)
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
+        raise InvalidArchive("the file is not a zip archive") from error
+    with archive, nameless(root) as store:
+        yield _unpack(archive, store, max_unpacked)
+
+
+def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> UnpackedRobot:
+    _check_count(archive)
+    entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
+    _check_overlap(entries, archive.start_dir)
+    descriptions = [entry for entry in entries if entry.filename.lower().endswith(".urdf")]
+    if len(descriptions) != 1:
+        raise InvalidArchive(f"the archive holds {len(descriptions)} URDF files; it must hold exactly one")
+    for entry in entries:
+        _check_entry(entry)
+    _check_names([entry.filename.lower() for entry in entries])
+    meshes: dict[str, Stretch] = {}
+    used = 0
+    for entry in entries:
+        if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in KEPT_SUFFIXES:
+            continue
+        size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
+        meshes[entry.filename] = Stretch(store, used, size)
+        used += size
+    urdf = BytesIO()
+    _copy(archive, descriptions[0], urdf, MAX_BYTES, MAX_BYTES)
+    parent = PurePosixPath(descriptions[0].filename).parent
+    return UnpackedRobot(urdf.getvalue(), "" if str(parent) == "." else str(parent), meshes)
+
+
+def _check_directory(file: BinaryIO) -> None:
+    """Refuse an overlong list of entries before it is read: the end record of a zip tells its length."""
+    size = file.seek(0, os.SEEK_END)
+    file.seek(max(0, size - _END_RECORD.size - 0xFFFF))
+    tail = file.read()
+    file.seek(0)
+    start = tail.rfind(b"PK\5\6")
+    if start < 0 or len(tail) - start < _END_RECORD.size:
+        raise InvalidArchive("the file is not a zip archive")
+    _, _, _, _, count, directory, _, _ = _END_RECORD.unpack_from(tail, start)
+    if tail[max(0, start - 20) : start].startswith(b"PK\6\7"):
+        raise InvalidArchive("the zip is in the format for archives beyond 4 GB")
+    if count > MAX_ENTRIES:
+        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
+    if directory > MAX_DIRECTORY:
+        raise TooLarge("bytes in the archive's list of entries", directory, MAX_DIRECTORY)
+
+
+def _check_count(archive: zipfile.ZipFile) -> None:
+    """Count the entries themselves: how many its end record tells is its own word."""
+    count = len(archive.infolist())
+    if count > MAX_ENTRIES:
+        raise TooLarge("entries in the archive", count, MAX_ENTRIES)
+
+
+def _check_entry(entry: zipfile.ZipInfo) -> None:
+    name = entry.filename
+    parts = name.split("/")
+    if name.startswith("/") or "\\" in name or ":" in name or any(part in {"", ".", ".."} for part in parts):
+        raise InvalidArchive("its path must stay inside the archive", name)
+    if len(name.encode()) > MAX_PATH_BYTES or not name.isprintable():
+        raise InvalidArchive(f"its path must be at most {MAX_PATH_BYTES} bytes of printable characters", name)
+    if len(parts) > MAX_FOLDERS + 1:
+        raise InvalidArchive(f"it lies {len(parts) - 1} folders deep; allowed are {MAX_FOLDERS}", name)
+    mode = entry.external_attr >> 16
+    if stat.S_ISLNK(mode):
+        raise InvalidArchive("links are not allowed", name)
+    if stat.S_IFMT(mode) not in {0, stat.S_IFREG}:
+        raise InvalidArchive("it must be a plain file", name)
+    if entry.compress_type not in {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}:
+        raise InvalidArchive("its compression is not known: stored or deflated", name)
+    if entry.flag_bits & 0x1:
+        raise InvalidArchive("encrypted entries are not allowed", name)
+
+
+def _check_names(names: list[str]) -> None:
+    seen = {name[:end] for name in names for end, letter in enumerate(name) if letter == "/"}
+    for name in names:
+        if name in seen:
+            raise InvalidArchive("it is in the archive twice, or as a folder too", name)
+        seen.add(name)
+
+
+def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:
+    """Entries that share compressed bytes are how a small zip becomes a huge one; all lie before their list."""
+    end = -1
+    for entry in sorted(entries, key=lambda entry: entry.header_offset):
+        if entry.header_offset < end:
+            raise InvalidArchive("it overlaps another entry", entry.filename)
+        end = entry.header_offset + entry.compress_size
+        if end > directory:
+            raise InvalidArchive("it overlaps the list of entries", entry.filename)
+
+
+def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], left: int, allowed: int) -> int:
+    """Unpack one entry to the end of a file, counting; returns its bytes."""
+    count = 0
+    for chunk in _chunks(archive, entry):
+        count += len(chunk)
+        if count > left:
+            raise TooLarge(f"bytes unpacked up to {quoted(entry.filename)}", allowed - left + count, allowed)
+        sink.write(chunk)
+    return count
+
+
+def _chunks(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
+    """The bytes of an entry, piece by piece."""
+    try:
+        with archive.open(entry) as source:
+            while chunk := source.read(_CHUNK):
+                yield chunk
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, NotImplementedError, RuntimeError) as error:
+        raise InvalidArchive("it cannot be unpacked", entry.filename) from error

@@ -1,0 +1,448 @@
+"""All robots by name: the catalogue, and those that were uploaded or dropped into the data folder.
+
+Every process asks the folder whether a robot has changed, each time it is used; that costs two `stat` calls and makes
+an upload, or an edit by hand, visible to all of them at once. Robots are loaded when first needed and kept within a
+bound of memory.
+"""
+
+import difflib
+import hashlib
+import logging
+import os
+import re
+import threading
+import time
+import uuid
+from collections import OrderedDict
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import orjson
+
+from gelenk.model.errors import (
+    InvalidName,
+    InvalidRobotFolder,
+    KinematicsError,
+    QuotaExceeded,
+    ReadOnlyRobot,
+    RobotExists,
+    StorageFailed,
+    UnknownMesh,
+    UnknownRobot,
+)
+from gelenk.model.robot import Robot
+from gelenk.schemas.common import ChainEnds
+from gelenk.schemas.robots import RobotFile
+from gelenk.store import folders
+from gelenk.store.folders import Content, Stretch
+from gelenk.store.index import NAME, Index, summary
+from gelenk.store.meshes import MeshFiles, flat
+from gelenk.store.records import ROBOT_FILE, LoadedRobot, Record, Source, describe, load, mesh_file, read_record
+
+_MEMORY = 512 * 1024 * 1024
+"""Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
+_VERSION = re.compile(r"files-[0-9a-f]{12}")
+_MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
+_TICK = 2_000_000_000
+"""Nanoseconds within which two changes of a folder may have the same time."""
+_ATTEMPTS = 3
+"""A folder may be replaced between the reading of its record and of its model."""
+
+logger = logging.getLogger("gelenk")
+
+
+@dataclass(frozen=True, slots=True)
+class RobotUpload:
+    """What someone wants to be kept as a robot.
+
+    Attributes:
+        name: The robot's name.
+        format: What `model` is.
+        model: The bytes of the URDF or of the DH table as JSON.
+        description: One sentence for people.
+        default_chain: Chain of calls that name none.
+        meshes: What mesh files hold, by relative path.
+        urdf_folder: Where the URDF stood among them.
+        strict: Whether a URDF with harmless faults is refused; asked when it comes, and not kept.
+        owner: Which client keeps it, counted against its quota.
+    """
+
+    name: str
+    format: Literal["urdf", "dh"]
+    model: bytes
+    description: str = ""
+    default_chain: ChainEnds | None = None
+    meshes: Mapping[str, Content] = field(default_factory=dict)
+    urdf_folder: str = ""
+    strict: bool = False
+    owner: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Quota:
+    """What one client may keep.
+
+    Attributes:
+        robots: How many uploaded ones.
+        robot_bytes: Of all of them.
+    """
+
+    robots: int = 20_000
+    robot_bytes: int = 10 * 1024**3
+
+
+class Library:
+    """Robots by name; safe to use from many threads and processes.
+
+    Args:
+        catalogue: Folder of the robots that come with the project.
+        uploads: Folder of all others; made when first written to.
+        quota: How much of these each client may keep.
+
+    Attributes:
+        uploads: The latter.
+    """
+
+    def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
+        self.uploads, self._quota = uploads, quota
+        found = (read_record(folder, "catalogue") for folder in sorted(catalogue.iterdir()) if folder.is_dir())
+        self._catalogue = {record.name: record for record in found if record is not None}
+        self._index = Index(uploads, self._catalogue)
+        self._loaded: OrderedDict[str, LoadedRobot] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def prepare(self) -> None:
+        """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is.
+
+        That may be much: others write meanwhile.
+        """
+        if not self.uploads.is_dir():
+            return
+        try:
+            with folders.staging(self.uploads) as aside:
+                for folder in filter(_may_be_swept, self._folders()):
+                    with folders.exclusive(self.uploads), suppress(FileNotFoundError):
+                        folders.sweep(folder)
+                        self._move_stale_versions(folder, aside)
+            self._index.entries(looked_at=None)
+        except StorageFailed as error:
+            logger.warning("uploaded robots cannot be written: %s", error.reason)
+
+    @property
+    def catalogue_names(self) -> list[str]:
+        """Names of the robots that come with the project."""
+        return list(self._catalogue)
+
+    def summaries(self) -> list[bytes]:
+        """All robots as the list has them in JSON, the catalogue's first, each part by name; what is none is left out.
+
+        Of an uploaded one that was edited by hand this may be what it was: each list looks at some of them again.
+        """
+        entries, others = self._index.entries()
+        told = {entry.name: entry.summary for entry in entries}
+        if others:
+            loaded = {name: self._summary(name, "uploaded", file) for name, file in others}
+            told = dict(sorted((told | {name: one for name, one in loaded.items() if one is not None}).items()))
+        ours = (self._summary(record.name, "catalogue", record.file) for record in self._catalogue.values())
+        return [*filter(None, ours), *told.values()]
+
+    def _summary(self, name: str, source: Source, file: RobotFile) -> bytes | None:
+        """A robot in the list; None for a folder that is not a robot (a request by name gives the reason)."""
+        told = summary(name, source, file)
+        if told["default_chain"] is None:
+            try:
+                base_frame, tip_frame = self.get(name).robot.default_chain
+            except (KinematicsError, OSError):
+                return None
+            told["default_chain"] = {"base_frame": base_frame, "tip_frame": tip_frame}
+        return orjson.dumps(told)
+
+    def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
+        """Refuse what its owner has no room for; a robot of the same owner makes room for what takes its place.
+
+        Raises:
+            QuotaExceeded: How much there is, and may be.
+        """
+        if new.owner is None:
+            return
+        mine = [entry for entry in self._index.entries()[0] if entry.owner == new.owner]
+        replaced = [old] if old is not None and old.owner == new.owner else []
+        for what, used, more, allowed in (
+            ("robots", len(mine), 1 - len(replaced), self._quota.robots),
+            (
+                "bytes of robots",
+                sum(entry.kept_bytes for entry in mine),
+                new.kept_bytes - sum(file.kept_bytes for file in replaced),
+                self._quota.robot_bytes,
+            ),
+        ):
+            if more > 0 and used + more > allowed:
+                raise QuotaExceeded(new.owner, what, used, more, allowed)
+
+    def state(self) -> int | None:
+        """A number that changes whenever a robot is uploaded, replaced or removed; None as long as it may change again.
+
+        That is the time of the folder, which whoever writes makes and removes a folder in; its clock may tick slowly.
+        """
+        try:
+            changed = self.uploads.stat().st_mtime_ns
+        except OSError:
+            return None
+        return changed if abs(time.time_ns() - changed) > _TICK else None
+
+    def loaded(self, name: str) -> LoadedRobot | None:
+        """A robot if it is in memory and up to date; quick enough for an event loop."""
+        found = self._loaded.get(name)
+        if found is None or not (found.record.source == "catalogue" or found.record.is_current()):
+            return None
+        with self._lock:
+            if name in self._loaded:
+                self._loaded.move_to_end(name)
+        return found
+
+    def is_ours(self, name: str) -> bool:
+        """Whether a robot comes with the project."""
+        return name in self._catalogue
+
+    def get(self, name: str) -> LoadedRobot:
+        """A robot, loaded if need be.
+
+        Raises:
+            UnknownRobot: There is none of this name.
+            InvalidInput: A folder dropped in by hand is not a robot.
+        """
+        found = self.loaded(name)
+        for _ in range(_ATTEMPTS):
+            if found is not None:
+                return found
+            try:
+                found = load(self._record(name))
+            except FileNotFoundError:
+                continue
+            self._keep(found)
+        if found is None:
+            raise InvalidRobotFolder("it names a model file that does not exist", f"{name}/{ROBOT_FILE}")
+        return found
+
+    def mesh(self, name: str, path: str) -> Path:
+        """A mesh file of a robot.
+
+        Raises:
+            UnknownRobot: There is no such robot.
+            UnknownMesh: It has no such file.
+        """
+        file = mesh_file(self.get(name), path)
+        if file is None:
+            raise UnknownMesh(path)
+        return file
+
+    def add(self, upload: RobotUpload) -> bool:
+        """Keep a new robot; when this returns it is on disk, and every process sees it.
+
+        Returns:
+            True if it is new, False if the very same was there already.
+
+        Raises:
+            InvalidName: The name is none.
+            RobotExists: The name is already in use.
+            InvalidInput: It does not describe a robot.
+            StorageFailed: It cannot be written.
+        """
+        if not NAME.fullmatch(upload.name):
+            raise InvalidName(upload.name)
+        if upload.name in self._catalogue:
+            if upload.model == self._catalogue[upload.name].model_path.read_bytes() and not upload.meshes:
+                return False
+            raise RobotExists(upload.name)
+        file, version, contents = _files(upload)
+        folder = self.uploads / upload.name
+        if _stands(folder, file):
+            return False
+        with folders.staging(self.uploads) as staging:
+            new = staging / upload.name
+            folders.write_tree(new / version, contents)
+            folders.write_tree(new, {ROBOT_FILE: _as_bytes(file)})
+            with folders.exclusive(self.uploads):
+                if _stands(folder, file):
+                    return False
+                self._check_quota(file)
+                folders.move(new, folder)
+                self._index.note(upload.name, file)
+        return True
+
+    def replace(self, upload: RobotUpload) -> None:
+        """Put another robot in the place of an uploaded one: the old one or the new one is there at any moment.
+
+        Raises:
+            UnknownRobot: There is none of this name.
+            ReadOnlyRobot: It belongs to the catalogue.
+            InvalidInput: It does not describe a robot.
+            StorageFailed: It cannot be written.
+        """
+        folder = self._writable(upload.name)
+        file, version, contents = _files(upload)
+        with folders.staging(self.uploads) as staging:
+            folders.write_tree(staging / version, contents)
+            with folders.exclusive(self.uploads):
+                self._writable(upload.name)
+                self._check_quota(file, _file_of(folder))
+                folders.sweep(folder)
+                folders.move(staging / version, folder / version)
+                try:
+                    folders.replace_file(folder, ROBOT_FILE, _as_bytes(file))
+                    self._index.note(upload.name, file)
+                finally:
+                    self._move_stale_versions(folder, staging)
+                for path in folder.iterdir():
+                    if path.name not in {ROBOT_FILE, version}:
+                        path.rename(staging / uuid.uuid4().hex)
+
+    def remove(self, name: str) -> None:
+        """Remove an uploaded robot.
+
+        Raises:
+            UnknownRobot: There is none of this name.
+            ReadOnlyRobot: It belongs to the catalogue.
+            StorageFailed: It cannot be removed.
+        """
+        self._writable(name)
+        with folders.exclusive(self.uploads):
+            self._writable(name)
+            gone = folders.set_aside(self.uploads, name)
+        folders.discard(gone)
+        with self._lock:
+            self._loaded.pop(name, None)
+
+    def _folders(self) -> list[Path]:
+        """The folders that may be uploaded robots."""
+        return [path for name in sorted(self._index.names()) if (path := self.uploads / name).is_dir()]
+
+    def _move_stale_versions(self, folder: Path, aside: Path) -> None:
+        """Move versions away that a killed replacement wrote, or did not come to remove."""
+        try:
+            record = read_record(folder, "uploaded")
+        except (KinematicsError, OSError):
+            return
+        if record is not None:
+            for path in folder.iterdir():
+                if _VERSION.fullmatch(path.name) and path != record.model_path.parent:
+                    path.rename(aside / uuid.uuid4().hex)
+
+    def _writable(self, name: str) -> Path:
+        """The folder of an uploaded robot; asked before the lock, which makes the root, and again while holding it."""
+        if name in self._catalogue:
+            raise ReadOnlyRobot(name)
+        folder = self.uploads / name
+        if not NAME.fullmatch(name) or not folder.is_dir():
+            raise self._unknown(name)
+        return folder
+
+    def _record(self, name: str) -> Record:
+        if name in self._catalogue:
+            return self._catalogue[name]
+        record = read_record(self.uploads / name, "uploaded") if NAME.fullmatch(name) else None
+        if record is None:
+            raise self._unknown(name)
+        return record
+
+    def _unknown(self, name: str) -> UnknownRobot:
+        known = [*self._catalogue, *(folder.name for folder in self._folders())]
+        return UnknownRobot(name, tuple(difflib.get_close_matches(name[:64], known, n=3)))
+
+    def _keep(self, loaded: LoadedRobot) -> None:
+        with self._lock:
+            self._loaded[loaded.record.name] = loaded
+            self._loaded.move_to_end(loaded.record.name)
+            while len(self._loaded) > 1 and sum(_weight(kept) for kept in self._loaded.values()) > _MEMORY:
+                self._loaded.popitem(last=False)
+
+
+def _may_be_swept(folder: Path) -> bool:
+    """Whether there is more in a robot's folder than one version and what a person has put there."""
+    with suppress(OSError):
+        names = os.listdir(folder)  # noqa: PTH208 - of each robot at each start
+        return any(name.startswith(".") for name in names) or sum(map(bool, map(_VERSION.fullmatch, names))) > 1
+    return False
+
+
+def _weight(loaded: LoadedRobot) -> int:
+    """Estimated bytes in memory: chains, and about 37 MB of Pinocchio's work space at 100 joints."""
+    return 2_000_000 + 37 * int(loaded.robot.model.nv) ** 3
+
+
+def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
+    """The `robot.json` of an upload, after the robot has been built once, and the folder of its other files.
+
+    Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names. Of
+    the meshes those are kept that the description uses, without the folders around them.
+    """
+    description, _, _ = describe(upload.name, upload.format, upload.model, upload.strict)
+    ends = upload.default_chain
+    robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
+    base_frame, tip_frame = robot.default_chain
+    version = f"files-{uuid.uuid4().hex[:12]}"
+    used = MeshFiles(upload.meshes, upload.urdf_folder).used(description.meshes)
+    contents: dict[str, Content] = {_MODEL_NAMES[upload.format]: upload.model}
+    contents |= {f"meshes/{flat(path)}": upload.meshes[path] for path in sorted(used)}
+    file = RobotFile(
+        description=upload.description,
+        format=upload.format,
+        model=f"{version}/{_MODEL_NAMES[upload.format]}",
+        meshes=f"{version}/meshes" if used else None,
+        urdf_folder=upload.urdf_folder,
+        digest=_digest(upload),
+        owner=upload.owner,
+        kept_bytes=sum(content.size if isinstance(content, Stretch) else len(content) for content in contents.values()),
+        left_out=len(upload.meshes) - len(used),
+        default_chain=ChainEnds(base_frame=base_frame, tip_frame=tip_frame),
+    )
+    return file, version, contents
+
+
+def _as_bytes(file: RobotFile) -> bytes:
+    return file.model_dump_json(indent=2, exclude_none=True).encode() + b"\n"
+
+
+def _digest(upload: RobotUpload) -> str:
+    """SHA-256 of the model's bytes and of each mesh's path and bytes."""
+    digest = hashlib.sha256(upload.model)
+    for path in sorted(upload.meshes):
+        digest.update(f"\0{path}\0".encode())
+        of_mesh = hashlib.sha256()
+        for piece in folders.pieces(upload.meshes[path]):
+            of_mesh.update(piece)
+        digest.update(of_mesh.digest())
+    return digest.hexdigest()
+
+
+def _stands(folder: Path, wanted: RobotFile) -> bool:
+    """Whether the very robot is there already: the names of files apart, their digest included.
+
+    Raises:
+        RobotExists: Another one is.
+    """
+    if folder.exists() and not _holds(folder, wanted):
+        raise RobotExists(folder.name)
+    return folder.exists()
+
+
+def _file_of(folder: Path) -> RobotFile | None:
+    """What a folder tells of itself, where it can be read."""
+    try:
+        record = read_record(folder, "uploaded")
+    except (KinematicsError, OSError):
+        return None
+    return record.file if record is not None else None
+
+
+def _holds(folder: Path, wanted: RobotFile) -> bool:
+    file = _file_of(folder)
+    apart = {"model", "meshes", "owner", "kept_bytes", "left_out"}
+    return (
+        file is not None
+        and file.digest is not None
+        and file.model_dump(exclude=apart) == wanted.model_dump(exclude=apart)
+    )

@@ -1,0 +1,115 @@
+"""Which file a mesh's name in a description means, and how an archive's files are named on disk.
+
+Nobody knows from which folder on a package was packed: the file counts whose path has the same end as the name.
+"""
+
+import os.path
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import takewhile
+from operator import eq
+from pathlib import PurePosixPath
+
+from gelenk.model.errors import listed, meshes_are
+
+MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae"})
+COMPANION_SUFFIXES = frozenset({".mtl", ".png", ".jpg", ".jpeg"})
+"""Materials and pictures, which OBJ and DAE refer to."""
+KEPT_SUFFIXES = MESH_SUFFIXES | COMPANION_SUFFIXES
+_MOST_FOLDERS = 100
+"""Parts of a name that are looked for: more do not fit into an archive's path of 200 bytes."""
+
+
+def flat(path: str) -> str:
+    """A path of an archive as the name of a file: its folders are none on disk. No path of an archive has a colon."""
+    return path.replace("/", ":")
+
+
+def ends(name: str) -> list[str]:
+    """All ends of a name, the longest first: `a/b/c`, `b/c`, `c`."""
+    parts = name.split("/")[-_MOST_FOLDERS:]
+    return ["/".join(parts[start:]) for start in range(len(parts))]
+
+
+class MeshFiles:
+    """Mesh files by the ends of their paths.
+
+    Args:
+        paths: Of the files, relative.
+        urdf_folder: Where the description stands among them, "" at the top.
+    """
+
+    def __init__(self, paths: Collection[str], urdf_folder: str) -> None:
+        self._paths, self._urdf_folder = frozenset(paths), urdf_folder
+        self._nearest: dict[str, tuple[int, list[str]]] = {}
+        urdf_parts = urdf_folder.split("/")
+        for path in sorted(self._paths):
+            parts = path.split("/")
+            shared = list(takewhile(bool, map(eq, parts[:-1], urdf_parts)))
+            steps = len(parts) - 2 * len(shared)
+            for end in ends(path):
+                nearest = self._nearest.get(end)
+                if nearest is None or steps < nearest[0]:
+                    self._nearest[end] = steps, [path]
+                elif steps == nearest[0]:
+                    nearest[1].append(path)
+
+    def find(self, reference: str) -> list[str]:
+        """The file that a mesh's name means; none where it is missing, several where they fit alike.
+
+        A relative name starts at the URDF's folder. Else, and for `package://name/folder/file`, all of it must be the
+        end of a path, or all but the package's name; of several such files those count that are nearest to the URDF.
+        A package may also have been packed from a folder inside it: then a whole path is an end of the name.
+        """
+        scheme, is_address, name = reference.partition("://")
+        if not is_address:
+            name = os.path.normpath(PurePosixPath(self._urdf_folder) / reference)
+            if name in self._paths:
+                return [name]
+            return self._nearest.get(re.sub(r"^(\.\./)+", "", os.path.normpath(reference)), (0, []))[1]
+        if scheme not in {"package", "model"}:
+            return []
+        for skipped, end in enumerate(ends(name)):
+            if skipped <= 1 and end in self._nearest:
+                return self._nearest[end][1]
+            if end in self._paths:
+                return [end]
+        return []
+
+    def used(self, references: Iterable[str]) -> set[str]:
+        """The files that these names may mean, with the materials and pictures that OBJ and DAE among them may need.
+
+        Those are all below the folder around the mesh's own, as nothing looks into a mesh.
+        """
+        meshes = {path for reference in references for path in self.find(reference)}
+        around = tuple({_around(path) for path in meshes if not path.lower().endswith(".stl")})
+        companions = (path for path in self._paths if PurePosixPath(path).suffix.lower() in COMPANION_SUFFIXES)
+        return meshes | {path for path in companions if path.startswith(around)}
+
+
+def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
+    """What is wrong with the meshes that a description names, in one sentence a kind.
+
+    Args:
+        found: What `MeshFiles.find` has found for each name.
+    """
+    kinds = {name: PurePosixPath(name).suffix[1:] for name in found}
+    unread = {name: kind or "no ending" for name, kind in kinds.items() if f".{kind.lower()}" not in MESH_SUFFIXES}
+    missing = [name for name, paths in found.items() if not paths and name not in unread]
+    unclear = [name for name, paths in found.items() if len(paths) > 1 and name not in unread]
+    warnings = []
+    if unread:
+        formats = sorted(set(unread.values()))
+        told = f"{', '.join(formats[:12])} {'is' if len(formats) == 1 else 'are'} not read: STL, OBJ, DAE"
+        warnings.append(f"{meshes_are(tuple(unread))} not shown: {told}")
+    if missing:
+        warnings.append(f"{meshes_are(tuple(missing))} missing")
+    if unclear:
+        candidates = tuple(dict.fromkeys(path for name in unclear for path in found[name]))
+        warnings.append(f"{meshes_are(tuple(unclear))} not shown: these files fit alike: {listed(candidates)}")
+    return tuple(warnings)
+
+
+def _around(path: str) -> str:
+    """The folder around that of a file, with a slash at its end; "" at the top."""
+    return "".join(f"{part}/" for part in path.split("/")[:-2])

@@ -1,0 +1,224 @@
+"""What the tip does while the joints move: speeds, accelerations, distance from the path, nearness to a singularity.
+
+Everything is sampled densely, both ends of each piece among the samples, and where parabolas through these reach higher
+looked at more closely. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias, cast
+
+import numpy as np
+
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.kernels import chain_jacobians, chain_poses
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.trajectory.audit_peaks import highest, promising
+from gelenk.trajectory.audit_pieces import Pieces
+
+PathOfTime: TypeAlias = Callable[[Array], Poses]
+"""The pose T_base_tip that is wanted at times of shape (N,), [s]."""
+
+MIN_SAMPLES = 1500
+"""Of the whole motion; more where there are many pieces."""
+_SIGMA_SAMPLES = 400
+_CHUNK = 1024
+_STEP = 1e-3
+"""By how much the fastest joint moves for a difference of the Jacobian, [rad or m]."""
+_PLACES = (-2.0, -1.0, 1.0, 2.0)
+_STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+"""Of the difference of fourth order."""
+
+_EXACT = 1e-12
+"""How closely a peak is found, as a share of it."""
+_ROUNDING = 1e-12
+"""Of deviations from a path, [m] and [rad], and of the tip's rates in fractions of those of the joints."""
+
+_ENDS = np.array([0.0, 0.5, 1.0])
+
+QUANTITIES = ("speed", "angular_speed", "acceleration", "angular_acceleration", "position", "orientation")
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """Samples of each piece, both ends among them.
+
+    Attributes:
+        piece: Shape (N,).
+        tau: Within the piece; shape (N,).
+        inner: Which samples have neighbours on both sides in their piece; shape (K,).
+    """
+
+    piece: Indices
+    tau: Array
+    inner: Indices
+
+
+@dataclass(frozen=True, slots=True)
+class Largest:
+    """The largest value of a quantity, and when."""
+
+    value: float
+    time: float
+
+
+def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
+    """Evenly spaced samples of each piece, both ends among them: `least` over all, some intervals in each at least."""
+    shares = pieces.widths / pieces.widths.sum()
+    counts = np.maximum(np.ceil(shares * least).astype(np.int64), intervals) + 1
+    piece = np.repeat(np.arange(len(counts)), counts)
+    within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
+    last = (counts - 1)[piece]
+    return Grid(piece, within / last, np.flatnonzero((within > 0) & (within < last)))
+
+
+def tip_peaks(
+    pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE, least: int = MIN_SAMPLES
+) -> dict[str, Largest]:
+    """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad].
+
+    Of the path only the directions of the task count; `least` samples are looked at.
+    """
+    names = QUANTITIES if path is not None else QUANTITIES[:4]
+
+    def quantities(piece: Indices, tau: Array) -> Array:
+        qs, velocities, accelerations = pieces.rates(piece, tau)
+        positions, rotations, Js = chain_jacobians(chain.flat, qs)
+        columns = _tip_motion(chain, qs, velocities, accelerations, Js)
+        if path is not None:
+            columns += _deviations(Poses(positions, rotations), path(pieces.times(piece, tau)), task)
+        # A path that has no pose somewhere is as far away as can be.
+        return np.nan_to_num(np.column_stack(columns), nan=np.inf)
+
+    samples = grid(pieces, least)
+    values = np.concatenate([quantities(samples.piece[rows], samples.tau[rows]) for rows in _chunks(len(samples.tau))])
+    found = _between(samples.tau, values, samples.inner, samples.piece, quantities, _rounding(pieces)[: len(names)])
+    return {
+        name: Largest(value, float(pieces.times(samples.piece[[row]], np.array([tau]))[0]))
+        for name, (value, row, tau) in zip(names, found, strict=True)
+    }
+
+
+def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
+    """The smallest σ of the geometric Jacobian along the way, of its rows that count or of n; metres and radians mixed.
+
+    Eigenvalues of J Jᵀ (Jᵀ J where it is smaller) say where; the decomposition of J itself how much.
+    """
+    rows = np.flatnonzero(task.weights)
+
+    def jacobians(times: Array) -> Array:
+        _, rotations, Js = chain_jacobians(chain.flat, pieces.positions(times))
+        if task == FULL_POSE:
+            return Js
+        # Directions of rotation are those of the tip's axes.
+        turned = np.concatenate((Js[:, :3], rotations.transpose(0, 2, 1) @ Js[:, 3:]), axis=1)
+        return turned[:, rows]
+
+    def exact(_: Indices, times: Array) -> Array:
+        return cast(Array, -np.linalg.svd(jacobians(times), compute_uv=False)[:, -1:])
+
+    def estimate(times: Array) -> Array:
+        Js = jacobians(times)
+        squares = Js @ Js.transpose(0, 2, 1) if len(chain) >= len(rows) else Js.transpose(0, 2, 1) @ Js
+        return cast(Array, -np.sqrt(np.maximum(np.linalg.eigvalsh(squares)[:, :1], 0.0)))
+
+    # The joints do not jump, and so neither does σ: it is one function from the start to the end.
+    samples = grid(pieces, _SIGMA_SAMPLES, 1)
+    times = np.unique(pieces.times(samples.piece, samples.tau))
+    values = np.concatenate([estimate(times[some]) for some in _chunks(len(times))])
+    nearest = int(values.argmax())
+    values[nearest] = exact(np.zeros(1, dtype=np.int64), times[[nearest]])
+    value, _, time = _between(
+        times, values, np.arange(1, len(times) - 1), np.zeros(len(times), dtype=np.int64), exact, np.zeros(1)
+    )[0]
+    return Largest(-value, time)
+
+
+def _chunks(count: int) -> list[slice]:
+    """Rows that are worked on at a time."""
+    return [slice(first, first + _CHUNK) for first in range(0, count, _CHUNK)]
+
+
+def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
+    """Configurations and poses at evenly spread samples, for another judge; shape (count, n)."""
+    samples = grid(pieces, count)
+    rows = np.unique(np.linspace(0, len(samples.tau) - 1, count).round().astype(np.int64))
+    qs = pieces.at(samples.piece[rows], samples.tau[rows], 0)
+    return qs, Poses(*chain_poses(chain.flat, qs))
+
+
+def _rounding(pieces: Pieces) -> Array:
+    """Differences that are rounding of each of `QUANTITIES`: where the tip hardly moves while the joints do."""
+    velocity, acceleration = (float(np.abs(pieces.on(_ENDS, order)).max(initial=0.0)) for order in (1, 2))
+    rates = np.repeat([velocity, max(acceleration, velocity**2), 1.0], 2)
+    rounding: Array = _ROUNDING * rates
+    return rounding
+
+
+def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array, Js: Array) -> list[Array]:
+    """‖ṗ‖, ‖ω‖, ‖p̈‖, ‖ω̇‖; shape (N,) each."""
+    twists = _times(Js, velocities)
+    paces = np.maximum(np.abs(velocities).max(axis=1, initial=0.0), 1e-9)
+    step = (_STEP / paces)[:, None]
+    # J̇ q̇ is how J q̇ changes along q̇ while q̇ stays.
+    moved = [_times(chain_jacobians(chain.flat, qs + place * step * velocities)[2], velocities) for place in _PLACES]
+    changes = _times(Js, accelerations) + np.tensordot(_STENCIL, moved, 1) / step
+    parts = [rows[:, part] for rows in (twists, changes) for part in (slice(3), slice(3, 6))]
+    return [np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]
+
+
+def _times(Js: Array, rates: Array) -> Array:
+    """Matrices times vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
+    products: Array = np.einsum("nij,nj->ni", Js, rates)
+    return products
+
+
+def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
+    """Distance [m] and angle [rad] between poses, pair by pair; shape (N,) each."""
+    if task != FULL_POSE:
+        return list(task.errors(wanted, poses))
+    distances = np.linalg.norm(poses.positions - wanted.positions, axis=1)
+    chords = np.sqrt(np.sum((poses.rotations - wanted.rotations) ** 2, axis=(1, 2)) / 8.0)
+    return [distances, 2.0 * np.arcsin(np.minimum(chords, 1.0))]
+
+
+def _between(
+    places: Array,
+    values: Array,
+    inner: Indices,
+    piece: Indices,
+    quantities: Callable[[Indices, Array], Array],
+    least: Array,
+) -> list[tuple[float, int, float]]:
+    """The largest value of each column, between samples too.
+
+    Args:
+        places: Of the samples, increasing in each piece; shape (N,).
+        values: There; shape (N, Q).
+        inner: Samples with neighbours in their piece.
+        piece: Of each sample; shape (N,).
+        quantities: The values in a piece at a place; shape (M,) each → (M, Q).
+        least: Differences that do not matter; shape (Q,).
+
+    Returns:
+        Of each column the value, the sample it is next to, and its place.
+    """
+    exact = np.maximum(_EXACT * np.abs(values).max(axis=0), least)
+    rows, columns = promising(places, values, inner, exact)
+    each = np.arange(len(rows))
+
+    def values_at(tried: Array) -> Array:
+        found = quantities(np.repeat(piece[rows], tried.shape[1]), tried.ravel())
+        values_there: Array = found.reshape(*tried.shape, -1)[each, :, columns]
+        return values_there
+
+    near = rows[:, None] + np.arange(-1, 2)
+    peaks, where = highest(values_at, places[near], values[near, columns[:, None]], exact[columns])
+    largest = []
+    for column, row in enumerate(values.argmax(axis=0)):
+        best = float(values[row, column]), int(row), float(places[row])
+        refined = ((float(peaks[i]), int(rows[i]), float(where[i])) for i in np.flatnonzero(columns == column))
+        largest.append(max((best, *refined), key=lambda one: one[0]))
+    return largest

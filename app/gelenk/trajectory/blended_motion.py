@@ -1,0 +1,138 @@
+"""A whole motion from rest at A past B to rest at C: a trapezoid of speed that a blend joins in its middle."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.fly_over import Blend
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+
+PhaseName: TypeAlias = Literal["accelerate", "coast_before", "blend", "coast_after", "decelerate"]
+
+_ROUNDING = 1e-12
+_RESOLVED = 1e-10
+"""Share of the larger speed, and of the way, that the rounding of a time may cost where phases meet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A part of the motion at constant acceleration: its name and how long it takes, [s]."""
+
+    name: PhaseName
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class BlendedMotion:
+    """From rest to rest.
+
+    Attributes:
+        blend: What stands instead of the corner.
+        phases: All five, those that take no time included.
+        motion: The position in time; k coordinates, [m].
+        duration: [s].
+        stopping_duration: The same two legs with a stop at B, [s].
+    """
+
+    blend: Blend
+    phases: tuple[Phase, ...]
+    motion: PiecewisePolynomial
+    duration: float
+    stopping_duration: float
+
+
+def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
+    """Accelerate along AB, coast, blend, coast along BC, decelerate: at rest in A and in C.
+
+    Args:
+        blend: At B, with the speeds of both legs.
+        acceleration: With which A is left and C approached, more than 0, [m/s²]; the blend has its own.
+
+    Raises:
+        InvalidField: A leg is too short to reach or leave its speed before the blend begins or after it has ended; or
+            a ramp or the blend is so short beside the whole that the times of its ends cannot be told apart.
+    """
+    corner = blend.corner
+    ramps = corner.speed_before / acceleration, corner.speed_after / acceleration
+    coasts = _coasts(blend, acceleration)
+    durations = ramps[0], coasts[0], blend.time, coasts[1], ramps[1]
+    names: tuple[PhaseName, ...] = ("accelerate", "coast_before", "blend", "coast_after", "decelerate")
+    phases = tuple(Phase(name, duration) for name, duration in zip(names, durations, strict=True))
+    stopping = leg_duration(corner.length_before, corner.speed_before, acceleration) + leg_duration(
+        corner.length_after, corner.speed_after, acceleration
+    )
+    _refuse_unresolved(blend, acceleration, phases)
+    return BlendedMotion(blend, phases, _motion(blend, acceleration, phases), sum(durations), stopping)
+
+
+def leg_duration(length: float, speed: float, acceleration: float) -> float:
+    """From rest to rest along a line, [s]: v/a + L/v, or 2 √(L/a) where the speed is not reached.
+
+    Infinite where the speed is 0.
+    """
+    if speed == 0.0:
+        return math.inf
+    if length <= speed * speed / acceleration:
+        return 2.0 * math.sqrt(length / acceleration)
+    return length / speed + speed / acceleration
+
+
+def _coasts(blend: Blend, acceleration: float) -> tuple[float, float]:
+    """How long each leg is run at its speed between ramp and blend, [s]."""
+    corner, coasts = blend.corner, []
+    for speed, length, taken, field, leg in (
+        (corner.speed_before, corner.length_before, blend.distance_before, "speed_before", "AB"),
+        (corner.speed_after, corner.length_after, blend.distance_after, "speed_after", "BC"),
+    ):
+        if speed == 0.0:
+            raise InvalidField(field, f"is more than 0 in a motion from A to C: {leg} has to be run through")
+        ramp = 0.5 * speed * speed / acceleration
+        left = length - taken - ramp
+        if left < -_ROUNDING * length:
+            raise InvalidField(
+                field,
+                f"{speed:g} m/s takes a ramp of {ramp:g} m at {acceleration:g} m/s², the blend takes {taken:g} m, and "
+                f"{leg} is {length:g} m long: the two overlap; lower the speed or the size of the blend, or raise the "
+                "acceleration",
+            )
+        coasts.append(max(left, 0.0) / speed)
+    return coasts[0], coasts[1]
+
+
+def _refuse_unresolved(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> None:
+    """Refuse phases that differ so much in length that their breaks, as doubles, would leave gaps."""
+    corner, duration = blend.corner, sum(phase.duration for phase in phases)
+    lost = 4.0 * float(np.finfo(float).eps) * duration
+    fastest = max(corner.speed_before, corner.speed_after)
+    strongest = max(acceleration, math.hypot(*blend.acceleration))
+    way = min(corner.length_before, corner.length_after)
+    if lost * strongest > _RESOLVED * fastest or lost * fastest > _RESOLVED * way:
+        shortest = min(phase.duration for phase in phases if phase.duration > 0.0)
+        reason = f"phases last from {shortest:g} s on in a motion of {duration:g} s: no time is fine enough for both"
+        raise InvalidField("rest_acceleration", reason)
+
+
+def _motion(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> PiecewisePolynomial:
+    """The phases that take time, one piece each."""
+    corner = blend.corner
+    first, second = corner.speed_before * corner.direction_before, corner.speed_after * corner.direction_after
+    still = np.zeros_like(first)
+    left = corner.start + 0.5 * phases[0].duration * first
+    reached = corner.end - 0.5 * phases[4].duration * second
+    pieces: tuple[tuple[Array, Array, Array], ...] = (
+        (corner.start, still, acceleration * corner.direction_before),
+        (left, first, still),
+        (blend.entry, first, blend.acceleration),
+        (blend.exit, second, still),
+        (reached, second, -acceleration * corner.direction_after),
+    )
+    breaks, coefficients = [0.0], []
+    for phase, (position, velocity, change) in zip(phases, pieces, strict=True):
+        if breaks[-1] + phase.duration > breaks[-1]:
+            breaks.append(breaks[-1] + phase.duration)
+            coefficients.append((position, velocity, 0.5 * change))
+    return PiecewisePolynomial(np.array(breaks), np.array(coefficients))

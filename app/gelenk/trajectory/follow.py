@@ -1,0 +1,183 @@
+"""The joints' way along a way of the tip: q(s) on one continuous branch of the inverse kinematics.
+
+Between exact knots q is a quintic with their q, q' and q'': continuous up to q'' but where the path's own derivatives
+jump. Knots are as near to each other as the tolerances ask for in between, and then nearer (`follow_exact`). Where the
+branch cannot be followed any further the way ends, and a verdict says why (`follow_verdict`); `damp` leaves the way
+near singularities instead (`follow_damped`).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.trajectory.follow_course import Course
+from gelenk.trajectory.follow_damped import damped
+from gelenk.trajectory.follow_exact import refined
+from gelenk.trajectory.follow_step import SHARE, Piece
+from gelenk.trajectory.follow_trace import Trace, traced
+from gelenk.trajectory.follow_verdict import Inquiry, Stop, never_back, verdict
+from gelenk.trajectory.paths import Path
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Following
+from gelenk.trajectory.time_laws import hermite_pieces
+
+_STILL = 1e-12
+"""Width of the piece that stands for a way of no length, [m or rad]."""
+_LOOSE = (1e-3, 1e-2)
+"""How far from the path's first pose a start may be, [m and rad]."""
+_PUSHES = (8.0, 40.0)
+"""How hard spare joints are pushed away from their limits, in their rate per rate of the tip."""
+
+
+@dataclass(frozen=True, slots=True)
+class JointWay:
+    """The joints along a way of the tip.
+
+    Attributes:
+        positions: q(s) from 0 to `reached`; its breaks include the path's. Where nothing could be done, or the way has
+            no length, one constant piece from 0 to 1e-12.
+        reached: Up to where it could be done; the path's extent if all was, [m or rad].
+        stop: Why it is not all.
+        path_deviation: Largest distance of the tip from the way between the knots that tolerances ask for, [m].
+        orientation_deviation: Largest angle likewise, [rad].
+        min_singular_value: The smallest σ of the rows that count on it, metres and radians mixed.
+        min_singular_value_s: Where that is, [m or rad].
+        bend_errors: How far q'' is from that of the exact way at most, in each piece of each joint; shape (M, n). None
+            where nothing moves, or the way is left.
+    """
+
+    positions: PiecewisePolynomial
+    reached: float
+    stop: Stop | None
+    path_deviation: float
+    orientation_deviation: float
+    min_singular_value: float
+    min_singular_value_s: float
+    bend_errors: Array | None = None
+
+
+def follow(robot: Robot, chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
+    """The joints that lead the tip along a way, from a configuration on.
+
+    Args:
+        robot: The robot.
+        chain: Base and tip.
+        path: The way of the tip.
+        start: A configuration with the path's first pose; shape (n,), [rad or m].
+        following: Which directions count, how closely, and what to do near singularities.
+
+    Raises:
+        InvalidField: The tolerances ask for more knots than there may be.
+        ValueError: The start is not at the path's first pose.
+    """
+    _check_start(chain, path, start, following)
+    if path.extent <= 0.0 or len(chain) == 0:
+        return _motionless(chain, path, start, following)
+    tolerances = following.position_tolerance, following.orientation_tolerance
+    residuals = SHARE * tolerances[0], SHARE * tolerances[1]
+    course = Course(chain, path, following.task, residuals)
+    threshold = 0.0 if following.near_singularity == "slow_down" else following.min_singular_value
+    trace = traced(course, tolerances, start, threshold)
+    if following.near_singularity == "damp":
+        return _damped_way(robot, course, tolerances, start, threshold, trace)
+    if trace.ending == "joint_limit" and course.is_redundant:
+        course, trace = _away_from_limits(course, tolerances, start, threshold, trace)
+    stop = verdict(Inquiry(robot, course, tolerances, threshold, start), trace)
+    return _exactly(course, _joint_way(start, trace, stop))
+
+
+def _damped_way(
+    robot: Robot, course: Course, tolerances: tuple[float, float], start: Array, threshold: float, trace: Trace
+) -> JointWay:
+    """The exact way as far as it goes, and from a singularity on the damped one."""
+    inquiry = Inquiry(robot, course, tolerances, threshold, start)
+    began_near = bool(trace.pieces) and trace.pieces[0].a.sigma < threshold
+    if trace.ending != "threshold" and not began_near:
+        return _exactly(course, _joint_way(start, trace, verdict(inquiry, trace)))
+    exact = [] if began_near else trace.pieces
+    since, q = (exact[-1].b.s, exact[-1].b.q) if exact else (0.0, start)
+    rest = damped(course, tolerances, q, threshold, since)
+    rest.pieces = exact + rest.pieces
+    stop = verdict(inquiry, rest) if rest.ending != "lost" else never_back(inquiry, rest)
+    return _joint_way(start, rest, stop)
+
+
+def _exactly(course: Course, way: JointWay) -> JointWay:
+    """The way with as many knots more as its peaks ask for."""
+    if way.reached <= 0.0:
+        return way
+    positions, bend_errors = refined(course, way.positions)
+    return replace(way, positions=positions, bend_errors=bend_errors)
+
+
+def _check_start(chain: Chain, path: Path, start: Array, following: Following) -> None:
+    errors = following.task.errors(path.at(np.zeros(1)).poses, Poses(*chain_poses(chain.flat, start[None])))[:, 0]
+    if not (errors <= _LOOSE).all():
+        raise ValueError(f"the start is {errors[0]:.3g} m and {errors[1]:.3g} rad from the path's first pose")
+
+
+def _away_from_limits(
+    course: Course, tolerances: tuple[float, float], start: Array, threshold: float, plain: Trace
+) -> tuple[Course, Trace]:
+    """What gets farthest of the shortest q' and of those that push joints away from their limits."""
+    best = course, plain
+    for push in _PUSHES:
+        pushed = replace(course, push=push)
+        try:
+            trace = traced(pushed, tolerances, start, threshold)
+        except InvalidField:
+            continue
+        if trace.reached > best[1].reached:
+            best = pushed, trace
+        if trace.ending == "complete":
+            break
+    return best
+
+
+def _motionless(chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
+    """Of a way without length, or of a chain without joints."""
+    stop = None
+    at = path.at(np.zeros(1))
+    if path.extent > 0.0:
+        stop = Stop("out_of_reach", 0.0, at.poses.positions[0], None, "the chain has no joints: its tip cannot move")
+    sigma = 0.0
+    if len(chain):
+        course = Course(chain, path, following.task, (0.0, 0.0))
+        sigma = float(course.velocities(at, start[None])[1][0])
+    return JointWay(_constant(start), 0.0, stop, 0.0, 0.0, sigma, 0.0)
+
+
+def _constant(q: Array) -> PiecewisePolynomial:
+    return PiecewisePolynomial(np.array([0.0, _STILL]), q[None, None])
+
+
+def _joint_way(start: Array, trace: Trace, stop: Stop | None) -> JointWay:
+    if not trace.pieces:
+        return JointWay(_constant(start), 0.0, stop, 0.0, 0.0, trace.best, 0.0)
+    deviations = np.array([piece.deviations for piece in trace.pieces]).max(axis=0)
+    sigmas = np.array([piece.sigmas for piece in trace.pieces])
+    i, k = np.unravel_index(int(sigmas.argmin()), sigmas.shape)
+    place = trace.pieces[i].a.s + trace.pieces[i].width * k / (sigmas.shape[1] - 1)
+    return JointWay(
+        _polynomial(trace.pieces),
+        trace.reached,
+        stop,
+        float(deviations[0]),
+        float(deviations[1]),
+        float(sigmas[i, k]),
+        float(place),
+    )
+
+
+def _polynomial(pieces: list[Piece]) -> PiecewisePolynomial:
+    """The quintics between the knots."""
+    breaks = np.array([pieces[0].a.s, *(piece.b.s for piece in pieces)])
+    starts = np.array([[piece.a.q, piece.a.dq, piece.a.ddq] for piece in pieces]).transpose(1, 0, 2)
+    ends = np.array([[piece.b.q, piece.b.dq, piece.b.ddq] for piece in pieces]).transpose(1, 0, 2)
+    return PiecewisePolynomial(breaks, hermite_pieces(starts, ends, np.diff(breaks)))

@@ -1,0 +1,146 @@
+"""The joints' way brought as near to the exact one in q'' as it is in q, so that its peaks and durations are those.
+
+Quintics that keep a tolerance of the position are off by far more in q'', and with them peaks of acceleration. Where
+they are they get more knots, many at once: a quintic is a few steps of Newton's method away from the exact way, and
+where joints are to spare the nearest one is taken.
+"""
+
+import numpy as np
+
+from gelenk.model.arrays import Array, Flags, Indices
+from gelenk.trajectory.audit_demands import WayError
+from gelenk.trajectory.composition import RATES_KNOWN, derivatives
+from gelenk.trajectory.follow_bounds import SLACK
+from gelenk.trajectory.follow_course import Course
+from gelenk.trajectory.follow_rows import row_derivatives, task_rows
+from gelenk.trajectory.intervals import bernstein, cut
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.time_laws import hermite_pieces
+from gelenk.trajectory.timing import Timed
+
+TOLERANCE = 1e-6
+"""Largest error of q'', in fractions of the largest q'' of its piece, or of q' over the length of the way."""
+_PROBES = np.array([0.14, 0.5, 0.86])
+"""Where in a piece that error is largest: it goes as the second derivative of τ³(1 - τ)³."""
+_ROUNDS, _MOST_PARTS = 4, 16
+_SHORTEST = 1e-2
+"""Least length of a new piece, in fractions of the way."""
+_ROUNDING = 1e-13
+"""Of q, as a share of it or of 1, [rad or m]."""
+_FIRST, _THIRD = 0.144, 16.0
+"""The largest errors of the first and third derivative, of that of q'' times and over the length of a piece."""
+_UNSEEN = 1.5
+"""By how much errors may be larger than at the probes."""
+_STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
+
+
+def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
+    """A way with more knots where its q'' is not that of the exact one yet, and how far it is from that.
+
+    Args:
+        course: What is followed.
+        positions: q(s), quintics along it; what is too near to singularities or joint limits stays as it is.
+
+    Returns:
+        The way in M pieces, and the largest error of each joint's q'' in each, ∞ where that cannot be told; (M, n).
+    """
+    for left in reversed(range(_ROUNDS)):
+        off, parts = _errors(course, positions)
+        if left == 0 or (parts == 1).all():
+            break
+        positions = _divided(course, positions, parts)
+    return positions, off
+
+
+def way_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: MotionLimits) -> WayError:
+    """By how much a motion's ratios to limits differ at most from those of the exact way.
+
+    Args:
+        joints: q(s), in M pieces.
+        off: The largest error of q'' in each; shape (M, n).
+        timing: Its motion in time.
+        limits: Of the joints.
+    """
+    breaks, law = timing.motion.breaks, timing.law
+    times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
+    s, v, a, j = (np.abs(law.derivative(order).at(times)) for order in range(4))
+    piece = np.clip(np.searchsorted(joints.breaks, s[:, 0], side="right") - 1, 0, len(off) - 1)
+    second, widths = _UNSEEN * off[piece], np.diff(joints.breaks)[piece, None]
+    first, third = _FIRST * second * widths, _THIRD * second / widths
+    with np.errstate(invalid="ignore"):  # What is not known, where nothing moves.
+        errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
+    bounds = (limits.velocity, limits.acceleration, limits.jerk)
+    return WayError(
+        *(
+            float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
+            for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
+        )
+    )
+
+
+def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
+    """The largest error of q'' in each piece, and into how many it is to be divided; shapes (M, n) and (M,)."""
+    widths, extent = np.diff(positions.breaks), course.path.extent
+    places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
+    rates = positions.rates_at(places)
+    exact, near = _exact(course, places, *rates)
+    errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
+    q, first, second, off = (
+        np.abs(values).reshape(len(_PROBES), len(widths), -1).max(axis=0) for values in (*rates, errors)
+    )
+    bend = np.maximum(second.max(axis=1), first.max(axis=1) / extent)
+    allowed = TOLERANCE * bend + _ROUNDING * (1.0 + q.max(axis=1)) / widths**2
+    ratios = off.max(axis=1) / np.maximum(allowed, np.finfo(float).tiny)
+    # The error is of fourth order.
+    wanted = np.where((ratios > 1.0) & np.isfinite(ratios), np.ceil(1.05 * ratios**0.25), 1.0)
+    most = np.clip(widths / (_SHORTEST * extent), 1.0, _MOST_PARTS)
+    return off, np.minimum(wanted, most).astype(np.int64)
+
+
+def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
+    """Each piece divided, at exact knots; those that would leave the joints' limits then are so at their own."""
+    piece = np.repeat(np.arange(len(parts)), parts)
+    share = (np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[piece]
+    widths = np.diff(positions.breaks)
+    breaks = np.append(positions.breaks[piece] + share * widths[piece], positions.breaks[-1])
+    own = cut(positions, breaks)
+    starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
+    new = share > 0.0
+    starts[:, new] = _exact(course, breaks[:-1][new], *starts[:, new])[0]
+    ends = np.roll(starts, -1, axis=1)
+    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None])[:3])
+    lengths = np.diff(breaks)
+    coefficients = hermite_pieces(starts, ends, lengths)
+    hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
+    beyond = (hull < course.chain.lower - SLACK) | (hull > course.chain.upper + SLACK)
+    kept = np.isin(piece, piece[beyond.any(axis=(1, 2))])
+    coefficients[kept] = own[kept]
+    return PiecewisePolynomial(breaks, coefficients)
+
+
+def _exact(course: Course, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
+    """q, q' and q'' of the exact way next to given ones, shape (3, N, n), and whether there is one, else they stay."""
+    chain, task, at = course.chain, course.task, course.path.at(s)
+    rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
+    inverses = _inverses(rows.jacobians)
+    for _ in range(_STEPS):
+        step = _times(inverses, rows.errors)
+        exact = exact + step
+        rows = task_rows(chain, task, at, exact)
+    inverses = _inverses(rows.jacobians)
+    rates = first + _times(inverses, rows.rates - _times(rows.jacobians, first))
+    changes, bends = row_derivatives(chain, task, at, exact, rates)
+    bend = second + _times(inverses, bends - _times(changes, rates) - _times(rows.jacobians, second))
+    near = np.abs(step).max(axis=1) <= _SETTLED * (1.0 + np.abs(q).max(axis=1))
+    return np.where(near[:, None], (exact, rates, bend), (q, first, second)), near
+
+
+def _inverses(matrices: Array) -> Array:
+    inverses: Array = np.asarray(np.linalg.pinv(matrices, rcond=_RANK), dtype=np.float64)
+    return inverses
+
+
+def _times(matrices: Array, vectors: Array) -> Array:
+    products: Array = (matrices @ vectors[:, :, None])[:, :, 0]
+    return products

@@ -1,0 +1,36 @@
+"""Motions as formulas of a worked solution."""
+
+from collections.abc import Sequence
+
+from gelenk.course.steps import Step, tex
+
+SHOWN_JOINTS = 4
+"""A worked solution goes through so many joints; further ones go the same way."""
+
+
+def tex_polynomial(coefficients: Sequence[float], variable: str) -> str:
+    """A polynomial, highest power first in formula and list; 0 where all of it is."""
+    text = ""
+    for power, value in zip(range(len(coefficients) - 1, -1, -1), coefficients, strict=True):
+        if value != 0.0:
+            symbol = {0: "", 1: rf"\,{variable}"}.get(power, rf"\,{variable}^{{{power}}}")
+            sign = "-" if value < 0.0 else "+" if text else ""
+            text += f" {sign} " if text else sign
+            text += tex(abs(value)) + symbol
+    return text or "0"
+
+
+def tex_column(values: Sequence[float]) -> str:
+    """A column vector."""
+    return r"\begin{bmatrix}" + r" \\ ".join(tex(value) for value in values) + r"\end{bmatrix}"
+
+
+def tex_matrix(rows: Sequence[Sequence[float]]) -> str:
+    """Rows of numbers as a LaTeX `bmatrix`."""
+    lines = (" & ".join(tex(value) for value in row) for row in rows)
+    return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
+
+
+def of_joint(step: Step, joint: int, joints: int) -> Step:
+    """The step with its joint in the title, where there are several."""
+    return step if joints == 1 else Step(f"Joint {joint + 1}: {step.title}", step.text, step.latex)

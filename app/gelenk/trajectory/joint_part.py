@@ -1,0 +1,194 @@
+"""Segments in the space of the joints: to a configuration, to a pose by inverse kinematics, or through waypoints."""
+
+import math
+from typing import cast
+
+import numpy as np
+
+from gelenk.kinematics.ik.closed_form import closed_form
+from gelenk.kinematics.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import Status
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.trajectory.audit_demands import Demands, Ends, JointLimits
+from gelenk.trajectory.audit_pieces import pieces_of
+from gelenk.trajectory.audit_tip import tip_peaks
+from gelenk.trajectory.joint_excess import first_limit_excess
+from gelenk.trajectory.joint_motion import compared_point_to_point, point_to_point_motion
+from gelenk.trajectory.joint_splines import (
+    Promise,
+    compared_spline,
+    longest_prefix,
+    promised,
+    spline_motion,
+    spline_way,
+)
+from gelenk.trajectory.joint_waypoints import WITHIN, check_within
+from gelenk.trajectory.parts import Halt, Part, standing
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Problem, Segment, SegmentReport, TimingComparison
+from gelenk.trajectory.via_blends import via_blends
+from gelenk.trajectory.words import StopReason
+
+_REASONS: dict[Status, StopReason] = {
+    "unreachable": "out_of_reach",
+    "outside_limits": "joint_limit",
+    "singular": "singularity",
+    "not_converged": "out_of_reach",
+}
+_MARGIN = 1e-9
+"""By which a motion is slowed down beyond what sampled peaks ask for."""
+
+
+def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Part:
+    """A segment of the joints, as far as it can be done.
+
+    Args:
+        robot: The robot.
+        chain: What moves.
+        start: Configuration at its beginning; shape (n,), [rad or m].
+        segment: Of type `joint`, or a spline through configurations.
+        index: Its number in the trajectory.
+        problem: Whose segment it is.
+
+    Raises:
+        InvalidField: There is no such motion, or not in the time that is given.
+    """
+    field = f"segments.{index}"
+    halt: Halt | None = None
+    notes: tuple[str, ...] = ()
+    target = segment.configuration
+    if segment.configurations is not None:
+        motion, halt, notes = _through(chain, start, segment, index)
+    else:
+        if target is None:
+            found = _solved(robot, chain, start, segment, index, problem)
+            if isinstance(found, Halt):
+                return Part(standing(start), (), Demands(), found)
+            target = found
+        _refuse_outside(chain, target, f"{field}.target")
+        motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration, field=field)
+    motion = _within_tip_limits(chain, motion, segment, field)
+    timing = _comparison(chain, start, target, segment, index) if problem.compares_timing else None
+    end = motion.at(motion.breaks[-1:])[0] if halt is not None or target is None else target
+    report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
+    return Part(motion, (report,), _demands(segment, start, end, problem.following.task), halt, timing)
+
+
+def _refuse_outside(chain: Chain, target: Array, field: str) -> None:
+    """Refuse a target beyond the limits of a joint."""
+    for name, value, lower, upper in zip(chain.joint_names, target, chain.lower, chain.upper, strict=True):
+        if not lower - WITHIN <= value <= upper + WITHIN:
+            raise InvalidField(field, f"{name} at {value:.10g} is outside its limits [{lower:.10g}, {upper:.10g}]")
+
+
+def _solved(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Array | Halt:
+    """The configuration nearest to the start whose pose is the target; of a redundant arm what a descent leads to."""
+    following = problem.following
+    T = cast(Array, segment.pose)
+    target = Poses(T[None, :3, 3], T[None, :3, :3])
+    form = closed_form(chain, following.task)
+    every = form is not None and not form.has_free_elbow
+    options = Options(task=following.task, every=every, most=1, windings=every)
+    answer = inverse_kinematics(robot, chain, target, start[None], options)
+    if len(answer.qs):
+        return cast(Array, answer.qs[0])
+    failure = answer.failures[0]
+    blocking = failure.blocking_joints
+    position = chain_poses(chain.flat, start[None])[0][0]
+    return Halt(
+        _REASONS[answer.statuses[0]], index, 0.0, position, blocking[0].name if blocking else None, failure.reason
+    )
+
+
+def _through(
+    chain: Chain, start: Array, segment: Segment, index: int
+) -> tuple[PiecewisePolynomial, Halt | None, tuple[str, ...]]:
+    """Through all waypoints, or to the last one before which no joint leaves its limits; and what is to be known."""
+    field = f"segments.{index}"
+    if segment.blends:
+        motion, note = _beside(chain, start, segment, field)
+        return motion, None, (note,)
+    motion = spline_motion(start, segment, chain, field=field)
+    way = spline_way(start, segment, chain, field=field)
+    excess = first_limit_excess(chain, way)
+    if excess is None:
+        return motion, None, ()
+    part = longest_prefix(start, segment, chain, field=field)
+    joint, count = chain.joint_names[excess.joint], len(cast(Array, segment.configurations))
+    detail = (
+        f"between its waypoints the spline takes {joint} to {excess.value:.6g}, beyond its limit {excess.bound:.6g}; "
+        f"the first {part.waypoints} of {count} waypoints can be done: put more of them where it swings out"
+    )
+    position = chain_poses(chain.flat, way.at(np.array([excess.time])))[0][0]
+    return part.motion, Halt("joint_limit", index, part.waypoints / count, position, joint, detail), ()
+
+
+def _beside(chain: Chain, start: Array, segment: Segment, field: str) -> tuple[PiecewisePolynomial, str]:
+    """Past waypoints on straight lines with parabolic blends, which stay between the waypoints; and how far past."""
+    waypoints = cast(Array, segment.configurations)
+    check_within(chain, waypoints, field)
+    limits, times = segment.limits, segment.times
+    found = via_blends(start, waypoints, limits, times=times, duration=segment.duration, field=field)
+    row, joint = np.unravel_index(int(found.deviations.argmax()), found.deviations.shape)
+    note = (
+        f"the blends pass beside the inner waypoints: furthest, by {found.deviations[row, joint]:.6g} rad or m, joint "
+        f"{chain.joint_names[joint]} beside waypoint {row - 1}"
+    )
+    return found.motion, note
+
+
+def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
+    """Slowed down as a whole where the tip would be too fast.
+
+    Raises:
+        InvalidField: The time that it takes is given.
+    """
+    tip = segment.limits.tip
+    bounds = {name: getattr(tip, name) for name in ("speed", "angular_speed", "acceleration", "angular_acceleration")}
+    if not any(math.isfinite(bound) for bound in bounds.values()) or motion.duration == 0.0:
+        return motion
+    peaks = tip_peaks(pieces_of(motion), chain, None)
+    ratios = {name: peaks[name].value / bound for name, bound in bounds.items()}
+    factor = max(math.sqrt(ratio) if "acceleration" in name else ratio for name, ratio in ratios.items())
+    if factor <= 1.0:
+        return motion
+    given = "times" if segment.times is not None else "duration"
+    if segment.times is not None or segment.duration is not None:
+        reason = f"the tip would be too fast: its limits are kept in {factor:.6g} times the time"
+        raise InvalidField(f"{field}.{given}", reason)
+    return motion.scaled(factor * (1.0 + _MARGIN))
+
+
+def _comparison(
+    chain: Chain, start: Array, target: Array | None, segment: Segment, index: int
+) -> TimingComparison | None:
+    """Two timings of the same way; none where its times are given."""
+    if segment.times is not None or segment.blends:
+        return None
+    law, limits = segment.law, segment.limits
+    if target is not None:
+        # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
+        law = "cubic" if law == "time_optimal" else law
+        numbers = compared_point_to_point(start, target, law, limits)
+        return TimingComparison((index,), law, *numbers) if numbers.uniform_duration > 0.0 else None
+    return TimingComparison((index,), law, *compared_spline(start, segment, chain))
+
+
+def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
+    promise = Promise(1, False) if segment.blends else promised(segment)
+    limits = segment.limits
+    return Demands(
+        JointLimits(limits.velocity, limits.acceleration, limits.jerk),
+        limits.tip,
+        Ends(start, end),
+        task=task,
+        continuous=promise.continuous,
+        keeps_jerk=promise.has_bounded_jerk,
+        stated_jerk=segment.stated_jerk,
+    )

@@ -1,0 +1,258 @@
+"""Joints through waypoints along a cubic spline, at rest at both ends.
+
+A clamped spline, and one of assigned ends, is at rest there by itself: it is a motion in time. The others are not; for
+them the spline is a way, q(u), and a law of time s(t) leads from rest to rest along it, q(s(t)). What a law means:
+
+- `cubic`, `trapezoidal` on a clamped or assigned spline: the spline in time, all times multiplied by the k that just
+  keeps the limits of velocity and acceleration. (A trapezoid along such a way would start twice over: the faster it
+  comes to its speed the better, and at once is allowed.) Elsewhere that law along the way.
+- `quintic`, `septic`, `jerk_limited`: that law along the way, limits of jerk kept too.
+- `time_optimal`: the fastest motion along the way under the limits of velocity and acceleration.
+
+With `times` a clamped or assigned spline takes exactly these. They are the law of time then; what a law promises and
+they cannot keep is refused: `time_optimal` any, `jerk_limited` those of a clamped spline, whose acceleration jumps at
+both ends.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.joint_excess import first_limit_excess
+from gelenk.trajectory.joint_motion import (
+    ROUNDING,
+    Timings,
+    check_duration,
+    check_limits,
+    kept,
+    lasting,
+    named,
+    standing,
+    timings,
+)
+from gelenk.trajectory.joint_waypoints import Knots, check_closed, check_within, knots
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import Segment
+from gelenk.trajectory.splines import cubic_spline
+from gelenk.trajectory.time_optimal import time_optimal
+from gelenk.trajectory.time_scaling import Limits, uniform_scaling
+from gelenk.trajectory.timing import compared, timed
+
+_AT_REST = ("clamped", "assigned")
+"""Boundaries of splines that are at rest at both ends."""
+_SCALED = ("cubic", "trapezoidal")
+"""Laws for which such a spline is the motion itself, all times multiplied by one factor."""
+_STILL = 1e-12
+"""q' at an end, in fractions of the steepest step, that counts as rest."""
+
+
+def spline_motion(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> PiecewisePolynomial:
+    """The motion through the waypoints of a segment; see the module for what its law, times and boundary mean.
+
+    Between waypoints a spline can go beyond the limits of a joint: ask `first_limit_excess`.
+
+    Args:
+        start: Where it begins, its first knot; shape (n,), [rad or m].
+        segment: With `configurations`.
+        chain: What moves.
+        field: The segment, before the names of its fields in refusals.
+
+    Returns:
+        From time 0 on, and at rest at both ends.
+
+    Raises:
+        InvalidField: There is no such spline, not at these times or in this duration, or a waypoint is outside limits.
+        TooLarge: It has too many pieces for the fastest motion.
+    """
+    points = _checked(start, segment, chain, field)
+    if segment.times is not None:
+        return _at_given_times(points, segment, field)
+    motion = _fastest(_spline(points, segment), segment, field)
+    if segment.duration is None:
+        return motion
+    return lasting(motion, segment.duration, kept(segment.law, segment.limits), field)
+
+
+def spline_way(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> PiecewisePolynomial:
+    """The spline of a segment, without its law of time: q(u), at its knots in `times` or where none are given spaced.
+
+    Args:
+        start: Its first knot; shape (n,), [rad or m].
+        segment: With `configurations`.
+        chain: What moves.
+        field: The segment, before the names of its fields in refusals.
+
+    Raises:
+        InvalidField: There is no such spline.
+    """
+    return _spline(_checked(start, segment, chain, field), segment)
+
+
+def compared_spline(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> Timings:
+    """The law of a segment without `times`, and the fastest motion along the same way.
+
+    Args:
+        start: Its first knot; shape (n,), [rad or m].
+        segment: With `configurations`.
+        chain: What moves.
+        field: The segment, before the names of its fields in refusals.
+
+    Raises:
+        InvalidField: There is no such spline.
+    """
+    limits = segment.limits
+    way = spline_way(start, segment, chain, field=field)
+    if segment.law not in _SCALED or not _is_at_rest(way):
+        return Timings(*compared(None, way, segment.law, limits))
+    optimal = time_optimal(way, limits.velocity, limits.acceleration).motion.duration
+    return timings(_fastest(way, segment, field), limits, optimal)
+
+
+class Prefix(NamedTuple):
+    """As much of a spline as stays within the limits of the joints.
+
+    Attributes:
+        motion: To the last waypoint that is reached, at rest there.
+        waypoints: How many of them that are.
+    """
+
+    motion: PiecewisePolynomial
+    waypoints: int
+
+
+def longest_prefix(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> Prefix:
+    """As many waypoints of a segment as a spline through them stays within the limits of the joints.
+
+    The spline ends with the last of them, at rest. A part of a periodic one is natural; a part at given times that
+    comes to a stop too fast takes longer.
+
+    Args:
+        start: Shape (n,), [rad or m].
+        segment: Whose spline goes beyond limits somewhere.
+        chain: What moves.
+        field: The segment, before the names of its fields in refusals.
+
+    Raises:
+        InvalidField: There is no such spline.
+    """
+    points = _checked(start, segment, chain, field)
+    excess = first_limit_excess(chain, _spline(points, segment))
+    if excess is None:
+        return Prefix(spline_motion(start, segment, chain, field=field), len(points.times) - 1)
+    most = int(np.searchsorted(points.times, excess.time, side="right")) - 1
+    boundary = "natural" if segment.boundary == "periodic" else segment.boundary
+    shorter = replace(segment, boundary=boundary, duration=None)
+    for count in range(min(most, len(points.times) - 2), 0, -1):
+        way = _spline(Knots(points.times[: count + 1], points.positions[: count + 1]), shorter)
+        if first_limit_excess(chain, way) is None:
+            motion = _fastest(way, shorter, field) if segment.times is None else _slowed(way, shorter)
+            return Prefix(motion, count)
+    return Prefix(standing(start), 0)
+
+
+class Promise(NamedTuple):
+    """How smooth a motion is.
+
+    Attributes:
+        continuous: Derivatives of the joints up to this order do not jump within it.
+        has_bounded_jerk: Whether acceleration jumps neither within it nor at its ends, and jerk is limited.
+    """
+
+    continuous: int
+    has_bounded_jerk: bool
+
+
+def promised(segment: Segment) -> Promise:
+    """How smooth the motion of a segment of joints is: of a spline, or from point to point."""
+    keeps_jerk = kept(segment.law, segment.limits).jerk is not None
+    if segment.configurations is None:
+        return Promise(2 if keeps_jerk else 1, keeps_jerk)
+    if segment.times is not None:
+        return Promise(2, keeps_jerk and segment.boundary == "assigned")
+    is_scaled = segment.law in _SCALED and segment.boundary in _AT_REST
+    return Promise(2 if keeps_jerk or is_scaled else 1, keeps_jerk)
+
+
+def _checked(start: Array, segment: Segment, chain: Chain, field: str) -> Knots:
+    """The knots of a segment that makes sense."""
+    check_limits(segment.limits, field)
+    check_duration(segment.duration, field)
+    points = knots(start, segment.configurations, segment.times, segment.limits.velocity, field)
+    check_within(chain, points.positions[1:], field)
+    check_closed(points.positions, segment.boundary, field)
+    if segment.times is not None:
+        _check_law_of_times(segment, field)
+    return points
+
+
+def _check_law_of_times(segment: Segment, field: str) -> None:
+    if segment.boundary not in _AT_REST:
+        raise InvalidField(
+            named(field, "boundary"),
+            f"with `times` a `{segment.boundary}` spline would not start at rest, nor end so: leave `times` out, and a "
+            "law of time brings it from rest to rest, or take `clamped` or `assigned`",
+        )
+    if segment.duration is not None:
+        raise InvalidField(named(field, "duration"), "goes without `times`, which say it already")
+    if segment.law == "time_optimal":
+        raise InvalidField(
+            named(field, "times"), "go without the law `time_optimal`, which finds them: take another law, or none"
+        )
+    if segment.law == "jerk_limited" and segment.boundary == "clamped":
+        raise InvalidField(
+            named(field, "boundary"),
+            "at given `times` the acceleration of a `clamped` spline jumps at both ends, which the law `jerk_limited` "
+            "forbids: take `assigned`, or leave `times` out",
+        )
+
+
+def _spline(points: Knots, segment: Segment) -> PiecewisePolynomial:
+    return cubic_spline(points.times, points.positions, segment.boundary).motion
+
+
+def _is_at_rest(way: PiecewisePolynomial) -> bool:
+    """Whether a spline is so at both ends, as it stands: a clamped or assigned one, or by chance any."""
+    chords = np.diff(way.at(way.breaks), axis=0) / np.diff(way.breaks)[:, None]
+    ends = way.derivative().at(way.breaks[[0, -1]])
+    return bool(np.abs(ends).max(initial=0.0) <= _STILL * np.abs(chords).max(initial=0.0))
+
+
+def _at_given_times(points: Knots, segment: Segment, field: str) -> PiecewisePolynomial:
+    motion = _spline(points, segment)
+    scaling = uniform_scaling(motion, _kept_at_times(segment))
+    if scaling.course_factor > 1.0 + ROUNDING:
+        bound = scaling.binding
+        raise InvalidField(
+            named(field, "times"),
+            f"joint {bound.joint + 1} comes to {bound.ratio:.6g} times its limit of {bound.quantity} at "
+            f"{bound.time:.6g} s: the limits are kept where all times are multiplied by {scaling.course_factor:.10g}",
+        )
+    return motion
+
+
+def _slowed(motion: PiecewisePolynomial, segment: Segment) -> PiecewisePolynomial:
+    """At its times, or where these are too short as fast as the limits allow."""
+    return motion.scaled(uniform_scaling(motion, _kept_at_times(segment)).course_factor)
+
+
+def _kept_at_times(segment: Segment) -> Limits:
+    """The limits of a spline in time: of jerk only where the acceleration does not jump at its ends anyway."""
+    return kept(segment.law if segment.boundary == "assigned" else "cubic", segment.limits)
+
+
+def _fastest(way: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
+    """From rest to rest along a way in the least time that the law takes."""
+    limits = segment.limits
+    if segment.law in _SCALED and _is_at_rest(way):
+        factor = uniform_scaling(way, kept(segment.law, limits)).factor
+        return way.scaled(factor or 1.0)
+    try:
+        if segment.law == "time_optimal":
+            return time_optimal(way, limits.velocity, limits.acceleration).motion
+        return timed(None, way, segment.law, limits).motion
+    except InvalidField as error:
+        raise InvalidField(named(field, error.field), error.reason) from error

@@ -1,0 +1,121 @@
+"""The knots of a motion of joints through waypoints, and when they are: checked, and spaced where no times are given.
+
+Without times a step takes what its slowest joint needs for it at its limit of velocity, h = max_j |Δq_j|/v_j. That is
+the length of the chord where joints are unlike, and no time yet: it spaces the knots.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, counted
+from gelenk.trajectory.joint_motion import LARGEST, NO_LENGTH, named
+from gelenk.trajectory.splines import CLOSED, NEAREST, Boundary, checked_times
+
+WITHIN = 1e-9
+"""How far beyond its limits a joint still counts as within, [rad or m]."""
+
+
+class Knots(NamedTuple):
+    """What is to be passed, the start included, and when.
+
+    Attributes:
+        times: From 0 on; where none are given those that space the knots; shape (N,), [s].
+        positions: Shape (N, n), [rad or m].
+    """
+
+    times: Array
+    positions: Array
+
+
+def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: Array, field: str = "") -> Knots:
+    """The start and the waypoints after it.
+
+    Args:
+        start: Shape (n,), [rad or m].
+        waypoints: Shape (m, n).
+        times: When each is passed, the start being left at 0 s; shape (m,), [s].
+        velocity: Limit of each joint, where times are to be found; shape (n,), [rad/s or m/s].
+        field: The segment, before the names of its fields in refusals.
+
+    Raises:
+        InvalidField: No waypoints, or such as are no numbers to reckon with; times that do not increase; without times
+            one that is the same as the one before.
+    """
+    name = named(field, "waypoints")
+    if waypoints is None or len(waypoints) == 0:
+        raise InvalidField(name, "there has to be one at least: the start is the first knot, and a spline takes two")
+    positions = np.concatenate((start[None], waypoints))
+    too_large = np.argwhere(~(np.abs(positions) <= LARGEST))
+    if len(too_large) > 0:
+        k = int(too_large[0, 0])
+        raise InvalidField("start" if k == 0 else f"{name}.{k - 1}", f"must be of magnitude ≤ {LARGEST:g}")
+    if times is None:
+        return Knots(_spaced(positions, velocity, name), positions)
+    _check_times(times, len(waypoints), named(field, "times"))
+    return Knots(np.concatenate(([0.0], times)), positions)
+
+
+def _spaced(positions: Array, velocity: Array, name: str) -> Array:
+    """Times by the steps of the slowest joint."""
+    steps = np.abs(np.diff(positions, axis=0))
+    lengths = (steps / velocity).max(axis=1, initial=0.0)
+    is_same = steps.max(axis=1, initial=0.0) <= NO_LENGTH
+    short = np.flatnonzero(is_same | ~(lengths > 2.0 * NEAREST * lengths.sum()))
+    if len(short) == 0:
+        times: Array = np.concatenate(([0.0], np.cumsum(lengths)))
+        return times
+    k = int(short[0])
+    before = "the start" if k == 0 else f"entry {k - 1}"
+    how = "the same as" if is_same[k] else "less than a millionth of the whole way from"
+    raise InvalidField(f"{name}.{k}", f"is {how} {before}: leave one of both out, or give `times`")
+
+
+def _check_times(times: Array, count: int, name: str) -> None:
+    if len(times) != count:
+        raise InvalidField(name, f"{counted(len(times), 'entry')} for {counted(count, 'waypoint')}")
+    if not (np.abs(times) <= LARGEST).all():
+        raise InvalidField(name, f"each must be at most {LARGEST:g} s")
+    checked_times(times, name)
+    if not times[0] > NEAREST * times[-1]:
+        raise InvalidField(f"{name}.0", f"{times[0]:.10g} s is not after the start of the segment, which is at 0 s")
+
+
+def check_within(chain: Chain, waypoints: Array, field: str = "") -> None:
+    """That waypoints are within the limits of the joints.
+
+    Args:
+        chain: Whose joints.
+        waypoints: Shape (m, n), [rad or m].
+        field: The segment.
+
+    Raises:
+        InvalidField: The first one that is not.
+    """
+    outside = np.argwhere(~((waypoints >= chain.lower - WITHIN) & (waypoints <= chain.upper + WITHIN)))
+    if len(outside) == 0:
+        return
+    k, j = (int(i) for i in outside[0])
+    raise InvalidField(
+        f"{named(field, 'waypoints')}.{k}",
+        f"joint {chain.joint_names[j]} at {waypoints[k, j]:.10g} is outside its limits "
+        f"[{chain.lower[j]:.10g}, {chain.upper[j]:.10g}]",
+    )
+
+
+def check_closed(positions: Array, boundary: Boundary, field: str = "") -> None:
+    """That a periodic spline ends where it starts.
+
+    Raises:
+        InvalidField: It does not.
+    """
+    gaps = np.abs(positions[-1] - positions[0])
+    if boundary != "periodic" or gaps.max(initial=0.0) <= CLOSED * max(1.0, float(np.abs(positions).max())):
+        return
+    j = int(gaps.argmax())
+    raise InvalidField(
+        f"{named(field, 'waypoints')}.{len(positions) - 2}",
+        f"a periodic spline ends where it starts, and joint {j + 1} is {gaps[j]:.10g} away from there",
+    )

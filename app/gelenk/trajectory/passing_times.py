@@ -1,0 +1,70 @@
+"""A law of time that passes places of a way at given times: a clamped cubic spline s(t) that never goes back."""
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField, counted
+from gelenk.trajectory.composition import in_time
+from gelenk.trajectory.paths import Path
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.splines import checked_times, cubic_spline
+from gelenk.trajectory.timing import Timed
+from gelenk.trajectory.way_geometry import TipMotion, geometry_of
+from gelenk.trajectory.way_peaks import peaks_of
+
+_ROUNDING = 1e-9
+
+
+def passing_at(
+    path: Path,
+    joints: PiecewisePolynomial,
+    places: Array,
+    times: Array,
+    limits: MotionLimits,
+    tip_motion: TipMotion | None,
+) -> Timed:
+    """The motion along a way, from rest to rest, that is at each place at its time; C² where the way is.
+
+    Args:
+        path: What the tip follows.
+        joints: q(s), of all of it.
+        places: s of each waypoint after the start; shape (m,), [m or rad].
+        times: When to be there, after the start; shape (m,), [s].
+        limits: Of joints and tip.
+        tip_motion: See `timed`.
+
+    Raises:
+        InvalidField: The times do not increase, would make the tip go back on its way, or are too short.
+    """
+    if len(times) != len(places):
+        raise InvalidField("times", f"{counted(len(times), 'entry')} for {counted(len(places), 'waypoint')}")
+    knots = np.concatenate(([0.0], times))
+    checked_times(knots, "times")
+    law = cubic_spline(knots, np.concatenate(([0.0], places))[:, None], "clamped").motion
+    _refuse_going_back(law)
+    motion = in_time(joints, law)
+    geometry = geometry_of(path, joints, limits, tip_motion)
+    peaks = peaks_of(geometry, motion, law, with_jerk=False)
+    if peaks.factor > 1.0 + _ROUNDING:
+        reason = f"{peaks.binding(limits)}: limits are kept where all times are multiplied by {peaks.factor:.10g}"
+        raise InvalidField("times", reason)
+    continuous = 1 if len(geometry.bends()) else 2
+    return Timed(motion, law, continuous, False, "the times are given")
+
+
+def _refuse_going_back(law: PiecewisePolynomial) -> None:
+    """Refuse ds/dt < 0: its least value on a piece is at an end or where its parabola turns."""
+    a, b, c = (law.coefficients[:, k, 0] for k in (1, 2, 3))
+    widths = np.diff(law.breaks)
+    turn = np.clip(np.divide(-b, 3.0 * c, out=np.zeros_like(b), where=c != 0.0), 0.0, widths)
+    places = np.stack((np.zeros_like(widths), turn, widths))
+    rates = a + places * (2.0 * b + places * 3.0 * c)
+    least = rates.min(axis=0)
+    if (least < -_ROUNDING * rates.max()).any():
+        i = int(least.argmin())
+        reason = (
+            f"the tip would have to go back on its way between {law.breaks[i]:.6g} and {law.breaks[i + 1]:.6g} s: "
+            "let the times be more even in the length of the way"
+        )
+        raise InvalidField("times", reason)

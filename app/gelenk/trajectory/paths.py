@@ -1,0 +1,279 @@
+"""Ways of the tip through space, by how far along it is: s in metres, or in radians where it only turns.
+
+A path knows no time. With a time law s(t) the tip's twist is ξ = ξ_s ṡ and its acceleration ξ̇ = ξ_s s̈ + ξ_s' ṡ²; the
+lecture's formula for p̈ has the first derivative's factor wrong: it is d²p/ds² ṡ² + dp/ds s̈. Position and
+orientation are planned apart and meet in s.
+
+- `line`, `circle`: of these the orientation goes from start to end in proportion to the distance.
+- `blended_lines`: a polyline whose corners are cut by parabolas.
+- `spline` (`spline_paths`): smooth through any number of poses.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, Protocol, TypeAlias
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.trajectory.curves import Curve, Line, arc_through
+from gelenk.trajectory.orientation_paths import OrientationPath, axis_angle, through
+from gelenk.trajectory.rotation_splines import rotation_spline
+from gelenk.trajectory.zyz_paths import zyz_spline
+
+Unit: TypeAlias = Literal["m", "rad"]
+ViaOrientation: TypeAlias = Literal["smooth", "slerp", "zyz", "zyz_other"]
+
+POINT = 1e-9
+"""Length below which a line is a turn on the spot, [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class PathSamples:
+    """A path at N places.
+
+    Attributes:
+        poses: Along it.
+        first: ξ_s = (dp/ds; ω/ṡ), along the base's axes; shape (N, 6), [m, rad per m or rad].
+        second: dξ_s/ds; shape (N, 6), [m, rad per m² or rad²].
+    """
+
+    poses: Poses
+    first: Array
+    second: Array
+
+    @property
+    def tangents(self) -> Array:
+        """Unit tangent of the position, zero where it stays; shape (N, 3)."""
+        norms = np.linalg.norm(self.first[:, :3], axis=1)[:, None]
+        tangents: Array = np.where(norms > 0.5, self.first[:, :3], 0.0)
+        return tangents
+
+    @property
+    def curvatures(self) -> Array:
+        """‖d²p/ds²‖; shape (N,), [1/m]."""
+        curvatures: Array = np.linalg.norm(self.second[:, :3], axis=1)
+        return curvatures
+
+    @property
+    def angular_rates(self) -> Array:
+        """‖ω‖ / ṡ; shape (N,), [rad/m], or 1 where it only turns about one axis."""
+        rates: Array = np.linalg.norm(self.first[:, 3:], axis=1)
+        return rates
+
+    def twists(self, speeds: Array) -> Array:
+        """(ṗ; ω) at ṡ of shape (N,), [m/s or rad/s]; shape (N, 6), [m/s, rad/s]."""
+        twists: Array = self.first * speeds[:, None]
+        return twists
+
+    def accelerations(self, speeds: Array, accelerations: Array) -> Array:
+        """(p̈; ω̇) at ṡ and s̈ of shape (N,); shape (N, 6), [m/s², rad/s²]."""
+        total: Array = self.first * accelerations[:, None] + self.second * speeds[:, None] ** 2
+        return total
+
+
+class Path(Protocol):
+    """A way of the tip through space."""
+
+    @property
+    def unit(self) -> Unit:
+        """Of s."""
+
+    @property
+    def extent(self) -> float:
+        """Where s ends; it is 0 at the start, [m or rad]."""
+
+    @property
+    def length(self) -> float:
+        """Of the way of the position, [m]."""
+
+    @property
+    def angle(self) -> float:
+        """Travelled by the orientation, [rad]."""
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Values of s inside of the way at which ξ_s or dξ_s/ds jumps."""
+
+    def at(self, s: Array) -> PathSamples:
+        """Poses and derivatives at places s; shape (N,)."""
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePath:
+    """A curve, and an orientation that goes in proportion to its length; of no length it is a turn on the spot.
+
+    Attributes:
+        curve: The position.
+        orientation: From its start to its end.
+    """
+
+    curve: Curve
+    orientation: OrientationPath
+
+    @property
+    def unit(self) -> Unit:
+        """See `Path`."""
+        return "rad" if self.curve.length <= POINT else "m"
+
+    @property
+    def extent(self) -> float:
+        """See `Path`."""
+        return self.orientation.angle if self.unit == "rad" else self.curve.length
+
+    @property
+    def length(self) -> float:
+        """See `Path`."""
+        return self.curve.length
+
+    @property
+    def angle(self) -> float:
+        """See `Path`."""
+        return self.orientation.angle
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """See `Path`."""
+        return tuple(x * self.extent for x in self.orientation.breaks)
+
+    def at(self, s: Array) -> PathSamples:
+        """See `Path`."""
+        extent = self.extent
+        per_s = 1.0 / extent if extent > 0.0 else 0.0
+        x, length = s * per_s, self.curve.length
+        stretch = length * per_s
+        positions, tangents, bends = self.curve.at(x * length if self.unit == "rad" else s)
+        rotations, rates, changes = self.orientation.at(x)
+        first = np.hstack((tangents * stretch, rates * per_s))
+        second = np.hstack((bends * stretch**2, changes * per_s**2))
+        return PathSamples(Poses(positions, rotations), first, second)
+
+
+def line(start: Array, end: Array, orientation: OrientationPath | None = None) -> CurvePath:
+    """Straight from pose to pose; where only the orientation differs, a turn on the spot.
+
+    Args:
+        start: T_base_tip; shape (4, 4).
+        end: Likewise.
+        orientation: Between the two; about one axis if left out.
+    """
+    turn = axis_angle(start[:3, :3], end[:3, :3]) if orientation is None else orientation
+    return CurvePath(Line(start[:3, 3].copy(), end[:3, 3].copy()), turn)
+
+
+def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "smooth") -> CurvePath:
+    """The arc from a pose through another one to a third.
+
+    Args:
+        start: T_base_tip; shape (4, 4).
+        via: Likewise; its orientation is passed where its position is.
+        end: Likewise.
+        orientation: See `through_orientations`.
+
+    Raises:
+        InvalidField: Two of the positions are the same, or all three lie on a line.
+    """
+    arc = arc_through(*(T[:3, 3] for T in (start, via, end)))
+    rotations = np.ascontiguousarray(np.array([start, via, end])[:, :3, :3])
+    knots = np.array([0.0, arc.via_angle / arc.angle, 1.0])
+    return CurvePath(arc, through_orientations(rotations, knots, orientation))
+
+
+def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) -> OrientationPath:
+    """A way through several orientations.
+
+    Args:
+        rotations: At least two; shape (M + 1, 3, 3).
+        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
+        law: `smooth`: a spline with continuous angular acceleration. `slerp`: about one axis from each to the next; the
+            angular rate jumps at those between, which `breaks` then names. `zyz`: a spline of the Euler angles, with
+            `zyz_other` to the other triple of each that follows the start.
+    """
+    if law == "smooth":
+        return rotation_spline(rotations, knots)
+    if law == "slerp":
+        return through(rotations, knots)
+    return zyz_spline(rotations, knots, [law == "zyz_other", *[False] * (len(rotations) - 2)])
+
+
+@dataclass(frozen=True)
+class PathSequence:
+    """Paths one after the other, each beginning where the one before ends.
+
+    Attributes:
+        parts: At least one, of one unit.
+    """
+
+    parts: tuple[Path, ...]
+
+    @property
+    def unit(self) -> Unit:
+        """See `Path`."""
+        return self.parts[0].unit
+
+    @property
+    def extent(self) -> float:
+        """See `Path`."""
+        return float(self._ends[-1])
+
+    @property
+    def length(self) -> float:
+        """See `Path`."""
+        return sum(part.length for part in self.parts)
+
+    @property
+    def angle(self) -> float:
+        """See `Path`."""
+        return sum(part.angle for part in self.parts)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """See `Path`: all joints, and those inside of the parts."""
+        ends = self._ends
+        inner = (ends[i] + one for i, part in enumerate(self.parts) for one in part.breaks)
+        return tuple(sorted({float(s) for s in (*ends[1:-1], *inner)}))
+
+    def at(self, s: Array) -> PathSamples:
+        """See `Path`; at a joint the later part counts."""
+        ends, count = self._ends, len(s)
+        place = np.searchsorted(ends[1:-1], s, side="right")
+        if count > 0 and place.min() == place.max():
+            part: Path = self.parts[int(place[0])]
+            return part.at(s - ends[place[0]])
+        poses = Poses(np.empty((count, 3)), np.empty((count, 3, 3)))
+        first, second = np.empty((count, 6)), np.empty((count, 6))
+        for i in np.unique(place):
+            rows = place == i
+            samples = self.parts[i].at(s[rows] - ends[i])
+            poses.positions[rows], poses.rotations[rows] = samples.poses.positions, samples.poses.rotations
+            first[rows], second[rows] = samples.first, samples.second
+        return PathSamples(poses, first, second)
+
+    @cached_property
+    def _ends(self) -> Array:
+        return np.concatenate(([0.0], np.cumsum([part.extent for part in self.parts])))
+
+
+def sequence(parts: Sequence[Path]) -> PathSequence:
+    """Paths one after the other.
+
+    Raises:
+        ValueError: There is none, or metres meet radians.
+    """
+    if len({part.unit for part in parts}) != 1:
+        raise ValueError("paths in a sequence have one unit of s, and there is at least one")
+    return PathSequence(tuple(parts))
+
+
+def refuse_reversal(a: Array, b: Array, field: str) -> None:
+    """Refuse a corner at which the way leads back along itself.
+
+    Raises:
+        InvalidField: It does.
+    """
+    if math.hypot(*(a / math.hypot(*a) + b / math.hypot(*b))) <= 1e-6:
+        raise InvalidField(field, "the next leg leads back along the one before: such a corner takes a stop")

@@ -1,0 +1,223 @@
+"""A trajectory: its segments one after the other, each planned and timed, and all of it judged.
+
+What can only be done in part is done as far as it can be, from rest to rest, and says where and why it ends. A motion
+that does not pass its audit is not an answer.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from gelenk.kinematics.configuration import check_limits
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import AuditFailed, InvalidField
+from gelenk.model.robot import Robot
+from gelenk.trajectory.audit import Audit, audit
+from gelenk.trajectory.audit_demands import Demands
+from gelenk.trajectory.extremes import peaks
+from gelenk.trajectory.joint_part import joint_part
+from gelenk.trajectory.parts import Halt, Part, standing
+from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.problem import Failure, Problem, Segment, Trajectory
+from gelenk.trajectory.tip_part import tip_part
+from gelenk.trajectory.ways import is_blended
+from gelenk.trajectory.whole_audit import whole
+
+_SAME_DURATION = 1e-9
+"""Share by which a duration may be less than the shortest one: it is meant to be that."""
+
+_LIMITS = {"velocity", "acceleration", "jerk", "tip"}
+_ROUNDING, _MARGIN = 1e-5, 1e-12
+"""Share of a limit that may be exceeded before a motion is slowed down by it, and how much more it then is."""
+_TOLD = 4
+"""Reasons that a refused motion names."""
+_MOMENT = 1e-9
+"""What stands for no time, [s]."""
+
+
+def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
+    """Plan a trajectory.
+
+    Args:
+        robot: The robot.
+        chain: What moves; n variables.
+        problem: What is asked for.
+
+    Raises:
+        InvalidField: A segment makes no sense, or asks for less time than its limits allow.
+        OutsideLimits: It starts beyond a joint's limits.
+        AuditFailed: The motion does not pass its audit.
+    """
+    check_limits(chain, problem.start[None])
+    parts, halt = _parts(robot, chain, problem)
+    parts = [_with_stated_jerk(part, problem) for part in parts]
+    factor = _factor(parts, problem, halt)
+    parts, audits = _judged(robot, chain, [part.slowed(factor) for part in parts])
+    starts = np.concatenate(([0.0], np.cumsum([part.motion.duration for part in parts])))
+    moving = [
+        (part, float(start)) for part, start in zip(parts, starts[:-1], strict=True) if part.motion.duration > 0.0
+    ]
+    motion = joined([part.motion for part, _ in moving]) if moving else standing(problem.start)
+    if moving:
+        judgement = whole(chain, motion, audits, [start for _, start in moving])
+    else:
+        judgement = _of_standing(robot, chain, motion)
+    refuse_failed(judgement)
+    return Trajectory(
+        motion,
+        tuple(report for part, start in zip(parts, starts[:-1], strict=True) for report in part.moved(float(start))),
+        1.0 if halt is None else (halt.segment + halt.share) / len(problem.segments),
+        None if halt is None else _failure(halt, motion.duration),
+        judgement,
+        tuple(part.timing for part in parts if part.timing is not None),
+    )
+
+
+def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Halt | None]:
+    """What can be done, from rest to rest each, and why that is not all."""
+    parts: list[Part] = []
+    configuration = problem.start
+    for first, segments in _grouped(problem.segments):
+        part = _part(robot, chain, configuration, first, segments, problem)
+        parts.append(part)
+        if part.halt is not None:
+            return parts, part.halt
+        configuration = part.motion.at(part.motion.breaks[-1:])[0]
+    return parts, None
+
+
+def _part(
+    robot: Robot, chain: Chain, start: Array, first: int, segments: tuple[Segment, ...], problem: Problem
+) -> Part:
+    segment = segments[0]
+    if segment.type == "joint" or segment.configurations is not None:
+        return joint_part(robot, chain, start, segment, first, problem)
+    return tip_part(robot, chain, start, segments, first, problem)
+
+
+def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
+    """Segments by themselves, and lines with those that they are blended into.
+
+    Raises:
+        InvalidField: A segment is blended with nothing, or with what is no line, or at another law.
+    """
+    first = 0
+    for i, segment in enumerate(segments):
+        if is_blended(segment):
+            _refuse_unblendable(segments, i)
+            continue
+        yield first, segments[first : i + 1]
+        first = i + 1
+
+
+def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
+    """Refuse a blend that leads nowhere."""
+    field = f"segments.{i}.blend_radius"
+    if i + 1 == len(segments) or segments[i].type != "line" or segments[i + 1].type != "line":
+        raise InvalidField(field, "only a line can be blended, and only into a line that follows it")
+    if segments[i].law != segments[i + 1].law:
+        reason = f"lines that are blended share one law: segment {i + 1} has `{segments[i + 1].law}`"
+        raise InvalidField(f"segments.{i}.law", reason)
+    for k in (i, i + 1):
+        if segments[k].duration is not None:
+            reason = "lines that are blended are timed together: give the `duration` of the trajectory"
+            raise InvalidField(f"segments.{k}.duration", reason)
+
+
+def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
+    """By how much all is slowed down to last as long as asked for.
+
+    Raises:
+        InvalidField: It takes longer already, or some segment has a duration of its own.
+    """
+    if problem.duration is None:
+        return 1.0
+    for i, segment in enumerate(problem.segments):
+        if segment.duration is not None or segment.times is not None:
+            field = "duration" if segment.duration is not None else "times"
+            raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: only one of the two")
+    least = sum(part.motion.duration for part in parts)
+    if halt is not None or least == 0.0:
+        return 1.0
+    if problem.duration < least * (1.0 - _SAME_DURATION):
+        raise InvalidField("duration", f"the limits allow no less than {least:.6g} s")
+    return max(1.0, problem.duration / least)
+
+
+def _with_stated_jerk(part: Part, problem: Problem) -> Part:
+    """Slowed down to the limits of jerk that were asked for, where the law alone does not keep them.
+
+    Raises:
+        InvalidField: The time that it takes is given.
+    """
+    limits = part.demands.stated_jerk
+    if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
+        return part
+    factor = float(np.cbrt((np.abs(peaks(part.motion, 3).values) / limits).max()))
+    if factor <= 1.0:
+        return part
+    for report in part.reports:
+        segment = problem.segments[report.index]
+        for name in ("duration", "times"):
+            if getattr(segment, name) is not None:
+                reason = f"the limit of jerk that is asked for is kept in {factor:.6g} times the time"
+                raise InvalidField(f"segments.{report.index}.{name}", reason)
+    law = part.reports[0].law
+    note = f"`{law}` keeps no limit of jerk by itself: it takes {factor:.4g} times its time for those that are given"
+    return part.slowed(factor * (1.0 + _MARGIN)).noted((note,))
+
+
+def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], list[Audit]]:
+    """Parts, and the judgement of each that moves; what exceeds a limit by rounding alone is slowed down by as much."""
+    judged, audits = [], []
+    for planned in parts:
+        part = planned
+        if part.motion.duration > 0.0:
+            found = audit(robot, chain, part.motion, part.demands)
+            excess = _excess(found)
+            if 1.0 < excess <= 1.0 + _ROUNDING:
+                part = planned.slowed(excess * (1.0 + _MARGIN))
+                found = audit(robot, chain, part.motion, part.demands)
+            audits.append(found)
+            part = part.noted(_of_jerk(part, found))
+        judged.append(part)
+    return judged, audits
+
+
+def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
+    """That a law does not keep limits of jerk, where that shows."""
+    jerk = found.jerk
+    if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
+        return ()
+    return (f"limits of jerk are not kept: {jerk.joint} comes to {jerk.ratio:.6g} times its own",)
+
+
+def _excess(found: Audit) -> float:
+    """The largest ratio to a limit, where nothing else is wrong."""
+    if found.passed or any(reason.check not in _LIMITS for reason in found.reasons):
+        return 1.0
+    checks = {reason.check for reason in found.reasons}
+    peaks = {"velocity": found.velocity, "acceleration": found.acceleration, "jerk": found.jerk}
+    beyond = [peak for check, peak in peaks.items() if check in checks] + list(found.tip.values())
+    return max(peak.ratio or 0.0 for peak in beyond if peak is not None)
+
+
+def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:
+    """The judgement of joints that stand still for no time: an audit looks at pieces that take time."""
+    still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
+    return audit(robot, chain, still, Demands())
+
+
+def refuse_failed(judgement: Audit) -> None:
+    """Let no motion pass that breaks what was promised of it.
+
+    Raises:
+        AuditFailed: It does.
+    """
+    if not judgement.passed:
+        raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))
+
+
+def _failure(halt: Halt, time: float) -> Failure:
+    return Failure(halt.reason, halt.segment, time, halt.position, halt.joint, halt.detail)

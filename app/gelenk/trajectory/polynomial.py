@@ -1,0 +1,85 @@
+"""What every motion is made of: pieces of polynomials in time, several coordinates at once.
+
+A cubic, a spline, a trapezoid of velocity, a jerk-limited profile and a time-optimal parabola along a spline are all
+exactly that, so that whatever plays, samples, scales or judges a motion need know nothing else.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+
+
+@dataclass(frozen=True, slots=True)
+class PiecewisePolynomial:
+    """q(t) = Σ_k c[i, k] (t - t_i)^k on t_i ≤ t ≤ t_{i+1}; beyond its ends the first and last piece go on.
+
+    Attributes:
+        breaks: t_0 < t_1 < …, the ends of the M pieces; shape (M + 1,), [s].
+        coefficients: c, lowest power first; shape (M, degree + 1, n), [rad or m per sᵏ].
+    """
+
+    breaks: Array
+    coefficients: Array
+
+    @property
+    def duration(self) -> float:
+        """From the first break to the last, [s]."""
+        return float(self.breaks[-1] - self.breaks[0])
+
+    def derivative(self, order: int = 1) -> "PiecewisePolynomial":
+        """Its derivative in time."""
+        c = self.coefficients
+        for _ in range(order):
+            powers = np.arange(1, c.shape[1])[:, None]
+            c = c[:, 1:] * powers if c.shape[1] > 1 else np.zeros_like(c)
+        return PiecewisePolynomial(self.breaks, c)
+
+    def at(self, times: Array) -> Array:
+        """Values at times of shape (N,), [s]; shape (N, n). At an inner break the later piece counts."""
+        local, c = self._pieces_at(times)
+        values = c[:, -1] + 0.0 * local
+        for k in range(c.shape[1] - 2, -1, -1):
+            values = values * local + c[:, k]
+        result: Array = values
+        return result
+
+    def rates_at(self, times: Array) -> tuple[Array, Array, Array]:
+        """Values and two derivatives at times of shape (N,), [s]; shape (N, n) each."""
+        local, c = self._pieces_at(times)
+        value = c[:, -1] + 0.0 * local
+        first = second = np.zeros_like(value)
+        for k in range(c.shape[1] - 2, -1, -1):
+            second = second * local + first
+            first = first * local + value
+            value = value * local + c[:, k]
+        return value, first, 2.0 * second
+
+    def _pieces_at(self, times: Array) -> tuple[Array, Array]:
+        """Times since the start of the piece that counts, shape (N, 1), and its coefficients; of one piece once."""
+        if len(self.coefficients) == 1:
+            return (times - self.breaks[0])[:, None], self.coefficients
+        i = np.searchsorted(self.breaks[1:-1], times, side="right")
+        return (times - self.breaks[i])[:, None], self.coefficients[i]
+
+    def scaled(self, factor: float) -> "PiecewisePolynomial":
+        """The same path in `factor` times the time: velocities become 1/factor, accelerations 1/factor²."""
+        powers = factor ** -np.arange(self.coefficients.shape[1])[:, None]
+        start = self.breaks[0]
+        return PiecewisePolynomial(start + factor * (self.breaks - start), self.coefficients * powers)
+
+
+def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
+    """Motions one after the other, each beginning when the one before ends.
+
+    Args:
+        parts: At least one, of the same coordinates.
+    """
+    degree = max(part.coefficients.shape[1] for part in parts)
+    breaks, rows = [parts[0].breaks[:1]], []
+    for part in parts:
+        breaks.append(breaks[-1][-1] + part.breaks[1:] - part.breaks[0])
+        rows.append(np.pad(part.coefficients, ((0, 0), (0, degree - part.coefficients.shape[1]), (0, 0))))
+    return PiecewisePolynomial(np.concatenate(breaks), np.concatenate(rows))

@@ -1,0 +1,149 @@
+"""Which speeds along a path can be kept up to its end, and the fastest among them [Pham2018].
+
+The path is cut into intervals of length Δ, in each of which u = s̈ is constant, so that x = ṡ² goes from x_i to
+x_i + 2Δu. What a motion may do in an interval is a convex polygon of the points (u, x_i), given by rows αu + βx ≤ 1:
+at rest, u = x = 0, it may do all of them. For a given x they are bounds of u, lines in x from above and from below;
+eliminating u by pairs of such lines leaves bounds of x. All pairs but those with the speed at the next node are known
+beforehand, so that one step costs three operations on a vector.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+
+_NO_WEIGHT = 1e-12
+"""α of a row, in fractions of the largest of its interval, below which u has no part in it."""
+_UNBOUNDED = 1e30
+_MOST_STEPS = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Stages:
+    """What a motion may do in each of N intervals.
+
+    Attributes:
+        lengths: Δ; shape (N,).
+        upper: Offsets and slopes of lines in x that u stays below, infinite and 0 for none; shape (2, N, m).
+        lower: The same of those it stays above.
+        highest: The largest x at the start of each interval from which there is any way on; shape (N,).
+        kept: The least share of x that is left at the end of each interval; shape (N,).
+    """
+
+    lengths: Array
+    upper: Array
+    lower: Array
+    highest: Array
+    kept: Array
+
+
+def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
+    """Intervals from their rows αu + βx ≤ 1.
+
+    Args:
+        lengths: Δ > 0; shape (N,).
+        alpha: Shape (N, m).
+        beta: Shape (N, m).
+        kept: The least share of x that is to be left at the end of an interval, from 0 to 1; shape (N,). Where q' of a
+            joint changes its sign, the largest x may be one from which there is no way but to stop.
+    """
+    is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        offsets, slopes = 1.0 / alpha, -beta / alpha
+        bounds = np.where(is_without & (beta > 0.0), 1.0 / beta, _UNBOUNDED)
+    is_above, is_below = ~is_without & (alpha > 0.0), ~is_without & (alpha < 0.0)
+    upper = np.stack((np.where(is_above, offsets, np.inf), np.where(is_above, slopes, 0.0)))
+    lower = np.stack((np.where(is_below, offsets, -np.inf), np.where(is_below, slopes, 0.0)))
+    # x_i + 2Δu ≥ kept x_i.
+    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - kept) / lengths))[:, :, None]
+    highest = _highest(upper, np.concatenate((lower, onward), axis=2), np.minimum(bounds.min(axis=1), _UNBOUNDED))
+    return Stages(lengths, upper, lower, highest, kept)
+
+
+def _highest(upper: Array, lower: Array, x: Array) -> Array:
+    """The largest x at which the lines from above are not below those from below, by Newton's method from the right.
+
+    The least line from above less the greatest from below is concave and, at 0, not negative: every step ends to the
+    right of the zero, and after finitely many at it.
+    """
+    rows = np.arange(len(x))
+    for _ in range(_MOST_STEPS):
+        i = (upper[0] + upper[1] * x[:, None]).argmin(axis=1)
+        j = (lower[0] + lower[1] * x[:, None]).argmax(axis=1)
+        room = upper[0, rows, i] - lower[0, rows, j]
+        slope = lower[1, rows, j] - upper[1, rows, i]
+        is_crossing = (slope > 0.0) & (slope * x > room)
+        if not is_crossing.any():
+            break
+        with np.errstate(divide="ignore", invalid="ignore"):
+            nearer = np.where(is_crossing, room / slope, x)
+        if (nearer >= x).all():
+            break
+        x = np.minimum(x, nearer)
+    return x
+
+
+def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple[Array, Array]:
+    """The least and the largest x at each node from which the end can be reached.
+
+    Args:
+        course: The intervals.
+        caps: What x may be at most at each node for other reasons; shape (N + 1,).
+        end: The least and the largest x at the end.
+
+    Returns:
+        Both; shape (N + 1,).
+
+    Raises:
+        InvalidField: There is none, which takes an end that is not at rest.
+    """
+    count = len(course.lengths)
+    least, most = np.zeros(count + 1), np.minimum(np.append(course.highest, np.inf), caps)
+    least[-1], most[-1] = end[0], min(end[1], caps[-1])
+    halves = 0.5 / course.lengths
+    climb = course.lower[1] + halves[:, None]
+    with np.errstate(divide="ignore"):
+        gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
+    offsets = course.lower[0]
+    for i in range(count - 1, -1, -1):
+        # No faster than what can be braked to the largest x of the next node.
+        most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
+        if course.kept[i] > 0.0:
+            most[i] = min(most[i], most[i + 1] / course.kept[i])
+        if least[i + 1] > 0.0:
+            least[i], most[i] = _at_least(course, i, least[i + 1], most[i])
+        if not least[i] <= most[i]:
+            raise InvalidField("end_velocity", "cannot be reached along this path under these limits")
+    return least, most
+
+
+def _at_least(course: Stages, i: int, next_least: float, most: float) -> tuple[float, float]:
+    """Bounds of x in an interval at whose end it has to be no less than some value."""
+    half = 0.5 / course.lengths[i]
+    need = next_least * half - course.upper[0, i]
+    climb = course.upper[1, i] + half
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bounds = need / climb
+    least = bounds[climb > 0.0].max(initial=0.0)
+    return float(least), float(min(most, bounds[climb < 0.0].min(initial=np.inf)))
+
+
+def fastest(course: Stages, least: Array, most: Array, start: float) -> Array:
+    """The x at each node, in every interval with the largest u that stays between two bounds; shape (N + 1,).
+
+    Args:
+        course: The intervals.
+        least: The least x at each node; shape (N + 1,).
+        most: The largest.
+        start: x at the first node, between both.
+    """
+    x = start
+    found = [x]
+    bounds = zip(2.0 * course.lengths, *course.upper, least[1:], most[1:], strict=True)
+    for twice, offsets, slopes, lower, upper in bounds:
+        u = (offsets + slopes * x).min()
+        x = max(min(x + twice * u, upper), lower)
+        found.append(x)
+    return np.array(found)

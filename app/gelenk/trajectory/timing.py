@@ -1,0 +1,248 @@
+"""The time that joints take along a way, from rest to rest: six laws, each as fast as limits of joints and tip allow.
+
+All is motion along s: the law s(t) is chosen, then scaled uniformly until some limit is just reached, the limits asked
+of the joints' polynomials in time and of the tip. Along the way:
+
+- `cubic`, `quintic`, `septic`: one shape each, from uniform scaling alone; along blended lines one on each, with even
+  speed through the blends, where that takes less time (`chain_laws`).
+- `trapezoidal`: the acceleration and the cruise speed of the shortest time.
+- `jerk_limited`: likewise, with a jerk along s; along blended lines it is chosen as the polynomials are.
+- `time_optimal`: some joint, or the tip, is at a limit nearly always.
+
+Limits of jerk count for the laws whose acceleration does not jump: `quintic`, `septic`, `jerk_limited`.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from gelenk.model.errors import InvalidField
+from gelenk.trajectory.chain_laws import chain_law
+from gelenk.trajectory.composition import in_time
+from gelenk.trajectory.paths import Path
+from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.problem import MotionLimits
+from gelenk.trajectory.time_optimal import time_optimal
+from gelenk.trajectory.tip_rows import tip_rows
+from gelenk.trajectory.way_geometry import Geometry, TipMotion, Zone, geometry_of
+from gelenk.trajectory.way_laws import POLYNOMIALS, polynomial, s_curve, trapezoid
+from gelenk.trajectory.way_peaks import peaks_of
+from gelenk.trajectory.words import Law
+
+_SMOOTH: Final = frozenset({"quintic", "septic", "jerk_limited"})
+_ONE_LAW: Final = (
+    "one law runs through all blended lines: a corner, or the line with the lowest limits of the tip, makes it slow "
+    "everywhere, `trapezoidal` and `time_optimal` only there"
+)
+_ROUNDING = 1e-9
+"""Share by which a duration may be less than the shortest one: it is meant to be that."""
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A motion along a way, from rest to rest.
+
+    Attributes:
+        motion: Of the joints, from 0 s on; where nothing moves one piece whose two breaks are the same, or which lasts
+            as long as it is to.
+        law: s(t), of the same duration.
+        continuous: Derivatives of the motion up to this order do not jump.
+        has_bounded_jerk: Whether the limits of jerk hold throughout; where acceleration jumps they cannot.
+        binding: What does not allow a shorter time with this law, in words.
+        notes: What else is to be known.
+    """
+
+    motion: PiecewisePolynomial
+    law: PiecewisePolynomial
+    continuous: int
+    has_bounded_jerk: bool
+    binding: str
+    notes: tuple[str, ...] = ()
+
+
+def timed(
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    law: Law,
+    limits: MotionLimits,
+    *,
+    duration: float | None = None,
+    slow_down: bool = False,
+    tip_motion: TipMotion | None = None,
+    zones: tuple[Zone, ...] = (),
+    corners: tuple[tuple[float, float], ...] = (),
+) -> Timed:
+    """The motion of least duration with a law, or one of a given duration: the fastest one, slowed down uniformly.
+
+    Where q' jumps, the motion stops. Where q'' does, the acceleration jumps with any law, and a limit of jerk holds on
+    both sides of it only.
+
+    The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Limits of the tip cost up to 0.25 % more where
+    the way bends (`tip_rows`), and a last uniform scaling by k ≥ 1, mostly by less than 1e-5, for what is between the
+    places at which they are asked. Where the trapezoid takes no longer it is that, of fewer pieces.
+
+    Args:
+        path: What the tip follows, for its limits and for where it bends; None for a way of the joints alone.
+        joints: q(s), s from 0 on, perhaps not up to the end of the path.
+        law: Of time.
+        limits: Of joints and tip.
+        duration: It is to last, [s]; as long as the limits ask for if None.
+        slow_down: Whether the joints may slow the motion down locally, where they must, whatever the law: it is then
+            the time-optimal one.
+        tip_motion: The tip's motion from that of the joints (`tip_through`), to which its limits are then applied; that
+            of the path if left out, from which joints that follow it within a tolerance differ a little. With neither
+            the tip has no limits.
+        zones: Parts of the path where the tip has limits of its own.
+        corners: Where blends of lines begin and end.
+
+    Raises:
+        InvalidField: The duration is shorter than the limits allow, or the numbers are too far apart.
+    """
+    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
+    chosen: Law = "time_optimal" if slow_down else law
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
+    found = _in_a_row(parts) if parts else _standing(joints)
+    if not np.isfinite(found.motion.coefficients).all():
+        raise InvalidField("limits", "these limits and this way are too many powers of ten apart")
+    if slow_down and law != "time_optimal":
+        note = f"to be slow only where the joints have to, the time-optimal law is taken in place of `{law}`"
+        found = replace(found, notes=(note, *found.notes))
+    return found if duration is None else _lasting(found, duration)
+
+
+def compared(
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    law: Law,
+    limits: MotionLimits,
+    *,
+    tip_motion: TipMotion | None = None,
+    zones: tuple[Zone, ...] = (),
+    corners: tuple[tuple[float, float], ...] = (),
+) -> tuple[float, float, float, float]:
+    """A law scaled uniformly so that some limit is just reached, and the time-optimal one, along the same way.
+
+    Args:
+        path: See `timed`.
+        joints: See `timed`.
+        law: The law that is scaled.
+        limits: Of joints and tip.
+        tip_motion: See `timed`.
+        zones: See `timed`.
+        corners: See `timed`.
+
+    Returns:
+        The duration of the law; the k that limits of velocity, and those of acceleration, of joints and tip, ask for if
+        it lasts 1 s: the duration is the larger one of k_vel and √k_acc, unless jerk binds; the time-optimal duration.
+    """
+    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones, corners=corners)
+    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones, corners=corners)
+    lasting = uniform.motion.duration
+    if lasting == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
+    peaks = peaks_of(geometry, uniform.motion, uniform.law, with_jerk=False)
+    return lasting, peaks.of_order(1) * lasting, peaks.of_order(2) * lasting**2, optimal.motion.duration
+
+
+def _fastest(geometry: Geometry, law: Law) -> Timed:
+    if law == "time_optimal":
+        return _time_optimal(geometry)
+    single = _along(geometry, law, _shape(geometry, law))
+    chained = None if law == "trapezoidal" else chain_law(geometry, POLYNOMIALS.get(law))
+    if chained is not None:
+        each = _along(geometry, law, chained)
+        if each.motion.duration < single.motion.duration:
+            return each
+    if geometry.corners and law != "trapezoidal":
+        single = replace(single, notes=(*single.notes, _ONE_LAW))
+    return single
+
+
+def _along(geometry: Geometry, law: Law, along: PiecewisePolynomial) -> Timed:
+    """A law in the least time."""
+    motion = in_time(geometry.joints, along)
+    smooth = law in _SMOOTH
+    peaks = peaks_of(geometry, motion, along, with_jerk=smooth)
+    bends = geometry.bends()
+    jerk_holds = smooth and len(bends) == 0
+    notes: tuple[str, ...] = ()
+    if smooth and not jerk_holds:
+        places = ", ".join(f"{s:.4g}" for s in bends[:4]) + (", …" if len(bends) > 4 else "")
+        note = f"the way's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
+        notes = (f"{note} holds in between only",)
+    binding = peaks.binding(geometry.limits, in_blends=bool(geometry.zones))
+    return _scaled(Timed(motion, along, 2 if jerk_holds else 1, jerk_holds, binding, notes), peaks.factor)
+
+
+def _shape(geometry: Geometry, law: Law) -> PiecewisePolynomial:
+    """s(t), of any duration."""
+    if law in POLYNOMIALS:
+        return polynomial(law, geometry)
+    return trapezoid(geometry) if law == "trapezoidal" else s_curve(geometry)
+
+
+def _time_optimal(geometry: Geometry) -> Timed:
+    limits = geometry.limits
+    found = time_optimal(geometry.joints, limits.velocity, limits.acceleration, further=tip_rows(geometry))
+    timing = Timed(found.motion, found.time_law, 1, False, "some limit is reached nearly everywhere")
+    if geometry.limits_tip:
+        peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=False)
+        timing = _scaled(timing, max(1.0, peaks.factor))
+    # Along a straight way the trapezoid is the optimum to the last digit, and of three pieces.
+    simple = _fastest(geometry, "trapezoidal")
+    return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing
+
+
+def _scaled(timing: Timed, factor: float) -> Timed:
+    """The same in `factor` times the time."""
+    return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
+
+
+def _in_a_row(parts: list[Timed]) -> Timed:
+    """Motions with a stop between each two."""
+    if len(parts) == 1:
+        return parts[0]
+    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
+    notes = dict.fromkeys(note for part in parts for note in part.notes)
+    return Timed(
+        joined([part.motion for part in parts]),
+        joined([part.law for part in parts]),
+        min(part.continuous for part in parts),
+        all(part.has_bounded_jerk for part in parts),
+        parts[0].binding,
+        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
+    )
+
+
+def _standing(joints: PiecewisePolynomial) -> Timed:
+    """No motion, at the end of the way."""
+    end = joints.breaks[-1:]
+    motion = PiecewisePolynomial(np.zeros(2), joints.at(end)[None])
+    return Timed(motion, PiecewisePolynomial(np.zeros(2), end[None, :, None].copy()), 2, True, "nothing moves")
+
+
+def _lasting(fastest: Timed, duration: float) -> Timed:
+    """A motion slowed down to a given duration.
+
+    Raises:
+        InvalidField: It cannot be as fast.
+    """
+    least = fastest.motion.duration
+    if duration < least * (1.0 - _ROUNDING):
+        raise InvalidField("duration", f"must be at least {least:.10g} s: {fastest.binding}")
+    if least == 0.0:
+        ends = np.array([0.0, duration])
+        motion, law = (PiecewisePolynomial(ends, one.coefficients) for one in (fastest.motion, fastest.law))
+        return replace(fastest, motion=motion, law=law)
+    slowed = _scaled(fastest, max(1.0, duration / least))
+    return replace(slowed, motion=_ending(slowed.motion, duration), law=_ending(slowed.law, duration))
+
+
+def _ending(motion: PiecewisePolynomial, duration: float) -> PiecewisePolynomial:
+    """Its last break to the last digit."""
+    breaks = motion.breaks.copy()
+    breaks[-1] = duration
+    return PiecewisePolynomial(breaks, motion.coefficients)

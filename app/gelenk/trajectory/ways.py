@@ -1,0 +1,250 @@
+"""Ways of the tip from the segments of a trajectory: lines, circles, splines, and lines blended into one way."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import cast
+
+import numpy as np
+
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.model.poses import Poses
+from gelenk.trajectory.audit_demands import TipLimits
+from gelenk.trajectory.orientation_paths import OrientationPath, Turn, axis_angle
+from gelenk.trajectory.paths import POINT, Path, PathSequence, ViaOrientation, circle, line, refuse_reversal
+from gelenk.trajectory.problem import Segment
+from gelenk.trajectory.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
+from gelenk.trajectory.way_geometry import Zone
+from gelenk.trajectory.zyz_paths import zyz_paths, zyz_turns
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """A blend of two lines.
+
+    Attributes:
+        begin: s at which it begins.
+        end: s at which it ends.
+        radius: Distance from the corner at which the first line is left, [m].
+        acceleration: Of the tip between the two at most, ∞ where only its limits everywhere count, [m/s²].
+    """
+
+    begin: float
+    end: float
+    radius: float
+    acceleration: float
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way of the tip.
+
+    Attributes:
+        path: The way.
+        ends: s at which each of its segments ends, in the middle of the blend where there is one; the last is
+            `path.extent`.
+        corners: Its blends, of each what the acceleration may be in it.
+        notes: What else is to be known.
+    """
+
+    path: Path
+    ends: tuple[float, ...]
+    corners: tuple[Corner, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def edges(self) -> tuple[tuple[float, float], ...]:
+        """Where each blend begins and ends."""
+        return tuple((corner.begin, corner.end) for corner in self.corners)
+
+    def zones(self, segments: Sequence[Segment]) -> tuple[Zone, ...]:
+        """Where the tip has limits of its own: in blends that say so, and on lines with their blends on both sides.
+
+        Args:
+            segments: That make up the way.
+        """
+        own = [
+            Zone(corner.begin, corner.end, TipLimits(acceleration=corner.acceleration))
+            for corner in self.corners
+            if math.isfinite(corner.acceleration)
+        ]
+        if len({segment.limits.tip for segment in segments}) == 1:
+            return tuple(own)
+        begins = [0.0, *(corner.begin for corner in self.corners)]
+        ends = [*(corner.end for corner in self.corners), self.path.extent]
+        lines = zip(begins, ends, segments, strict=True)
+        return (*own, *(Zone(begin, end, one.limits.tip) for begin, end, one in lines if one.limits.tip != TipLimits()))
+
+
+def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
+    """The way of one segment, or of lines that are blended.
+
+    Args:
+        start: T_base_tip at its beginning; shape (4, 4).
+        segments: One, or lines all but the last of which are blended into the next.
+        first: Number of the first in the trajectory, for refusals.
+
+    Raises:
+        InvalidField: There is no such way.
+    """
+    if len(segments) > 1:
+        return _blended(start, segments, first)
+    try:
+        path, notes = _single(start, segments[0])
+    except InvalidField as error:
+        raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
+    return Way(path, (path.extent,), notes=notes)
+
+
+def is_blended(segment: Segment) -> bool:
+    """Whether a line is left for the next one without a stop."""
+    given = (segment.blend_time, segment.blend_acceleration)
+    return segment.blend_radius > 0.0 or any(one is not None for one in given)
+
+
+def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
+    if segment.type == "line":
+        end = _pose(segment)
+        return line(start, end, _orientation(start, end, segment)), ()
+    if segment.type == "circle":
+        return circle(start, cast(Array, segment.via), _pose(segment), _via(segment)), ()
+    boundary, notes = _tangent_boundary(segment)
+    poses = _with_start(start, cast(Poses, segment.poses))
+    return spline(poses, boundary, _via(segment)), notes
+
+
+def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
+    """A way has a tangent at its ends; that the tip rests there is up to the law of time."""
+    if segment.boundary in {"clamped", "assigned"}:
+        note = (
+            f"boundary {segment.boundary} of a tip's spline: the law of time brings the tip to rest at its ends; the "
+            "way itself is natural there, since one that is clamped has no tangent"
+        )
+        return "natural", (note,)
+    return cast(SplineBoundary, segment.boundary), ()
+
+
+def _via(segment: Segment) -> ViaOrientation:
+    """How a way through several orientations turns."""
+    return "smooth" if segment.orientation == "axis_angle" else segment.orientation
+
+
+def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath | None:
+    if segment.orientation == "axis_angle":
+        return None
+    regular, flipped = zyz_paths(start[:3, :3], end[:3, :3])
+    return regular if segment.orientation == "zyz" else flipped
+
+
+def _blended(start: Array, segments: Sequence[Segment], first: int) -> Way:
+    poses = Poses(
+        np.array([start[:3, 3], *(_pose(segment)[:3, 3] for segment in segments)]),
+        np.array([start[:3, :3], *(_pose(segment)[:3, :3] for segment in segments)]),
+    )
+    legs = np.diff(poses.positions, axis=0)
+    blends = _blends(legs, segments, first)
+    path = blended_lines(poses, [blend.radius for blend in blends], turns=_turns(poses.rotations, segments, first))
+    ends = _corner_ends(path)
+    corners = tuple(Corner(*pair, blend.radius, blend.acceleration) for pair, blend in zip(ends, blends, strict=True))
+    return Way(path, (*(0.5 * (begin + end) for begin, end in ends), path.extent), corners)
+
+
+def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
+    """From each orientation to the next; θ of ZYZ changes its sign where a line leads to the other triple.
+
+    Raises:
+        InvalidField: Some turn about an axis and others by ZYZ angles: there would be no turn over the corner.
+    """
+    by_axis = [segment.orientation == "axis_angle" for segment in segments]
+    if all(by_axis):
+        return [axis_angle(*pair) for pair in pairwise(rotations)]
+    if any(by_axis):
+        reason = "lines that are blended turn all of them by `axis_angle`, or all by ZYZ angles"
+        raise InvalidField(f"segments.{first + by_axis.index(not by_axis[0])}.orientation", reason)
+    return zyz_turns(rotations, [segment.orientation == "zyz_other" for segment in segments])
+
+
+def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
+    """Where each blend begins and ends."""
+    ends, s = [], 0.0
+    for part in path.parts:
+        if isinstance(part, PolynomialPath):
+            ends.append((s, s + part.extent))
+        s += part.extent
+    return ends
+
+
+@dataclass(frozen=True, slots=True)
+class _Blend:
+    """How a corner is cut.
+
+    Attributes:
+        field: Which field of the segment tells.
+        radius: Distance from the corner at which the line is left, [m].
+        acceleration: Of the tip in it at most, infinite where the field does not say, [m/s²].
+    """
+
+    field: str
+    radius: float
+    acceleration: float = math.inf
+
+
+def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend]:
+    """How each corner is cut."""
+    lengths = np.linalg.norm(legs, axis=1)
+    for i, length in enumerate(lengths):
+        if length <= POINT:
+            reason = "a line that is blended with another has to lead somewhere: its two ends share one position"
+            raise InvalidField(f"segments.{first + i}.target", reason)
+    speed = min(segment.limits.tip.speed for segment in segments)
+    blends: list[_Blend] = []
+    for i, segment in enumerate(segments[:-1]):
+        blend = _blend(segment, speed, legs[i], legs[i + 1], f"segments.{first + i}")
+        refuse_reversal(legs[i], legs[i + 1], blend.field)
+        for which, length in ((i, lengths[i]), (i + 1, lengths[i + 1])):
+            taken = blend.radius + (blends[-1].radius if blends and which == i else 0.0)
+            if taken > length * (1.0 + 1e-12):
+                both = " with the blend before" if taken > blend.radius else ""
+                reason = (
+                    f"segment {first + which} is {length:g} m long, and the blend{both} would take {taken:g} m of it"
+                )
+                raise InvalidField(blend.field, reason)
+        blends.append(blend)
+    return blends
+
+
+def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> _Blend:
+    """How a line is left for the next: the course's fly-over, both lines at the tip's greatest speed v.
+
+    d = v ΔT / 2, and the acceleration is a = ‖v K_BC - v K_AB‖ / ΔT: one of ΔT and a is given. Under this limit the
+    fastest motion through the parabola is the course's own, of constant acceleration, and takes ΔT.
+    """
+    if segment.blend_radius > 0.0:
+        return _Blend(f"{field}.blend_radius", segment.blend_radius)
+    name = "blend_time" if segment.blend_time is not None else "blend_acceleration"
+    if not math.isfinite(speed):
+        reason = "the blend depends on the speed that the lines are run at: `limits.tip_velocity` is missing"
+        raise InvalidField(f"{field}.{name}", reason)
+    change = speed * math.hypot(*(following / math.hypot(*following) - leg / math.hypot(*leg)))
+    if segment.blend_acceleration is not None:
+        acceleration = segment.blend_acceleration
+        time = change / acceleration
+    else:
+        time = cast(float, segment.blend_time)
+        acceleration = change / time
+    radius = 0.5 * speed * time
+    if min(radius, acceleration) <= POINT:
+        raise InvalidField(f"{field}.{name}", f"the blend would be {radius:g} m long: the lines go straight on")
+    return _Blend(f"{field}.{name}", radius, acceleration)
+
+
+def _pose(segment: Segment) -> Array:
+    return cast(Array, segment.pose)
+
+
+def _with_start(start: Array, poses: Poses) -> Poses:
+    return Poses(
+        np.concatenate((start[None, :3, 3], poses.positions)), np.concatenate((start[None, :3, :3], poses.rotations))
+    )

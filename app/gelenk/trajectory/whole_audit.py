@@ -1,0 +1,90 @@
+"""One judgement of parts that follow each other: each part's own, against its own limits, and how they meet."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import astuple, replace
+from typing import TypeVar
+
+import numpy as np
+
+from gelenk.kinematics.certify import Certificate
+from gelenk.model.chain import Chain
+from gelenk.trajectory.audit import Audit, Margin, Peak, Reason, Singularity, meetings
+from gelenk.trajectory.audit_demands import WayError
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+
+_Timed = TypeVar("_Timed", Peak, Margin, Singularity, Reason)
+
+
+def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], starts: Sequence[float]) -> Audit:
+    """The judgement of a whole motion.
+
+    Args:
+        chain: What moves.
+        motion: All of it.
+        audits: Of its parts, at least one.
+        starts: When each begins, [s].
+    """
+    if len(audits) == 1:
+        return audits[0]
+    timed = list(zip(audits, starts, strict=True))
+    jumps, reasons = meetings(chain, motion)
+    return Audit(
+        _worst((one.velocity, at) for one, at in timed),
+        _worst((one.acceleration, at) for one, at in timed),
+        _worst((one.jerk, at) for one, at in timed),
+        jumps,
+        min((_moved(one.limit_margin, at) for one, at in timed if one.limit_margin), key=_distance, default=None),
+        {**_of(audits[0], "start"), **_of(audits[-1], "end")},
+        {name: _of_tip([_moved(one.tip[name], at) for one, at in timed]) for name in audits[0].tip},
+        _worst((one.path_deviation, at) for one, at in timed),
+        _worst((one.orientation_deviation, at) for one, at in timed),
+        min(
+            (_moved(one.min_singular_value, at) for one, at in timed if one.min_singular_value),
+            key=lambda singularity: singularity.value,
+            default=None,
+        ),
+        _certificate(audits),
+        (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *reasons),
+        _way_error([one.way_error for one in audits if one.way_error is not None]),
+    )
+
+
+def _way_error(errors: Sequence[WayError]) -> WayError | None:
+    return WayError(*np.max([astuple(one) for one in errors], axis=0).tolist()) if errors else None
+
+
+def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
+    """The one nearest to its limit or furthest beyond it; the largest where none has one."""
+    found = [_moved(peak, start) for peak, start in peaks if peak is not None]
+    limited = [peak for peak in found if peak.ratio is not None]
+    if limited:
+        return max(limited, key=lambda peak: peak.ratio or 0.0)
+    return max(found, key=lambda peak: abs(peak.value), default=None)
+
+
+def _of_tip(peaks: Sequence[Peak]) -> Peak:
+    """The largest value of all parts, and the largest ratio to the limit that holds in a part."""
+    largest = max(peaks, key=lambda peak: peak.value)
+    return replace(largest, ratio=max((peak.ratio for peak in peaks if peak.ratio is not None), default=None))
+
+
+def _distance(margin: Margin) -> float:
+    return margin.distance
+
+
+def _moved(one: _Timed, start: float) -> _Timed:
+    return replace(one, time=one.time + start)
+
+
+def _of(audit: Audit, end: str) -> dict[str, float]:
+    return {name: error for name, error in audit.ends.items() if name.startswith(end)}
+
+
+def _certificate(audits: Sequence[Audit]) -> Certificate:
+    all_ = [audit.certificate for audit in audits]
+    return Certificate(
+        sum(one.samples for one in all_),
+        max(one.max_position_error for one in all_),
+        max(one.max_orientation_error for one in all_),
+        all_[0].seed,
+    )

@@ -1,0 +1,22 @@
+"""Which cases of a sweep run at every turn."""
+
+import zlib
+from collections import defaultdict
+
+import pytest
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test marked `quick(n)`, leave n of its cases in the quick set, and mark the others `slow`.
+
+    They are chosen by a hash of their names: always the same ones, and of each parameter several values.
+    """
+    sweeps: dict[tuple[str, int], list[pytest.Item]] = defaultdict(list)
+    for item in items:
+        if (marker := item.get_closest_marker("quick")) is not None:
+            sweeps[item.nodeid.partition("[")[0], marker.args[0]].append(item)
+    for (_, kept), cases in sweeps.items():
+        cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
+        for item in cases[kept:]:
+            item.add_marker(pytest.mark.slow)
