@@ -362,6 +362,7 @@ def test_only_a_trusted_proxy_says_where_a_request_comes_from(monkeypatch: pytes
     assert (options.proxy_headers, options.forwarded_allow_ips) == (True, ["10.0.0.5"])
 
 
+@pytest.mark.slow
 def test_keys_over_real_connections(tmp_path: Path) -> None:
     token, key = new_key("anna", [Scope.READ])
     with service(tmp_path / "data", GELENK_API_KEYS=key.entry()) as (_, url):

@@ -374,6 +374,7 @@ def test_other_media_types_and_queries_are_refused(client: TestClient) -> None:
     assert client.get("/v1/course/pwm").status_code == 405
 
 
+@pytest.mark.slow
 def test_random_components_have_finite_answers(client: TestClient) -> None:
     """Over the whole range that is allowed, log-uniformly: nothing overflows and every certificate holds."""
     rng = np.random.default_rng(11)

@@ -218,6 +218,7 @@ def test_other_media_types_and_queries_are_refused(client: TestClient) -> None:
     assert client.post(f"{PATH}?blend_time=1", json=EXAMPLE_FLY_OVER).status_code == 422
 
 
+@pytest.mark.slow
 def test_random_corners_have_finite_answers(client: TestClient) -> None:
     """Over the whole range that is allowed, log-uniformly: nothing overflows and every certificate holds."""
     rng, answered = np.random.default_rng(3), 0

@@ -34,7 +34,7 @@ def as_zip(client: TestClient, name: str | None, urdf: str, **fields: Any) -> An
     return send(path, data=form, files={"archive": ("arm.zip", zipped({"arm.urdf": urdf}))})
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("upload", [as_json, as_zip])
 def test_an_upload_is_taken_with_warnings_or_strictly_refused(own: TestClient, upload: Callable[..., Any]) -> None:
     assert upload(own, "arm", ARM, strict=True).status_code == 201

@@ -198,6 +198,7 @@ def test_cancelling_what_has_just_finished_keeps_its_result(client: TestClient) 
     assert client.get(location).status_code == 404
 
 
+@pytest.mark.slow
 def test_a_job_goes_on_when_a_process_is_killed(client: TestClient) -> None:
     location = posted(client, {"kind": "dexterity", "samples": 20_000, "voxel_size": 0.25, "orientations": 20})
     running(client, location)

@@ -218,7 +218,7 @@ class Here(Crew):
         return await asyncio.to_thread(function, argument)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options",
     [{}, {"objective": "mid_range"}, {"solutions": "all"}, {"method": "newton", "max_iterations": 3}],

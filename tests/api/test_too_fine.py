@@ -89,7 +89,7 @@ def test_a_fine_grid_for_which_there_is_room_is_taken(client: TestClient, robot:
     assert asked(client, f"{robot}/workspace", call) == {}
 
 
-@pytest.mark.quick(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["quintic", "cubic", "jerk_limited", "trapezoidal", "time_optimal"])
 @pytest.mark.parametrize("period", [3e-6, 1e-6, 1e-5])
 def test_samples_of_a_motion(client: TestClient, law: str, period: float) -> None:

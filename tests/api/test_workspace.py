@@ -74,7 +74,7 @@ def test_a_cloud(client: TestClient) -> None:
     assert measure["max"] == pytest.approx(math.sqrt(np.linalg.det(J @ J.T)), abs=1e-12)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "call",
     [

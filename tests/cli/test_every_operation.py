@@ -244,7 +244,7 @@ def test_the_client_says_what_the_api_does(url: str, expected: dict[str, Any]) -
         assert answers(by_client(gelenk)) == expected
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("where", ["here", "there"])
 @pytest.mark.parametrize("how", ["fields as JSON", "commands"])
 def test_the_command_line_says_what_the_api_does(

@@ -21,6 +21,7 @@ LONG = 2_000_000
 """Samples that take longer than it takes to leave."""
 
 
+@pytest.mark.slow
 def test_a_job_answers_what_the_call_does_at_once(gelenk: Client) -> None:
     matrices = np.array(gelenk.arrays.fk("ur5", samples(robot("ur5").chain(None, None), 40), pose_format="matrix"))
     told: list[float] = []
@@ -48,6 +49,7 @@ def test_a_joint_is_held_in_a_job_as_in_a_call(gelenk: Client) -> None:
     assert answer.results[0].complete
 
 
+@pytest.mark.slow
 def test_motions_and_workspaces(gelenk: Client) -> None:
     with gelenk.jobs.trajectory("planar_2r", **MOTION) as motion:
         assert_type(motion.result(), TrajectoryAnswer)

@@ -96,6 +96,7 @@ for name, value in turns.items():
     assert run.returncode == 0, run.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [["fk", "panda", "-q", "0 0 0 0 0 0 0"], ["robots"], ["serve"]])
 def test_what_a_client_cannot_do_it_says_in_one_line(client_alone: str, command: list[str]) -> None:
     run = python(f"{client_alone}sys.argv = {['gelenk', *command]}\nimport gelenk.__main__")

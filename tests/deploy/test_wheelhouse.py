@@ -169,6 +169,7 @@ def test_where_nothing_can_be_written_it_says_what_is_missing(project: Path, has
     assert f"{tree} cannot be written to: run ./dev install there" in run.stderr
 
 
+@pytest.mark.slow
 def test_a_killed_installation_starts_over(project: Path) -> None:
     """What it leaves may be half of a package, and its pip may go on: the next one waits for that, and begins anew."""
     index, environment, wait = project.parent / "index", project / ".venv", project / "wait"
@@ -226,6 +227,7 @@ def test_an_old_python_can_read_far_enough_to_say_so() -> None:
     assert text.index("sys.version_info") < text.index("def ")
 
 
+@pytest.mark.slow
 def test_a_home_that_cannot_be_written_is_not_needed(project: Path) -> None:
     run = dev(project, "install", index=project.parent / "index", HOME="/proc/no home")
     assert run.returncode == 0, run.stderr

@@ -11,7 +11,7 @@ _SOME = 0.01
 """Share of the inputs that is taken at least: what tries out nothing but refusals tries out little."""
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TARGETS)
 def test_no_mutation_does_harm(name: str) -> None:
     target = TARGETS[name]

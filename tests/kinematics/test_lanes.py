@@ -87,7 +87,7 @@ def test_cosine_and_sine_are_right_to_rounding(largest: float) -> None:
     np.testing.assert_allclose(sines, np.sin(angles), rtol=0.0, atol=2.3e-16)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("kernel", [kernels.chain_poses, kernels.chain_jacobians, ik_kernels._search])
 def test_a_kernel_computes_in_the_widest_registers(kernel: Any) -> None:
     """Compiled anew, because of code from the cache nothing can be told."""

@@ -26,6 +26,7 @@ from tests.studio.inverse import (
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
 
 
+@pytest.mark.slow
 def test_a_typed_pose_is_reached_by_the_panda(studio: Studio) -> None:
     open_at(studio, "panda", {"position": [0.5, 0.1, 0.5], "rpy": [math.pi, 0.2, 0.4]}, q=START)
     studio.until(SOLVED)

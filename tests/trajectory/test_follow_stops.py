@@ -245,6 +245,7 @@ def test_another_branch_that_does_the_whole_way_is_told() -> None:
 # Singularities
 
 
+@pytest.mark.slow
 def test_a_way_past_a_singularity_stopped_damped_and_slowed_down() -> None:
     """Two links pass the hole around their base at a hundredth of a millimetre."""
     path, q = planar_line((0.8, 0.30001), (-0.8, 0.30001))
@@ -273,6 +274,7 @@ def test_a_way_past_a_singularity_stopped_damped_and_slowed_down() -> None:
     assert off[-1] < 1e-6
 
 
+@pytest.mark.slow
 def test_damping_bounds_joint_rates_beside_a_wrist_singularity() -> None:
     """A UR5's tip passes its wrist's singularity within a hair: exactly, the wrist whirls; damped, it hardly moves."""
     arm = robot("ur5")

@@ -96,7 +96,7 @@ def derivative(found: Trajectory, times: Array, order: int) -> Array:
     return values
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "law"), list(product(ARMS, LAWS)))
 def test_every_answer_keeps_to_what_it_promises(name: str, law: Law) -> None:
     whole = 0

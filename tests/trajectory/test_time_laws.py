@@ -155,6 +155,7 @@ def test_the_434_of_the_lecture() -> None:
     assert motion.derivative().at(np.array([0.5, 1.5]))[:, 0] == pytest.approx([1.1, 1.1], abs=1e-13)
 
 
+@pytest.mark.slow
 def test_a_thousand_random_434_are_smooth_and_meet_their_fourteen_conditions() -> None:
     rng = np.random.default_rng(434)
     for _ in range(1000):

@@ -48,7 +48,7 @@ def assert_at_rest(found: Timed) -> None:
     assert np.abs(found.motion.derivative().at(found.motion.breaks[[0, -1]])).max() <= 1e-11 * fastest
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("block", range(7))
 def test_no_limit_is_passed_along_random_ways(block: int) -> None:
     for seed in range(30 * block, 30 * (block + 1)):
@@ -169,6 +169,7 @@ def test_the_time_optimal_law_under_limits_of_the_tip_is_near_that_of_a_finer_gr
     assert lasting_each[largest > 0.97].sum() > 0.9 * lasting_each.sum()
 
 
+@pytest.mark.slow
 def test_uniform_scaling_is_never_faster_than_time_optimal() -> None:
     for seed in range(10):
         rng = np.random.default_rng(3000 + seed)

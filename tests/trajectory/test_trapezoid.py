@@ -174,6 +174,7 @@ def test_a_duration_too_long_to_go_straight() -> None:
     assert edge.profiles[0].peak_velocity == pytest.approx(np.sqrt(0.2), abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_thousand_random_joints_with_end_velocities() -> None:
     rng = np.random.default_rng(44)
     coasts = turns = 0
@@ -210,6 +211,7 @@ def test_the_exam_of_two_joints() -> None:
     assert plan.motion.duration == pytest.approx(2.625)
 
 
+@pytest.mark.slow
 def test_a_thousand_random_arms_end_together() -> None:
     rng = np.random.default_rng(47)
     for i in range(1000):
@@ -300,6 +302,7 @@ def test_a_segment_too_short_is_named() -> None:
         with_accelerations(TIMES, POINTS, np.array([2.1, 8.0]))
 
 
+@pytest.mark.slow
 def test_a_thousand_random_via_points() -> None:
     rng = np.random.default_rng(7)
     for i in range(1000):

@@ -35,6 +35,7 @@ def test_few_targets_are_solved_without_them_and_say_so(name: str, stored: threa
     assert not stored.is_set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [Options(), Options(every=True)], ids=["out of reach", "all"])
 def test_what_only_the_kernels_can_tell_waits_for_them(options: Options, stored: threading.Event) -> None:
     machine = robot("ur5")

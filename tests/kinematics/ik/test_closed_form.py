@@ -451,7 +451,7 @@ def names_of(form: ClosedForm, arm: Arm, qs: Array) -> set[tuple[tuple[str, str 
     return found
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMED)
 def test_a_name_stays_the_same_along_a_path_without_singularity(name: str) -> None:
     arm = Arm(*NAMED[name])

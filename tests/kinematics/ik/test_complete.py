@@ -56,7 +56,7 @@ def doubts_of(answer: InverseKinematics) -> Flags:
     return doubtful
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOME)
 def test_no_complete_answer_lacks_a_known_solution(name: str) -> None:
     arm = six_joint_arms.arm(name)
@@ -123,6 +123,7 @@ def test_a_count_proves_what_elimination_leaves_in_doubt(name: str) -> None:
     assert sum(answer.complete) >= 10
 
 
+@pytest.mark.slow
 def test_an_arm_that_is_only_nearly_of_a_closed_form_keeps_its_own_branches() -> None:
     """As far beside the form's own folds as the geometry is off: there the form has lost a branch that the arm has."""
     arm = six_joint_arms.arm("square wrist off by 1e-06 m")

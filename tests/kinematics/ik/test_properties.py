@@ -37,6 +37,7 @@ def arms(draw_from: st.DrawFn, least: int = 2, most: int = 8) -> tuple[Robot, Ch
     return machine, limited(chain, lower, upper)
 
 
+@pytest.mark.slow
 @SETTINGS
 @given(arms(), st.integers(0, 2**31))
 def test_what_can_be_reached_is_reached(arm: tuple[Robot, Chain], seed: int) -> None:
@@ -45,6 +46,7 @@ def test_what_can_be_reached_is_reached(arm: tuple[Robot, Chain], seed: int) -> 
     assert_solved(machine, chain, targets, inverse_kinematics(machine, chain, targets, middle(chain), Options()))
 
 
+@pytest.mark.slow
 @SETTINGS
 @given(arms(), st.integers(0, 2**31), st.floats(0.0, 2.0), st.floats(0.0, 3.0))
 def test_an_answer_is_right_whatever_is_asked(arm: tuple[Robot, Chain], seed: int, away: float, turned: float) -> None:
