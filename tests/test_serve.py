@@ -409,3 +409,28 @@ def test_why_it_cannot_listen_is_told_with_what_to_do(
     monkeypatch.setattr("socket.create_server", refuse)
     with pytest.raises(SystemExit, match=words):
         serve.main()
+
+
+def family(pid: int) -> Iterator[int]:
+    """A process, and all that it and those have started."""
+    yield pid
+    for task in Path(f"/proc/{pid}/task").iterdir():
+        for child in (task / "children").read_text().split():
+            yield from family(int(child))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("workers", [1, 2])
+def test_it_takes_little_memory_while_it_is_idle(workers: int, tmp_path: Path) -> None:
+    """At most 250 MB for each worker with its pool; of a page that several processes share, each has its part."""
+    with service(tmp_path, "--workers", str(workers)) as (run, url):
+        wait_until_ready(url, run)
+        time.sleep(5.0)  # whatever it might load then
+        kilobytes = [
+            int(next(line for line in rollup.splitlines() if line.startswith("Pss:")).split()[1])
+            for rollup in (Path(f"/proc/{pid}/smaps_rollup").read_text() for pid in family(run.pid))
+        ]
+    assert len(kilobytes) >= 2 + 3 * workers
+    supervisor, *others = kilobytes
+    assert sum(others) * 1024 <= 250e6 * workers
+    assert supervisor * 1024 <= 50e6

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from gelenk.processes.original import COPY, NUMBER, WARM_UP, Original
+from gelenk.processes.original import COPY, LOAD, NUMBER, SELDOM_NEEDED, WARM_UP, Original
 
 
 @contextlib.contextmanager
@@ -71,7 +71,7 @@ loaded = SimpleNamespace(
     basics=lambda: note("basics"),
     PARTS=(first, lambda: note("second part")),
     warm_up=lambda: note("all"),
-    load=lambda _: None,
+    load=note,
 )
 Original(socket.socket(fileno={theirs.fileno()}), loaded).run()
 """
@@ -115,6 +115,14 @@ def test_what_must_be_compiled_is_compiled_by_other_processes_before(tmp_path: P
     assert (first[1], second, last) == ("basics", (original.pid, "basics"), (original.pid, "all"))
     assert sorted(what for _, what in parts) == ["first part", "second part"]
     assert len({pid for pid, _ in (first, *parts, last)}) == 4, "each in a process of its own"
+
+
+def test_what_a_copy_has_needed_is_loaded_for_those_after_it(tmp_path: Path) -> None:
+    with running(True, "pass", tmp_path) as (original, control):
+        control.send(LOAD)
+        with told_when_warm(control) as told:
+            assert told.recv(1) == b""
+    assert steps(tmp_path) == [(original.pid, what) for what in (*SELDOM_NEEDED, "all")]
 
 
 def test_copies_are_made_as_soon_as_the_basics_are_there(tmp_path: Path) -> None:

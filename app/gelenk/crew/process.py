@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from gelenk.crew import wire
+from gelenk.processes.copies import load_seldom_needed
 from gelenk.processes.original import SELDOM_NEEDED
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
@@ -26,8 +27,8 @@ _NICENESS = 5
 _SPARE_SECONDS = 2
 _TIRED = 0.5
 """A process that has come to hold this share of what it may makes room for a fresh one."""
-_EARLY_SECONDS = 20.0
-"""So does one that has served for so long and began before everything was loaded: fresh ones share that."""
+_OWN_SECONDS = 20.0
+"""So does one that has loaded modules of its own so long ago: fresh ones share them."""
 
 
 def serve(memory_bytes: int, connection: Connection) -> None:
@@ -43,8 +44,7 @@ def serve(memory_bytes: int, connection: Connection) -> None:
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
     _limit(resource.RLIMIT_DATA, at_start + memory_bytes)
-    has_all = sys.modules.keys() >= {*SELDOM_NEEDED}
-    ends = math.inf if has_all else time.monotonic() + _EARLY_SECONDS
+    shared, ends = _seldom_needed(), math.inf
     while True:
         try:
             function, argument, seconds = wire.receive(stream)
@@ -56,6 +56,9 @@ def serve(memory_bytes: int, connection: Connection) -> None:
         _limit_processor_time(seconds)
         outcome = _outcome(function, argument)
         del function, argument
+        if ends == math.inf and _seldom_needed() != shared:
+            load_seldom_needed()
+            ends = time.monotonic() + _OWN_SECONDS
         is_tired = _held_bytes() - at_start >= _TIRED * memory_bytes or time.monotonic() > ends
         goes_on = outcome[0] != "memory" and not is_tired
         try:
@@ -65,6 +68,11 @@ def serve(memory_bytes: int, connection: Connection) -> None:
         del outcome
         if not goes_on:
             return
+
+
+def _seldom_needed() -> set[str]:
+    """Which of the modules that few requests need are loaded."""
+    return sys.modules.keys() & {*SELDOM_NEEDED}
 
 
 def _outcome(function: Callable[[Any], Any], argument: Any) -> Outcome:

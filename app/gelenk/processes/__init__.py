@@ -2,5 +2,6 @@
 
 - `copies`: starts a process, and ends it so that nothing of it is left.
 - `original`: what runs in the process that is copied.
+- `pages`: gives back memory that only loading has needed.
 - `turns`: whose turn it is, where clients share processes or other places.
 """

@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 
-from gelenk.processes.original import COPY, NUMBER, WARM_UP
+from gelenk.processes.original import COPY, LOAD, NUMBER, WARM_UP
 
 GOODBYE_SECONDS = 1.0
 """How long the end of a killed process is waited for."""
@@ -150,6 +150,12 @@ def warm_up() -> socket.socket:
     with theirs:
         _original.ask(WARM_UP, theirs.fileno())
     return ours
+
+
+def load_seldom_needed() -> None:
+    """Have it load what few requests need, so that the copies that it makes from then on share that; do not wait."""
+    with contextlib.suppress(OSError):
+        _original.ask(LOAD)
 
 
 def reach_by(control: int) -> None:

@@ -6,7 +6,7 @@ end of that; when it is closed, because they are gone for example, the copy is k
 standard input does, which the one who started it holds, and its copies end with it.
 
 Copies that are asked for before it is told to warm up are there before that: it may take a minute. What is seldom
-needed it loads when it has been idle for a while, so that the copies that it makes from then on have that too.
+needed it loads when a copy has needed some of it, so that the copies that it makes from then on share that.
 """
 
 import contextlib
@@ -24,6 +24,8 @@ from functools import partial
 from multiprocessing.connection import Connection
 from typing import Any, NoReturn
 
+from gelenk.processes.pages import release_code
+
 LOADED = "gelenk.preload"
 """What is imported first.
 
@@ -31,12 +33,10 @@ Its function `warm_up` computes one of everything, `is_compiled` tells whether a
 it, and `load` imports. `basics` computes what most requests need, and each of `PARTS` a share of the rest.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
-"""Modules that only pictures and worked solutions need: they take a second, for which nobody waits at the start."""
-COPY, WARM_UP = b"c", b"w"
+"""Modules that only pictures and worked solutions need: they take 50 MB, and half a second when first needed."""
+COPY, WARM_UP, LOAD = b"c", b"w", b"l"
 NUMBER = struct.Struct("!i")
 
-_IDLE_SECONDS, _STEP_SECONDS = 2.0, 0.1
-"""After how long without a request the first of them is loaded, and each further one."""
 _PR_SET_PDEATHSIG, _PR_SET_NAME = 1, 15
 
 logger = logging.getLogger("gelenk")
@@ -83,14 +83,9 @@ class Original:
             (self._woken, self._reap),
         ):
             self._selector.register(source, selectors.EVENT_READ, act)
-        missing, pause = list(SELDOM_NEEDED), _IDLE_SECONDS
         while self._goes_on:
-            ready = self._selector.select(pause if missing else None)
-            for key, _ in ready:
+            for key, _ in self._selector.select():
                 key.data()
-            if not ready and missing:
-                module, pause = missing.pop(0), _STEP_SECONDS
-                self._try(module, partial(self._loaded.load, module))
 
     def _stop(self) -> None:
         self._goes_on = False
@@ -102,11 +97,15 @@ class Original:
             self._get_warm(socket.socket(fileno=descriptors[0]))
         elif content == COPY:
             self._copy(descriptors[0], socket.socket(fileno=descriptors[1]))
+        elif content == LOAD:
+            for module in SELDOM_NEEDED:
+                self._try(module, partial(self._loaded.load, module))
 
     def _get_warm(self, asker: socket.socket) -> None:
         """Load what takes long; the end of its socket tells whoever asked that this is over."""
         if not self._compilers and (self._loaded.is_compiled() or not self._compile_apart(self._loaded.basics)):
             self._try("the kernels", self._loaded.warm_up)
+            release_code()
             asker.close()
             return
         if not self._askers:
@@ -140,6 +139,7 @@ class Original:
                 self._compile_apart(part)
         if not self._compilers:
             self._try("the kernels", self._loaded.warm_up)
+            release_code()
             while self._askers:
                 self._askers.pop().close()
 

@@ -1,0 +1,35 @@
+"""Memory that libraries take in a process that has loaded them."""
+
+import ctypes
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+_DONT_NEED = 4
+_MAPPING = re.compile(r"([0-9a-f]+)-([0-9a-f]+) (r-[x-]p) \S+ \S+ \S+ +/")
+
+
+def release_code() -> None:
+    """Give back the code of libraries, 80 MB of which only loading the kernels has needed; what is run is read again.
+
+    Only pages that are as in their file are given back, so nothing is lost; elsewhere than on Linux nothing happens.
+    """
+    try:
+        mappings = Path("/proc/self/smaps").read_text()
+    except OSError:
+        return
+    advise = ctypes.CDLL(None).madvise
+    for start, end in _unchanged_code(mappings):
+        advise(ctypes.c_void_p(start), ctypes.c_size_t(end - start), _DONT_NEED)
+
+
+def _unchanged_code(mappings: str) -> Iterator[tuple[int, int]]:
+    """Addresses of what is mapped from files, cannot be written to and has no page that was changed before."""
+    found: tuple[int, int] | None = None
+    for line in mappings.splitlines():
+        if match := _MAPPING.match(line):
+            found = int(match[1], 16), int(match[2], 16)
+        elif line.startswith("Anonymous:"):
+            if found is not None and line.split()[1] == "0":
+                yield found
+            found = None
