@@ -33,6 +33,8 @@ RUN NUMBA_CACHE_DIR=kernels python -c "import gelenk.main, gelenk.plots.profiles
 FROM base AS slim
 RUN find / -xdev -depth -path '*-packages/*' \( -name 'pip' -o -name 'pip-*' -o -name 'setuptools*' -o -name 'pkg_resources' \
         -o -name 'wheel' -o -name 'wheel-*' \) -exec rm -rf {} + \
+    && find / -xdev -depth -type d \( -path '*/python3*/ensurepip' -o -path '*/python3*/idlelib' -o -path '*/python3*/lib2to3' \
+        -o -path '*/python3*/pydoc_data' -o -path '*/share/python-wheels' \) -exec rm -rf {} + \
     && find /usr/share/doc -type f ! -name copyright -delete \
     && rm -rf /usr/share/locale /usr/share/man /usr/share/info /usr/lib/*/gconv /usr/lib/*/perl-base /usr/bin/perl* /var/cache/*
 RUN install --directory --owner=10001 --group=10001 /data

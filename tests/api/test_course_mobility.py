@@ -150,7 +150,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "zero links": ({"space": "planar", "links": 0, "pairs": {}}, "#/links", "greater than or equal to 1"),
     "too many links": ({"space": "planar", "links": 501, "pairs": {}}, "#/links", "less than or equal to 500"),
     "half a link": ({"space": "planar", "links": 2.5, "pairs": {}}, "#/links", "integer"),
-    "a number with named pairs": ({**RR, "links": 3}, "#/links", "`links` are named where `pairs` name them"),
+    "a number with named pairs": ({**RR, "links": 3}, "#/links", "`links` are named where `pairs` are"),
     "a nameless link": ({**RR, "links": ["frame", "", "rod"]}, "#/links/1", "at least 1 character"),
     "a control character": ({**RR, "links": ["frame", "a\nb"]}, "#/links/1", "match pattern"),
     "the same link twice": ({**RR, "links": ["frame", "crank", "rod", "rod"]}, "#/links", "'rod' stands for more"),

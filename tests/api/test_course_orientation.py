@@ -136,7 +136,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "nothing": ({}, "#", "exactly one orientation of quaternion_xyzw"),
     "two orientations": ({"rpy": [0, 0, 0], "zyz": [0, 0, 0]}, "#", "2 are given"),
     "a position alone": ({"position": [0, 0, 0]}, "#", "0 are given"),
-    "project without a matrix": ({"rpy": [0, 0, 0], "project": True}, "#", "`project` goes with `rotation`"),
+    "project without a matrix": ({"rpy": [0, 0, 0], "project": True}, "#", "`project` is only allowed with `rotation`"),
     "a reflection": ({"rotation": REFLECTION}, "#/rotation", "a reflection: ‖RᵀR - I‖ = 0, det R = -1"),
     "a stretched matrix": ({"rotation": STRETCHED}, "#/rotation", "not a rotation: ‖RᵀR - I‖ = 3, det R = 2"),
     "the zero matrix": ({"rotation": [[0, 0, 0]] * 3}, "#/rotation", "not a rotation"),

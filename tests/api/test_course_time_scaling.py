@@ -115,7 +115,7 @@ def test_pictures(client: TestClient) -> None:
         ({**EXAMPLE_TIME_SCALING, "displacement": None}, "displacement", "needed"),
         ({**EXAMPLE_TIME_SCALING, "duration": None}, "duration", "needed"),
         ({**EXAMPLE_TIME_SCALING, "duration": 0.0}, "duration", ""),
-        ({**EXAMPLE_TIME_SCALING, "times": [0.0, 1.0]}, "times", "goes with `waypoints`"),
+        ({**EXAMPLE_TIME_SCALING, "times": [0.0, 1.0]}, "times", "waypoints`"),
         ({**EXAMPLE_TIME_SCALING, "factor": 0.0}, "factor", ""),
         ({**EXAMPLE_TIME_SCALING, "factor": 2.0, "scaling": "course"}, "scaling", "leave one of the two out"),
         ({**EXAMPLE_TIME_SCALING, "displacement": 0.0, "scaling": "unclipped", "limits": LOOSE}, "scaling", "nothing"),
@@ -125,9 +125,9 @@ def test_pictures(client: TestClient) -> None:
         ({**SAMPLES, "times": [0.0, 0.5, 0.5, 2.0], "velocities": [0.0] * 4}, "times", "there twice"),
         ({**SAMPLES, "velocities": [0.0] * 3}, "velocities", "3 entries for 4 times"),
         ({**SAMPLES, "velocities": [[0.0, 1.0]] * 4}, "velocities", "entry 0 has 2 numbers"),
-        ({**SAMPLES, "accelerations": [0.0] * 4}, "accelerations", "goes with `velocities`"),
+        ({**SAMPLES, "accelerations": [0.0] * 4}, "accelerations", "velocities`"),
         ({**SAMPLES, "velocities": [0.0] * 4, "boundary": "natural"}, "boundary", "there is none"),
-        ({**SAMPLES, "boundary": "periodic"}, "waypoints", "the last one has to be the first one"),
+        ({**SAMPLES, "boundary": "periodic"}, "waypoints", "the last one must equal the first"),
     ],
 )
 def test_bad_input_names_the_field(client: TestClient, body: dict[str, Any], field: str, reason: str) -> None:

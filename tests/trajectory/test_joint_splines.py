@@ -208,8 +208,8 @@ _TIMES = np.array([1.0, 2.0, 3.0])
 @pytest.mark.parametrize(
     ("segment", "field", "reason"),
     [
-        (through(configurations=None), "waypoints", "there has to be one at least"),
-        (through(configurations=np.empty((0, 2))), "waypoints", "there has to be one at least"),
+        (through(configurations=None), "waypoints", "at least one is needed"),
+        (through(configurations=np.empty((0, 2))), "waypoints", "at least one is needed"),
         (through(configurations=WAYPOINTS[[0, 1, 1]]), "waypoints.2", "is the same as entry 1"),
         (through(configurations=np.array([START])), "waypoints.0", "is the same as the start"),
         (
@@ -224,9 +224,9 @@ _TIMES = np.array([1.0, 2.0, 3.0])
         (through(boundary="periodic"), "waypoints.2", "ends where it starts, and joint 1 is 1 away"),
         (through(times=_TIMES, boundary="natural"), "boundary", "would not start at rest"),
         (through(times=_TIMES, boundary="not_a_knot"), "boundary", "would not start at rest"),
-        (through(times=_TIMES, law="time_optimal"), "times", "go without the law `time_optimal`"),
+        (through(times=_TIMES, law="time_optimal"), "times", "not allowed with the law `time_optimal`"),
         (through(times=_TIMES, law="jerk_limited"), "boundary", "take `assigned`"),
-        (through(times=_TIMES, duration=3.0), "duration", "goes without `times`"),
+        (through(times=_TIMES, duration=3.0), "duration", "not allowed beside `times`"),
         (through(times=_TIMES[:2]), "times", "2 entries for 3 waypoints"),
         (through(times=_TIMES[[0, 2, 1]]), "times", "times have to increase"),
         (through(times=_TIMES[[0, 1, 1]]), "times", "is there twice"),

@@ -92,10 +92,10 @@ _TIMES = np.array([2.0, 4.0, 7.0])
 @pytest.mark.parametrize(
     ("options", "field", "reason"),
     [
-        ({"configurations": np.empty((0, 2))}, "waypoints", "one at least"),
+        ({"configurations": np.empty((0, 2))}, "waypoints", "at least one"),
         ({"configurations": POINTS[[0, 0, 1]]}, "waypoints.1", "the same as entry 0"),
         ({"times": _TIMES[[1, 0, 2]]}, "times", "have to increase"),
-        ({"times": _TIMES, "duration": 7.0}, "duration", "goes without `times`"),
+        ({"times": _TIMES, "duration": 7.0}, "duration", "not allowed beside `times`"),
         ({"times": 0.4 * _TIMES, "blend_time": 0.1}, "times", "times its limit of acceleration in the blend at point"),
         ({"times": 0.25 * _TIMES}, "limits.joint_acceleration", "too short"),
         ({"times": _TIMES, "blend_time": 1.9}, "blend_time", "too short for its blends"),

@@ -154,7 +154,7 @@ def _dc_motor(call: DcMotorRequest) -> dict[str, Any]:
 def _times(call: DcMotorRequest) -> Array | None:
     if call.duration is None:
         if call.samples is not None:
-            raise InvalidField("samples", "goes with `duration`, which is left out")
+            raise InvalidField("samples", "needs `duration`, which is missing")
         return None if call.times is None else np.array(call.times)
     if call.times is not None:
         raise InvalidField("duration", "give it instead of `times`, not with them")
@@ -234,7 +234,7 @@ def _motor_for_speed(call: PwmRequest) -> Motor | None:
     if call.angular_velocity is None:
         for field in _OF_A_SPEED:
             if getattr(call, field) is not None:
-                raise InvalidField(field, "goes with `angular_velocity`, which is left out")
+                raise InvalidField(field, "needs `angular_velocity`, which is missing")
         return None
     if call.torque_constant is None:
         raise InvalidField("torque_constant", "is needed for a wanted `angular_velocity`")

@@ -84,7 +84,7 @@ def _check(call: EncoderRequest) -> None:
         # The lines of an incremental encoder are told whatever type is looked for.
         counts = field == "decoding" and call.wanted_resolution is not None
         if field in call.model_fields_set and getattr(call, field) not in (None, False) and not counts:
-            raise InvalidField(field, f"goes with an encoder of type `{other}`")
+            raise InvalidField(field, f"is only allowed with an encoder of type `{other}`")
     main = "pulses_per_revolution" if call.type == "incremental" else "bits"
     if getattr(call, main) is None:
         if call.wanted_resolution is None and call.samples is None:
@@ -93,7 +93,7 @@ def _check(call: EncoderRequest) -> None:
             if getattr(call, field) not in (None, False):
                 raise InvalidField(field, f"needs `{main}`, which is left out")
     if call.counter_bits is not None and call.samples is None:
-        raise InvalidField("counter_bits", "goes with `samples`, which are left out")
+        raise InvalidField("counter_bits", "needs `samples`, which are missing")
 
 
 def _scale(call: EncoderRequest) -> Scale | None:

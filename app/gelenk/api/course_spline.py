@@ -59,9 +59,9 @@ def spline_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
 
 def _plan(call: SplineRequest) -> Planned:
     if call.boundary not in {"clamped", "assigned"}:
-        unused(call, _VELOCITIES, f"does not go with `boundary` {call.boundary}")
+        unused(call, _VELOCITIES, f"is not allowed with `boundary` {call.boundary}")
     if call.boundary != "assigned":
-        unused(call, (*_ACCELERATIONS, "fictitious_times"), "goes with `boundary` assigned alone")
+        unused(call, (*_ACCELERATIONS, "fictitious_times"), "is only allowed with `boundary` assigned")
     times = np.array(call.times)
     knots = table(call.waypoints, "waypoints", len(times))
     joints = knots.shape[1]

@@ -73,21 +73,21 @@ def time_law_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
 def _plan(call: TimeLawRequest) -> Planned:
     law = f"with `law` {call.law}"
     unused_rates = [f"{end}_{rate}" for rate in _RATES[_GIVEN_RATES[call.law] :] for end in ("start", "end")]
-    unused(call, unused_rates, f"does not go {law}")
+    unused(call, unused_rates, f"is not allowed {law}")
     if call.law in _KNOTS:
-        unused(call, ("start", "target", "duration", "may_reverse"), f"does not go {law}")
+        unused(call, ("start", "target", "duration", "may_reverse"), f"is not allowed {law}")
         needed(call, ("waypoints", "times"), law)
         times = np.array(call.times)
         checked_times(times, "times")
         knots = table(call.waypoints or [], "waypoints", len(times))
         return _lift(call, times, knots) if call.law == "4-3-4" else _blends(call, times, knots)
-    unused(call, ("waypoints", "times", "blend_time"), f"does not go {law}")
+    unused(call, ("waypoints", "times", "blend_time"), f"is not allowed {law}")
     needed(call, ("start", "target"), law)
     start = np.array(call.start)
     target = row(call.target, len(start), "target")
     if call.law == "trapezoidal":
         return _trapezoid(call, start, target)
-    unused(call, ("may_reverse",), f"does not go {law}")
+    unused(call, ("may_reverse",), f"is not allowed {law}")
     return _two_points(call, start, target)
 
 
@@ -122,7 +122,7 @@ def _two_points(call: TimeLawRequest, start: Array, target: Array) -> Planned:
 
 
 def _lift(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
-    unused(call, ("blend_time",), "does not go with `law` 4-3-4")
+    unused(call, ("blend_time",), "is not allowed with `law` 4-3-4")
     if len(times) != 4:
         raise InvalidField("waypoints", f"4-3-4 goes through four: start, lift-off, set-down, end; {len(times)} given")
     starts, ends = (_rates(call, end, knots.shape[1]) for end in ("start", "end"))

@@ -96,7 +96,7 @@ def _plan(call: TimeScalingRequest) -> Planned:
 def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:
     """The motion as it came, its knots with their times, and up to which derivative it is continuous."""
     if call.waypoints is None:
-        unused(call, ("times", "velocities", "accelerations", "boundary"), "goes with `waypoints`, which are left out")
+        unused(call, ("times", "velocities", "accelerations", "boundary"), "needs `waypoints`, which are missing")
         needed(call, ("displacement", "duration"), "for a motion by a law; or give `times` and `waypoints`")
         ends = np.zeros((_ORDERS[call.law], len(call.displacement or ())))
         ends[0] = call.displacement
@@ -107,7 +107,7 @@ def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array
     times = np.array(call.times)
     knots = table(call.waypoints, "waypoints", len(times))
     if call.velocities is None:
-        unused(call, ("accelerations",), "goes with `velocities`, which are left out")
+        unused(call, ("accelerations",), "needs `velocities`, which are missing")
         return cubic_spline(times, knots, call.boundary).motion, times, knots, 2
     unused(call, ("boundary",), "is that of a spline, and with `velocities` there is none")
     velocities = table(call.velocities, "velocities", len(times), knots.shape[1])

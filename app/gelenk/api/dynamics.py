@@ -134,7 +134,7 @@ def _check_options(call: DynamicsRequest) -> None:
         raise InvalidField("terms", "each term at most once")
     wrench_frame(call)
     if call.wrenches is None and (field := unused_frame(call)) is not None:
-        raise InvalidField(field, "it goes with `wrenches`, which it says the axes or the point of")
+        raise InvalidField(field, "only allowed with `wrenches`, whose axes or point it gives")
 
 
 def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:

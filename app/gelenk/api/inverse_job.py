@@ -48,7 +48,7 @@ def inverse_work(most_bytes: int) -> LongWork[InverseRequest]:
     """How inverse kinematics are done as a job, the parts of which may take this many bytes."""
     more = (
         f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
-        "as many numbers in the answer as there is room for; it goes without `time_limit`, as each target is looked "
+        "as many numbers in the answer as there is room for; `time_limit` is not allowed, as each target is searched "
         "for to the end"
     )
     return LongWork(KIND, partial(_request, most_bytes), _work, more)

@@ -160,17 +160,17 @@ def _check_options(call: InverseRequest) -> None:
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction at most once")
     if call.solutions == "all" and call.method not in {"auto", "analytic"}:
-        raise InvalidField("solutions", "`all` goes with the methods `auto` and `analytic` only")
+        raise InvalidField("solutions", "`all` is allowed with the methods `auto` and `analytic` only")
     if call.method == "analytic" and call.trace:
-        raise InvalidField("trace", "a closed form has no iterations to tell of")
+        raise InvalidField("trace", "a closed form has no iterations")
     if call.elbow_angle is not None and call.method != "analytic":
         raise InvalidField("elbow_angle", "only for the method `analytic`")
     if call.elbow_angle is not None and call.fixed_joints is not None:
         raise InvalidField("fixed_joints", "either they or `elbow_angle`, not both")
     if call.solutions == "all" and (call.trace or call.objective is not None):
-        raise InvalidField("solutions", "`all` goes without `trace` and `objective`")
+        raise InvalidField("solutions", "`all` does not take `trace` or `objective`")
     if call.windings and (call.solutions != "all" or not call.respect_limits):
-        raise InvalidField("windings", "they go with `solutions: all` within the limits, without which there is no end")
+        raise InvalidField("windings", "only allowed with `solutions: all` within the limits")
     if call.posture is not None and call.objective != "posture":
         raise InvalidField("posture", "only for the objective `posture`")
     if call.step_size is not None and call.method not in {"gradient", "gradient_then_newton"}:

@@ -148,7 +148,7 @@ def _directions(call: ManipulabilityRequest) -> Array | None:
 def _bounds(loaded: LoadedRobot, chain: Chain, call: ManipulabilityRequest) -> JointBounds | None:
     if not call.polytopes:
         if call.limits is not None:
-            raise InvalidField("limits", "they go with `polytopes` only")
+            raise InvalidField("limits", "only allowed with `polytopes`")
         return None
     own = joint_bounds(loaded.robot, chain)
     if call.limits is None:

@@ -57,7 +57,7 @@ def read_npy(body: bytes) -> Array:
     if not shape:
         raise InvalidArray("the array is a single number; its first dimension counts the entries")
     if len(shape) > 4 or any(size > len(body) for size in shape):
-        raise InvalidArray("the array's shape does not go with the bytes of the body")
+        raise InvalidArray("the array's shape does not match the size of the body")
     count = math.prod(shape)
     if len(body) - start != count * dtype.itemsize:
         raise InvalidArray(f"the array of shape {shape} needs {count * dtype.itemsize} bytes, no more, no fewer")

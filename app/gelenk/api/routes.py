@@ -267,7 +267,7 @@ class Computation(Generic[_Request]):
     def _parse(self, query: str, body: bytes, npy: bool) -> _Request:
         if not npy or self.options is None:
             if query:
-                raise InvalidField("query", "parameters go with an npy body; a JSON call has them as fields")
+                raise InvalidField("query", "they are for an npy body; a JSON call has them as fields")
             return read_json(self.request, body)
         options = read_query(self.options, QueryParams(query))
         given = options.model_fields_set | {self.array_field}
@@ -377,7 +377,7 @@ def _response(outcome: Outcome, wanted: str) -> Response:
         return json_response(outcome.content())
     if wanted in _PICTURES:
         if outcome.picture is None:
-            raise InvalidField("Accept", "what this call asks for cannot be drawn: leave the header out for JSON")
+            raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")
         return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
     if outcome.array is None:
         raise InvalidArray(NO_ARRAY)

@@ -168,7 +168,7 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
             raise InvalidField("wrenches", "nothing acts on the robot: give `wrenches`, `torques` or `gravity`")
         field = "task" if call.task is not None else unused_frame(call)
         if field is not None:
-            raise InvalidField(field, "it goes with `wrenches`, `torques` or `subspaces`: weight alone needs none")
+            raise InvalidField(field, "only allowed with `wrenches`, `torques` or `subspaces`")
     for name, vectors in _tests(call).items():
         size = len(_task(call)) if name in _OF_THE_TIP else len(chain)
         for i, vector in enumerate(vectors):

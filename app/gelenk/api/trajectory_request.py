@@ -140,7 +140,7 @@ def _law(call: TrajectoryRequest, index: int) -> Law:
     if (segment.law or "law" in call.model_fields_set) and not call.law_fallback:
         raise InvalidField(
             f"segments.{index}.law" if segment.law else "law",
-            f"`{law}` has one shape along the whole way, and `near_singularity` `slow_down` is slow only where the "
+            f"`{law}` has one shape along the whole path, and `near_singularity` `slow_down` is slow only where the "
             "joints must be: ask for `time_optimal`, or allow another law with `law_fallback`",
         )
     return "time_optimal"
@@ -160,7 +160,7 @@ def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:
     if any(isinstance(one, Pose) for one in segment.waypoints):
         raise InvalidField(f"{place}.blends", "are of configurations; for poses take lines with a `blend_radius`")
     if part.law != "trapezoidal":
-        raise InvalidField(f"{place}.blends", f"go with the law `trapezoidal` alone, and this one is `{part.law}`")
+        raise InvalidField(f"{place}.blends", f"are only allowed with the law `trapezoidal`; this one is `{part.law}`")
     if "boundary" in segment.model_fields_set:
         raise InvalidField(f"{place}.boundary", "is of a spline, and with `blends` there is none")
 
@@ -195,7 +195,7 @@ def _times(segment: SplineSegment, place: str) -> Array:
             field, f"has {counted(len(times), 'entry')} for {counted(len(segment.waypoints), 'waypoint')}"
         )
     if segment.duration is not None:
-        raise InvalidField(f"{place}.duration", "goes without `times`, which say it already")
+        raise InvalidField(f"{place}.duration", "is not allowed beside `times`, which determine it")
     late = np.diff(times) >= _SHORTEST
     if not late.all():
         i = int(np.argmin(late))
@@ -214,7 +214,7 @@ def _check_blend(segments: Sequence[Segment], index: int) -> None:
     if not names:
         return
     if len(names) > 1:
-        raise InvalidField(f"{place}.{names[1]}", f"goes without `{names[0]}`: a blend is said in one way")
+        raise InvalidField(f"{place}.{names[1]}", f"is not allowed beside `{names[0]}`: give a blend in one way")
     if index + 1 == len(segments):
         raise InvalidField(f"{place}.{names[0]}", "the last segment ends at rest: there is no line to blend into")
     if not isinstance(segments[index + 1], LineSegment):

@@ -41,7 +41,7 @@ def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Arr
     count = sum(values is not None for values in given)
     for field, values, before in zip(RATES[1:], given[1:], given, strict=False):
         if values is not None and before is None:
-            raise InvalidField(field, f"they go with `{RATES[RATES.index(field) - 1]}`, which are missing")
+            raise InvalidField(field, f"they need `{RATES[RATES.index(field) - 1]}`, which are missing")
     rates = np.empty((count, *qs.shape))
     for k, (field, values) in enumerate(zip(RATES[:count], given, strict=False)):
         rates[k] = _one_each(chain, values, field, len(qs))
@@ -75,10 +75,10 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
     given = [field for field in TIP if getattr(call, field) is not None]
     if not given:
         if rates == 0:
-            raise InvalidField("joint_velocities", f"they are needed, or one of {', '.join(TIP)} to be inverted")
+            raise InvalidField("joint_velocities", f"needed, or else one of {', '.join(TIP)} to be inverted")
         for field in _INVERSE_ALONE:
             if field in call.model_fields_set and not isinstance(call.joint_positions, np.ndarray):
-                raise InvalidField(field, f"it goes with one of {', '.join(TIP)}, which are missing")
+                raise InvalidField(field, f"needs one of {', '.join(TIP)}, and none is given")
         return None
     asked = given[0]
     if len(given) > 1:
@@ -128,7 +128,7 @@ def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: in
     if damping is not None and call.damping_threshold is not None:
         raise InvalidField("damping_threshold", "only for adaptive damping")
     if asked != "twists" and call.null_space is not None and call.null_space.joint_accelerations is None:
-        raise InvalidField("null_space", "`joint_velocities` and `objective` go with `twists` only")
+        raise InvalidField("null_space", "`joint_velocities` and `objective` are allowed with `twists` only")
     return Rule(
         call.inverse,
         call.rank_tolerance,
@@ -188,7 +188,7 @@ def _given_null_motion(chain: Chain, wanted: NullSpace, asked: str, count: int) 
     field = "joint_velocities" if asked == "twists" else "joint_accelerations"
     values = getattr(wanted, field)
     if values is None or asked == "tip_jerks":
-        raise InvalidField("null_space", f"what it gives does not go with `{asked}`")
+        raise InvalidField("null_space", f"its result cannot be combined with `{asked}`")
     rows = configurations(chain, values, f"null_space/{field}")
     if len(rows) not in {1, count}:
         raise InvalidField(

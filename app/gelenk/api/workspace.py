@@ -109,7 +109,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     chain = loaded.robot.chain(call.base_frame, call.tip_frame)
     for field in ("orientations", "orientations_over"):
         if call.kind != "dexterity" and field in call.model_fields_set:
-            raise InvalidField(field, f"goes with the kind `dexterity`; this one is `{call.kind}`")
+            raise InvalidField(field, f"is only allowed with the kind `dexterity`; this one is `{call.kind}`")
     if call.job_id is None:  # a job of that name may be this very one
         runner.shelf.check_room(client)
     check_size(_question(loaded.record.name, loaded.robot, chain, call))

@@ -43,9 +43,9 @@ class WrenchFrame:
             InvalidField: The field, and what it goes with.
         """
         if self.expressed_in is not None and self.reference != "local_world_aligned":
-            raise InvalidField("expressed_in", "it names the axes itself, so it goes without another `reference`")
+            raise InvalidField("expressed_in", "it names the axes itself, so no other `reference` may be given")
         if self.point is not None and self.reference == "world":
-            raise InvalidField("point", "`world` takes the base origin, so it goes with the other references only")
+            raise InvalidField("point", "not allowed with `world`, which takes the origin of the base")
         if self.point_frame is not None and self.point is None:
             raise InvalidField("point_frame", "it needs `point`")
 

@@ -142,7 +142,7 @@ def dh_from_chain(
         reason = f"no joint moves between {quoted(chain.base_frame)} and {quoted(chain.tip_frame)}: no row for a table"
         raise InvalidField("tip_frame", reason)
     if len(joints) > MAX_JOINTS:
-        raise InvalidField("tip_frame", f"{len(joints)} joints are on the way; a table has at most {MAX_JOINTS}")
+        raise InvalidField("tip_frame", f"{len(joints)} joints are on the path; a table has at most {MAX_JOINTS}")
     if not 0.0 <= snap_tolerance <= MAX_SNAP_TOLERANCE:
         raise InvalidField("snap_tolerance", f"must be a number from 0 to {MAX_SNAP_TOLERANCE:g}")
     lines = _Lines(chain, joints, snap_tolerance, parallel_below)

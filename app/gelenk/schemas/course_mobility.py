@@ -180,7 +180,7 @@ class MobilityRequest(Payload):
             reason = f"a mechanism has `space`, `links` and `pairs` (or `robot` stands alone); `{missing}` is missing"
             raise InvalidField(missing, reason)
         if isinstance(self.pairs, list) and isinstance(self.links, int):
-            reason = "`links` are named where `pairs` name them; their number goes with counts of pairs"
+            reason = "`links` are named where `pairs` are; a number of links needs numbers of pairs"
             raise InvalidField("links", reason)
         self._check_counts()
         for name in ("output", "rank_tolerance"):

@@ -61,7 +61,7 @@ class MotionPayload(Payload):
         if len(given) != 1:
             raise ValueError(f"exactly one orientation of {', '.join(_NOTATIONS)}; {len(given)} are given")
         if self.project and self.rotation is None:
-            raise ValueError("`project` goes with `rotation`: other notations are always rotations")
+            raise ValueError("`project` is only allowed with `rotation`: other notations are always rotations")
         return self
 
     def read(self, place: str = "") -> tuple[Array, Validation | None]:

@@ -65,9 +65,9 @@ class NullSpace(Payload):
         if sum(motion is not None for motion in given) != 1:
             raise ValueError("exactly one of `joint_velocities`, `joint_accelerations` and `objective`")
         if self.objective is None and "gain" in self.model_fields_set:
-            raise ValueError("`gain`: goes with an `objective` only")
+            raise ValueError("`gain`: only allowed with an `objective`")
         if (self.posture is not None) != (self.objective == "posture"):
-            raise ValueError("`posture` goes with the objective of that name, and that with it")
+            raise ValueError("`posture` and the objective of that name need each other")
         return self
 
 

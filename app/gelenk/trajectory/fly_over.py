@@ -129,7 +129,7 @@ def corner_of(start: Array, corner: Array, end: Array, speed_before: float, spee
         InvalidField: Two points in succession are the same, or both speeds are zero.
     """
     if speed_before == 0.0 and speed_after == 0.0:
-        raise InvalidField("speed_after", "one of the two speeds is more than 0: else nothing moves")
+        raise InvalidField("speed_after", "one of the two speeds must be greater than 0: otherwise nothing moves")
     lengths = [math.dist(start, corner), math.dist(corner, end)]
     extent = max(float(np.abs([start, corner, end]).max()), np.finfo(float).tiny)
     for length, field, names in zip(lengths, ("start", "end"), ("A and B", "B and C"), strict=True):

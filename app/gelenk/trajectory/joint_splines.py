@@ -197,10 +197,11 @@ def _check_law_of_times(segment: Segment, field: str) -> None:
             "law of time brings it from rest to rest, or take `clamped` or `assigned`",
         )
     if segment.duration is not None:
-        raise InvalidField(named(field, "duration"), "goes without `times`, which say it already")
+        raise InvalidField(named(field, "duration"), "is not allowed beside `times`, which determine it")
     if segment.law == "time_optimal":
         raise InvalidField(
-            named(field, "times"), "go without the law `time_optimal`, which finds them: take another law, or none"
+            named(field, "times"),
+            "are not allowed with the law `time_optimal`, which finds them",
         )
     if segment.law == "jerk_limited" and segment.boundary == "clamped":
         raise InvalidField(

@@ -46,7 +46,7 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
     """
     name = named(field, "waypoints")
     if waypoints is None or len(waypoints) == 0:
-        raise InvalidField(name, "there has to be one at least: the start is the first knot, and a spline takes two")
+        raise InvalidField(name, "at least one is needed: the start is the first knot, and a spline needs two")
     positions = np.concatenate((start[None], waypoints))
     too_large = np.argwhere(~(np.abs(positions) <= LARGEST))
     if len(too_large) > 0:

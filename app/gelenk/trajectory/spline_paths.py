@@ -181,7 +181,7 @@ def spline(
             apart.
     """
     if len(waypoints) < 2:
-        raise InvalidField("waypoints", "a spline takes at least two poses, the start among them")
+        raise InvalidField("waypoints", "a spline needs at least two poses, including the start")
     chords = np.linalg.norm(np.diff(waypoints.positions, axis=0), axis=1)
     if (chords <= POINT).any():
         first = int(np.argmin(chords > POINT))

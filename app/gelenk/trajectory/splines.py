@@ -172,7 +172,7 @@ def _periodic(times: Array, knots: Array) -> Spline:
     """Velocity and acceleration go on from the end to the start: a row for that knot, and corners."""
     scale = max(1.0, float(np.abs(knots).max()))
     if float(np.abs(knots[-1] - knots[0]).max()) > CLOSED * scale:
-        raise InvalidField("waypoints", "a periodic spline ends where it starts: the last one has to be the first one")
+        raise InvalidField("waypoints", "a periodic spline ends where it starts: the last one must equal the first")
     h, slopes = np.diff(times), np.diff(knots, axis=0) / np.diff(times)[:, None]
     A, b = _inner_rows(np.insert(h, 0, h[-1]), np.concatenate([slopes[-1:], slopes]))
     around = solution(A, b)

@@ -105,7 +105,7 @@ def timed(
         parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
     found = _in_a_row(parts) if parts else _standing(joints)
     if not np.isfinite(found.motion.coefficients).all():
-        raise InvalidField("limits", "these limits and this way are too many powers of ten apart")
+        raise InvalidField("limits", "these limits and this path are too many powers of ten apart")
     if slow_down and law != "time_optimal":
         note = f"to be slow only where the joints have to, the time-optimal law is taken in place of `{law}`"
         found = replace(found, notes=(note, *found.notes))

@@ -64,7 +64,7 @@ def _at_given_times(
     points: Knots, limits: MotionLimits, blend_time: float | None, duration: float | None, field: str
 ) -> Blends:
     if duration is not None:
-        raise InvalidField(named(field, "duration"), "goes without `times`, which say it already")
+        raise InvalidField(named(field, "duration"), "is not allowed beside `times`, which determine it")
     try:
         found = _blends(points, limits, blend_time)
     except InvalidField as error:

@@ -85,7 +85,7 @@ def read_keys(text: str) -> dict[str, Key]:
         if unknown := [word for word in words if word not in set(Scope)]:
             raise InvalidKeys(f"entry {number} has the scope '{unknown[0][:20]}'; there are {', '.join(Scope)}")
         if match["name"] in keys:
-            raise InvalidKeys(f"entry {number}: the name '{match['name']}' stands twice")
+            raise InvalidKeys(f"entry {number}: the name '{match['name']}' appears twice")
         salt, digest = bytes.fromhex(match["salt"]), bytes.fromhex(match["digest"])
         keys[match["name"]] = Key(match["name"], frozenset(map(Scope, words)), salt, digest)
     if len(keys) > MAX_KEYS:
