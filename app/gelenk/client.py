@@ -178,7 +178,7 @@ class Client(Operations):
 
         Args:
             job: Its id.
-            progress: Is told whenever it is further on.
+            progress: Called whenever it has advanced.
         """
         for info in self.watch(job):
             if progress is not None:

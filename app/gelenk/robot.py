@@ -202,7 +202,7 @@ class Robot:
             options: Those of the API, such as `solutions="all"`, `task`, `method`, `respect_limits`, `fixed_joints`.
 
         Raises:
-            InvalidField: An option is unknown, or does not go with the others.
+            InvalidField: An option is unknown, or excluded by another one.
             InvalidPose: A target is no pose.
             InvalidArray: The targets are an array of another shape.
         """

@@ -4,7 +4,7 @@
 - `payloads`, `npy`: bodies in and answers out: JSON and NumPy's npy, strictly.
 - `bodies`: how many bytes of large bodies are held at a time.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
-- `access`: the door: hosts, origins, keys, headers of every answer, what is told of it.
+- `access`: the door: hosts, origins, keys, headers of every answer, the log of requests.
 - `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
 - `tally`: what an answer says of itself to the metrics.
 - `elsewhere`: the crew for code that is no coroutine.

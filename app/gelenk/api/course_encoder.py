@@ -78,10 +78,10 @@ def _encoder(call: EncoderRequest) -> dict[str, Any]:
 
 
 def _check(call: EncoderRequest) -> None:
-    """Refuse what does not go together."""
+    """Refuse combinations of fields that exclude each other."""
     other = "absolute" if call.type == "incremental" else "incremental"
     for field in _FIELDS[other]:
-        # The lines of an incremental encoder are told whatever type is looked for.
+        # The lines of an incremental encoder are reported whatever type is wanted.
         counts = field == "decoding" and call.wanted_resolution is not None
         if field in call.model_fields_set and getattr(call, field) not in (None, False) and not counts:
             raise InvalidField(field, f"is only allowed with an encoder of type `{other}`")

@@ -41,7 +41,7 @@ class Planned:
         end_rates: The same at the end.
         continuity: Order of the highest derivative that is continuous at the joins.
         title: Of a picture.
-        told: What the answer has beside the motion, by its peaks.
+        told: What the answer contains besides the motion, from its peaks.
         passed: Points that a picture marks instead of the knots: those that are passed nearby; shapes (K,) and (K, n).
     """
 

@@ -121,10 +121,10 @@ def _outcome(loaded: LoadedRobot, call: DynamicsRequest, most: int) -> Outcome:
 
 
 def _check_options(call: DynamicsRequest) -> None:
-    """Refuse what does not go together.
+    """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and what it goes with.
+        InvalidField: The field, and which other fields it needs or excludes.
     """
     if call.joint_accelerations is not None and call.torques is not None:
         raise InvalidField(

@@ -152,10 +152,10 @@ def is_stepwise(call: InverseRequest) -> bool:
 
 
 def _check_options(call: InverseRequest) -> None:
-    """Refuse what does not go together.
+    """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and what it goes with.
+        InvalidField: The field, and which other fields it needs or excludes.
     """
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction at most once")

@@ -180,7 +180,7 @@ async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIt
     """The events of a job from now on; when its client has left, the server ends the iteration.
 
     Args:
-        runner: Who knows the job.
+        runner: Where the job is kept.
         job: As it is now.
         state: Of the connection, which tells when the service is to stop: the stream ends, and a browser asks again.
     """

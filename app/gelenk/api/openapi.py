@@ -77,7 +77,7 @@ def npy_content(description: str) -> dict[str, Any]:
 def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
     """An array, as a further media type of a request, and what the query may have beside it.
 
-    The fields of the query are no parameters of the operation, as OpenAPI has none that go with one media type alone:
+    The fields of the query are no parameters of the operation, as OpenAPI has none for a single media type:
     they would be offered beside a JSON body too, where each is refused because it is a field of the body. What is made
     of the schema shows what that would mean: openapi-python-client makes every parameter an argument of the one
     function for both bodies, next to a body with the same fields, and openapi-typescript likewise. So they are a schema
@@ -126,7 +126,7 @@ def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = 
     Args:
         app: The application.
         has_keys: Whether its operations need keys.
-        queries: What stands in a query beside an array.
+        queries: Parameters of the query beside an array.
     """
 
     def openapi() -> dict[str, Any]:

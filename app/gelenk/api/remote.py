@@ -25,7 +25,7 @@ So it compiles nothing either: as long as the crew is starting, that is all aske
 """
 
 PARSED_HERE_BYTES = 512 * 1024
-"""Most of a body that a thread of this process parses: the event loop stands still meanwhile."""
+"""Most of a body that a thread of this process parses: it holds up the event loop."""
 
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
@@ -95,7 +95,7 @@ def client_of(request: Request) -> str:
     """Whom a request is from: the key that it came with, else its address.
 
     Those without a key from this very machine are of one client, the nameless one, which has no share of its own to
-    keep to: what stands before the service may pass on those of others.
+    keep to: a proxy in front of the service may pass on those of others.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:

@@ -299,7 +299,7 @@ class PlanErrand:
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """POST /v1/robots/{robot}/{name}, as the schema tells of it.
+    """POST /v1/robots/{robot}/{name}, as the schema describes it.
 
     Attributes:
         name: Last part of its path.

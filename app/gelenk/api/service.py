@@ -69,7 +69,7 @@ class Readiness:
         try:
             wait_for_others()
             warm_up()
-            # What stands now stays: the collector of garbage need not look through it again and again.
+            # What is loaded now stays: the garbage collector need not scan it again and again.
             gc.collect()
             gc.freeze()
             self._has_kernels = True

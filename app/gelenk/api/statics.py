@@ -136,7 +136,7 @@ def _task(call: StaticsRequest) -> Sequence[Direction]:
 
 
 def _tests(call: StaticsRequest) -> dict[str, Vectors]:
-    """The vectors to be split, by the field of the answer that tells of them."""
+    """The vectors to be split, by the field of the answer that reports them."""
     given = {
         "twists": call.test_twists,
         "wrenches": call.test_wrenches,
@@ -151,10 +151,10 @@ def _wants_subspaces(call: StaticsRequest) -> bool:
 
 
 def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
-    """Refuse what does not go together.
+    """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and what it goes with.
+        InvalidField: The field, and which other fields it needs or excludes.
     """
     if len(set(_task(call))) < len(_task(call)):
         raise InvalidField("task", "each direction at most once")

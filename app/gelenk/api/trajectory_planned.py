@@ -35,7 +35,7 @@ from gelenk.trajectory.problem import Trajectory
 
 _NUMBERS_A_POSE = 16
 _LONGER, _LONG_SECONDS = 100.0, 60.0
-"""Hardly any motion lasts so many times what it lasts at least, and so long besides."""
+"""Hardly any motion lasts more than this many times its least duration, and more than this many seconds."""
 _MOST_NAME = 16
 """Characters of a robot's name in a title, which has room for 48."""
 SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
@@ -98,7 +98,7 @@ class Planned:
         call: As requested.
         question: What the core was asked.
         found: What came of it.
-        bounds: Of what may be told.
+        bounds: Limits of the answer's size.
     """
 
     robot: Robot

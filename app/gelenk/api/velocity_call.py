@@ -107,7 +107,7 @@ def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: in
     """How to invert.
 
     Raises:
-        InvalidField: An option that does not go with the inverse, a weight that is none, or an exact inverse of a
+        InvalidField: An option that this inverse does not take, an invalid weight, or an exact inverse of a
             Jacobian that is not square.
     """
     if call.inverse == "exact":

@@ -60,7 +60,7 @@ class Job(_Told, Generic[A]):
     As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
 
     Attributes:
-        info: How far it was when that was last told.
+        info: Its last known progress.
     """
 
     def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:

@@ -25,7 +25,7 @@ from typing import Any, TypeAlias
 from gelenk.jobs.workers import ATTEMPTS, DIED
 
 SIZE = -1
-"""In the place of a part's number: how many processors compute by now. It is told every second."""
+"""Instead of a part's number: how many processors compute by now. It is sent every second."""
 
 _QUIET_SECONDS, _PROBE_SECONDS = 5.0, 12.0
 """After how long without news a machine is probed; and how long that may take, which may be to start a process, [s]."""
@@ -88,7 +88,7 @@ class Driver:
         self._address = address
 
     def __call__(self, connection: Connection) -> None:
-        """Do parts until the other side is gone: first it is told why there are none, or how many processors."""
+        """Do parts until the other side is gone; first send why there are none, or how many processors there are."""
         _be_quiet()
         try:
             import ray  # noqa: PLC0415 - an extra, and half a second

@@ -67,7 +67,7 @@ class Job:
         attempts: How often it was begun without getting further than the time before.
         robot_digest: SHA-256 of the description of the robot that it is about.
         number: Its place among all jobs in the order in which they came: clocks are set, also back.
-        client: Who asked for it; empty where clients are not told apart.
+        client: The client that requested it; empty where clients are not told apart.
     """
 
     id: str

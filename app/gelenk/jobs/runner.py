@@ -99,9 +99,9 @@ class Runner:
         Args:
             kind: One of the kinds.
             digest: Of the request.
-            request: Files that the kind is told by what is asked for.
+            request: Files that describe the request to the kind of job.
             job_id: Its name; one is made up if left out.
-            client: Who asks for it.
+            client: The client that requests it.
 
         Raises:
             JobExists: A job with another request uses the name.

@@ -99,7 +99,7 @@ class Shelf:
             digest: Of the request.
             request: What is asked for: files of the job's folder, from which it can be done at any time.
             job_id: Its name; one is made up if left out.
-            client: Who asks for it.
+            client: The client that requests it.
 
         Returns:
             The job, and whether it is new.

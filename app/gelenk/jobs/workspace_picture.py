@@ -30,7 +30,7 @@ def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
 
 
 def captions(content: dict[str, Any]) -> Iterator[str]:
-    """Lines beside the picture; results of an earlier time do not tell of their plane."""
+    """Lines beside the picture; results of earlier versions do not name their plane."""
     voxels, dexterity, plane = content["voxels"], content["dexterity"], content.get("plane")
     unit = {3: "m³", 2: "m²", 1: "m"}.get(voxels["dimensions"], "")
     if plane is not None:

@@ -7,7 +7,7 @@
 - `subspaces`: range and kernel of a Jacobian and of its transpose; `task_space`: the rows of it that a task counts.
 - `velocity`: twist, acceleration, jerk and snap of the tip; `certify_motion`: the same through Pinocchio.
 - `inverse_velocity`: joint rates behind those, on `linear_inverse`: exact, pseudo- and damped inverses.
-  `words` names these and what is told, without what computes it.
+  `words` names these and what is reported, without what computes it.
 - `singularity`: what is lost where, and which joints make it so; `singularity_kinds` names it, `singularity_distance`
   finds the nearest, `singularity_path` those between the configurations of a path.
   `certify_singularity` asks Pinocchio's Jacobian about all of them.

@@ -53,7 +53,7 @@ class Body:
         center: Centre of mass; shape (3,), [m].
         inertia: About the centre of mass; shape (3, 3), [kg m²].
         flat: The chain from the root to its frame.
-        columns: Where the variables of that chain stand among those of the robot's chain.
+        columns: The places of that chain's variables among those of the robot's chain.
     """
 
     joint: str | None

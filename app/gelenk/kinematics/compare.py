@@ -275,7 +275,7 @@ def _plain_notes(table: DhTable, placement: Placement, freedom: Freedom) -> list
 
 
 def _notes(on: Subject, unverified: tuple[Unverified, ...]) -> list[str]:
-    """What cannot be told apart."""
+    """Parameters that cannot be told apart."""
     notes = []
     if unverified:
         by = {each.absorbed_by for each in unverified}

@@ -48,7 +48,7 @@ def configurations(chain: Chain, values: Sequence[Configuration] | Array, field:
 
 
 def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
-    """A configuration that stands alone; shape (1, n). Raises as `configurations` does."""
+    """A single configuration; shape (1, n). Raises as `configurations` does."""
     try:
         return configurations(chain, [value], field)
     except (WrongJointCount, MissingJoint, UnknownJoint) as error:

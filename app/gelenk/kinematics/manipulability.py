@@ -158,7 +158,7 @@ def manipulability(
         gradient: Whether the gradients of Yoshikawa's measure are wanted.
 
     Raises:
-        InvalidField: A direction of the task stands there twice.
+        InvalidField: A direction of the task appears twice.
         CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids are not those of the Jacobians.
     """
     rows = task_rows(task)
@@ -196,7 +196,7 @@ def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
     """The rows of J of a task, in their own order.
 
     Raises:
-        InvalidField: A direction stands there twice.
+        InvalidField: A direction appears twice.
     """
     if len(set(task)) < len(task):
         raise InvalidField("task", "each direction at most once")

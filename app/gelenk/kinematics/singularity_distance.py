@@ -167,7 +167,7 @@ class _Projection:
         return np.asarray(np.clip(xs + bounded, self.lower, self.upper))
 
     def _strides(self, xs: Array) -> Array:
-        """The whole way to the foot, as far as it can be told from each start."""
+        """The whole path to the foot, as far as it can be followed from each start."""
         normal, along = self._steps(xs)
         return normal + along
 

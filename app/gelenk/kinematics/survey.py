@@ -61,7 +61,7 @@ class SurveyCertificate:
 
 @dataclass(frozen=True, slots=True)
 class Workspace:
-    """What the samples of a chain tell of its workspace; the optional ones are None where no sample counts.
+    """What the samples of a chain say about its workspace; the optional ones are None where no sample counts.
 
     Attributes:
         count: Samples that count.

@@ -181,7 +181,7 @@ class Structure:
 @lru_cache(maxsize=1024)
 def structure(chain: Chain, task: Task, reference: Reference = "local_world_aligned") -> Structure:
     """What a chain can do at random configurations, the same ones at each call."""
-    # Of one row each a configuration tells of one joint velocity at most that moves the tip.
+    # With one row each, a configuration gives at most one joint velocity that moves the tip.
     trials = _TRIALS + 2 * len(chain)
     space = TaskSpace(task, None, reference)
     whole, terms = jacobians_with_terms(chain, random_configurations(chain, trials), reference)

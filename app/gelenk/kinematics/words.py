@@ -1,4 +1,4 @@
-"""The words in which answers about motions of the tip are told, without what computes them."""
+"""Names that answers about motions of the tip use, without what computes them."""
 
 from typing import Literal, TypeAlias
 

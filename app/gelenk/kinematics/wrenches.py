@@ -40,7 +40,7 @@ class WrenchFrame:
         """Refuse what contradicts itself.
 
         Raises:
-            InvalidField: The field, and what it goes with.
+            InvalidField: The field, and which other fields it needs or excludes.
         """
         if self.expressed_in is not None and self.reference != "local_world_aligned":
             raise InvalidField("expressed_in", "it names the axes itself, so no other `reference` may be given")

@@ -153,7 +153,7 @@ def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[lis
 def _variables(moving: list[Joint], drives: list[Drive]) -> tuple[str, ...]:
     """The names of the variables in the order of the way.
 
-    A joint of its own stands where it is; the leader of a mimic joint that is not on the way itself stands where
+    An independent joint keeps its place; the leader of a mimic joint that is not on the way itself stands where
     it is first needed.
     """
     on_the_way = {joint.name for joint in moving}

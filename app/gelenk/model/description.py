@@ -1,6 +1,6 @@
 """A robot's description, checked: links joined to a tree by joints.
 
-What stands here is what a URDF may say, and nothing that it may not: whoever holds a `Description` holds a tree
+A `Description` holds what a URDF may say, and nothing that it may not: it is always a tree
 with one root, finite numbers, unit axes, ordered limits and mimic joints that lead to a joint of their own.
 """
 

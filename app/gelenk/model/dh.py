@@ -114,7 +114,7 @@ class DhTable:
     def variables(self) -> tuple[str, ...]:
         """The names of the variables, in the order of a configuration, which is that of a chain.
 
-        A row with a position of its own stands where it is; a leader that is no row where it is first needed.
+        A row with a position of its own keeps its place; a leader that is no row where it is first needed.
         """
         rows = {row.name for row in self.joints}
         names = [

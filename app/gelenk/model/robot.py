@@ -68,7 +68,7 @@ class Robot:
         return self._chain(base_frame or self.default_chain[0], tip_frame or self.default_chain[1])
 
     def frame_on(self, chain: Chain, frame: str) -> tuple[Chain, Indices]:
-        """The chain to another frame that a chain moves, and where its variables stand in the chain's.
+        """The chain to another frame that a chain moves, and the places of its variables among the chain's.
 
         Raises:
             UnknownFrame: It is no frame of the robot.

@@ -35,7 +35,7 @@ class Element:
 
 
 def with_declaration_first(text: str) -> str:
-    """A document in which only white space and comments stand before the XML declaration, put right; lines stay."""
+    """Move an XML declaration behind white space and comments to the beginning; lines keep their numbers."""
     text = text.removeprefix("\ufeff")
     late = _LATE_DECLARATION.match(text)
     return text if late is None else late[2] + late[1].replace("\ufeff", "") + text[late.end() :]

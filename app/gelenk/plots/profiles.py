@@ -64,7 +64,7 @@ class Lines:
         units: Of a position, a velocity, …; four of them.
         limits: Of velocity, acceleration and jerk; each of shape (n,), None where there is none.
         knots: Times and positions that are marked; shapes (K,) and (K, n); None for none.
-        spans: Parts one after the other, whose limits stand in the place of `limits`; their ends are marked.
+        spans: Consecutive parts, whose limits replace `limits`; their ends are marked.
     """
 
     names: Sequence[str]
@@ -175,7 +175,7 @@ def _bounds(limits: Array) -> list[tuple[Array, str]]:
 
 
 def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
-    """Where one part becomes the next; what each is stands above it, where there is room."""
+    """Where one part becomes the next; each part's name is written above it, where there is room."""
     whole = spans[-1].end - spans[0].start if spans else 0.0
     for span in spans[1:]:
         axes.axvline(span.start, color=LINK, linewidth=1.2, zorder=1)

@@ -5,7 +5,7 @@ the copy, and its lifeline, on which the copy's number comes first and its exit 
 end of that; when it is closed, because they are gone for example, the copy is killed. The process itself ends when its
 standard input does, which the one who started it holds, and its copies end with it.
 
-Copies that are asked for before it is told to warm up are there before that: it may take a minute. What is seldom
+Copies that are requested before the warm-up are made before it: it may take a minute. What is seldom
 needed it loads when a copy has needed some of it, so that the copies that it makes from then on share that.
 """
 
@@ -109,7 +109,7 @@ class Original:
             asker.close()
             return
         if not self._askers:
-            # Who asks for a copy has to wait until what most requests need is there.
+            # A request for a copy waits until what most requests need is there.
             self._selector.unregister(self._control)
         self._askers.append(asker)
 
@@ -150,7 +150,7 @@ class Original:
             logger.exception("could not be loaded: %s", what)
 
     def _copy(self, way: int, lifeline: socket.socket) -> None:
-        """A copy; where there is none to be had, its lifeline ends without a word."""
+        """Make a copy; if that fails, its lifeline just closes."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -203,7 +203,7 @@ class Original:
         os.close(nothing)
 
     def _let_go(self, pid: int) -> None:
-        """End a copy whose lifeline was closed; `_reap` tells of it where somebody still listens."""
+        """End a copy whose lifeline was closed; `_reap` reports that if anyone still listens."""
         if pid in self._lifelines:  # else it was reaped in this very turn
             self._selector.unregister(self._lifelines[pid])
             os.kill(pid, signal.SIGKILL)

@@ -13,7 +13,7 @@ _PRESENT_SECONDS = 2.0
 
 
 class Turns(Generic[_Turn]):
-    """A queue by client, and who has how many places.
+    """A queue for each client, and how many places each one holds.
 
     Turns go round the clients: between two turns of one each other that waits has one. A client alone has all places;
     beside others it takes more than half of them only where one is left for these. Who has none gets a place beyond

@@ -11,5 +11,5 @@
 - `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: the other questions to a robot.
 - `trajectory`, `trajectory_answer`: requests and answers of motions.
 - `course_…`: the calculators of the course. `jobs`: long work.
-- `problem`: an error. `health`: what a monitor is told.
+- `problem`: an error. `health`: what a monitor gets.
 """

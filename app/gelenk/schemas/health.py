@@ -1,4 +1,4 @@
-"""What a monitor is told."""
+"""What a monitor gets."""
 
 from pydantic import Field
 

@@ -16,7 +16,7 @@ MAX_STEPWISE = 1000
 """Targets of a call that follows a method step by step, in Python."""
 
 MAX_TRACE = 1000
-"""Configurations of a trace that are told; of a longer one some, evenly."""
+"""Most configurations of a trace that are reported; a longer one is thinned evenly."""
 
 MAX_JOB_TARGETS = 4_000_000
 MAX_JOB_STEPWISE = 100_000

@@ -15,7 +15,7 @@ MAX_REPORTS = 2000
 MAX_PATH = 1000
 """Configurations of a path."""
 MAX_PLACES = 500
-"""Places of a path that are told."""
+"""Most places of a path that are reported."""
 MAX_NEAREST = 100
 """Configurations of at most seven joints whose nearest singularity is looked for; of n joints (7/n)² as many."""
 

@@ -78,7 +78,7 @@ class WayError:
     """By how much ratios to limits differ at most from those of the exact way of the tip at the same law of time.
 
     Attributes:
-        velocity: Of the joints; ∞ where it cannot be told.
+        velocity: Of the joints; ∞ where it is not known.
         acceleration: Likewise.
         jerk: Likewise.
     """

@@ -31,7 +31,7 @@ class BlendedMotion:
     """From rest to rest.
 
     Attributes:
-        blend: What stands instead of the corner.
+        blend: What replaces the corner.
         phases: All five, those that take no time included.
         motion: The position in time; k coordinates, [m].
         duration: [s].

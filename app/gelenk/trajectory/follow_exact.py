@@ -43,7 +43,7 @@ def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePo
         positions: q(s), quintics along it; what is too near to singularities or joint limits stays as it is.
 
     Returns:
-        The way in M pieces, and the largest error of each joint's q'' in each, ∞ where that cannot be told; (M, n).
+        The way in M pieces, and the largest error of each joint's q'' in each, ∞ where that is not known; (M, n).
     """
     for left in reversed(range(_ROUNDS)):
         off, parts = _errors(course, positions)

@@ -32,7 +32,7 @@ _CROWD, _CREEP = 200, 1e-5
 """Pieces, and the length, in fractions of the path or of 1 m or rad, below which they make the way given up."""
 _KNOTS_OF_END = 6
 _NEAR_END = 1e-3
-"""σ above which the end of a branch is too far away to be told."""
+"""σ above which the end of a branch is too far away to be found."""
 _SAME_GROWTH = 0.1
 _GROWTH, _SHRINKAGE, _RESERVE = 3.0, 0.25, 0.85
 
@@ -142,7 +142,7 @@ def _pieces(
     trace: Trace,
     threshold: float,
 ) -> Iterator[Piece]:
-    """The pieces up to the end of a stretch; where it is not reached, `trace` is told why."""
+    """The pieces up to the end of a stretch; where it is not reached, `trace` gets the reason."""
     end, extent = stretch[1], course.path.extent
     shortest = _SHORTEST * min(extent, 1.0)
     h = min(_FIRST_STEP * (end - a.s), _farthest(a))

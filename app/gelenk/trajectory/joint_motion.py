@@ -120,7 +120,7 @@ def lasting(motion: PiecewisePolynomial, duration: float, limits: Limits, field:
     Args:
         motion: The fastest one of its kind, from time 0 on.
         duration: T, [s].
-        limits: That it keeps; told of where the duration is too short.
+        limits: Limits that it keeps; named in the error where the duration is too short.
         field: What has a duration.
 
     Raises:

@@ -204,7 +204,7 @@ def _excess(found: Audit) -> float:
 
 
 def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:
-    """The judgement of joints that stand still for no time: an audit looks at pieces that take time."""
+    """The audit of joints that stand still for no time: an ordinary audit looks at pieces that take time."""
     still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
     return audit(robot, chain, still, Demands())
 

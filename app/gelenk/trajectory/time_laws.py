@@ -2,7 +2,7 @@
 
 A law of degree 2m - 1 has m derivatives given at both ends, the position counted as one. In λ = t/T the course writes
 the cubic as q = q0 + Δq (a λ³ + b λ² + c λ + d), which takes Δq ≠ 0; here the general form is computed, and the
-normalised coefficients are told where there are any.
+normalised coefficients are given where there are any.
 """
 
 from math import factorial

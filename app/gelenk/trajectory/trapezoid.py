@@ -190,8 +190,8 @@ def point_to_point(
         may_reverse: Whether a joint may turn back where it cannot go straight.
 
     Raises:
-        InvalidField: End velocities that do not go with distance and limits; a duration too short, or too long for a
-            joint that cannot go so slowly.
+        InvalidField: End velocities that are impossible with this distance and these limits; a duration too short,
+            or too long for a joint that cannot go so slowly.
     """
     for j, task in enumerate(tasks):
         _check(task, j, may_reverse)

@@ -2,7 +2,7 @@
 
 Without times each step is first as long as its slowest joint needs for it at its limit of velocity. Steps without room
 for their blends are stretched until they have it, as by Kunz and Stilman [Kunz2011]; then all times are multiplied by
-the least factor with which the limits are kept. What is passed beside a via point is told in the answer.
+the least factor with which the limits are kept. The answer says how far a via point is missed.
 """
 
 from dataclasses import replace

@@ -137,7 +137,7 @@ class Geometry:
 
     @property
     def limits_tip(self) -> bool:
-        """Whether the tip has a limit that can be told."""
+        """Whether the tip has a limit that can be computed."""
         known = self.path is not None or self.tip_motion is not None
         return known and bool(np.isfinite(self.tip_bounds(np.arange(len(self.joints.breaks) - 1))).any())
 

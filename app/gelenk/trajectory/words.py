@@ -1,4 +1,4 @@
-"""The words in which a motion is asked for and told about, without what plans it."""
+"""Names of what a motion's request and answer may contain, without what plans it."""
 
 from typing import Literal, TypeAlias
 

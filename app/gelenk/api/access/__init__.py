@@ -3,6 +3,6 @@
 - `exchange`: a request and its answer, as far as they have got. `door`: passes each through the checks, in order.
 - `scopes`: which operation needs which scope. `directory`: which operation a path is.
 - `hosts`, `origins`, `keys`: the checks; `keyring` holds the keys.
-- `headers`: what every answer carries. `journal`: what is told of each request, and kept of each write.
+- `headers`: what every answer carries. `journal`: the log of requests, and the audit log of writes.
 - `metrics`: what is counted, for Prometheus. `tracing`: OpenTelemetry, where it is asked for.
 """

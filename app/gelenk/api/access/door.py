@@ -76,7 +76,7 @@ class Door:
             await (refusal or self._app)(scope, receive, answer)
         finally:
             if exchange.is_audited and not exchange.status:
-                # Its client has left, or it broke off: what was written may stand.
+                # Its client has left, or it broke off: what was written may stay.
                 await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
             exchange.seconds = time.perf_counter() - exchange.started
             exchange.tally = TALLY.get()

@@ -55,7 +55,7 @@ class Audit:
     """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
 
     A line is on disk before the write is acknowledged. Who was not let in has written nothing: what keys may not do is
-    summed up, and what comes without a good key stands in the log alone, so that nobody can flood this one.
+    summed up, and requests without a valid key appear in the log alone, so that no one can flood this file.
 
     Args:
         folder: Where it is kept; made when first written to.
@@ -131,7 +131,7 @@ class _Refusals:
 
     Attributes:
         count: How many.
-        last: What is told of the last one.
+        last: The entry of the last one.
         since: When the first one was, [s].
         clients: Addresses that they came from, some of them.
     """

@@ -1,4 +1,4 @@
-"""Lets in who sends a key that is good for the operation: `Authorization: Bearer gelenk.…`."""
+"""Accepts requests whose key has the scope of the operation: `Authorization: Bearer gelenk.…`."""
 
 from concurrent.futures import ThreadPoolExecutor, wait
 from http import HTTPStatus

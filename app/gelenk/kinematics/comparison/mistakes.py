@@ -27,7 +27,7 @@ ROWS_WITH_PAIRS = 8
 """Longest table of which two mistakes together are tried."""
 _POWERS_IN_PAIRS = 3
 _WEAK = {"joint_zero", "joint_sense", "base", "tool"}
-"""Mistakes that may hide two others: these are told too."""
+"""Mistakes that may hide two others: those are reported too."""
 
 
 def diagnoses(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Diagnosis]:
@@ -93,7 +93,7 @@ def _wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) 
 def _repairs(on: Subject, table: DhTable, freedom: Freedom, powers: int) -> Repairs:
     """Single mistakes that leave the count of rows."""
     names = [row.name for row in table.joints]
-    # Rows that follow others stand where their leaders' names lead to.
+    # Rows that follow others are placed where their leaders' names lead.
     plain = len(on.chain) == len(on.target) and all(row.mimic is None for row in table.joints)
     numbers = numbers_of(table)
     return repairs.of_rows(numbers, table.convention, names, powers, reorder=plain, turn=plain and not freedom.signs)

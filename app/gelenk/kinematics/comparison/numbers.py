@@ -34,7 +34,7 @@ _ANGLES = 8
 MISFIT = 5.0
 """How many tolerances the screws of a table that fits may be off."""
 MOST_POWERS = 6
-"""Highest power of ten by which a length is told to be off."""
+"""Highest power of ten by which a length is reported to be off."""
 _TELLING = 10.0
 """Tolerances that a length must measure for its power of ten to tell anything."""
 

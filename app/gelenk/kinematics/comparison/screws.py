@@ -182,7 +182,7 @@ def jacobians(convention: Convention, found: Geometry, unknowns: Indices, with_t
 
 
 def moved_joints(convention: Convention, n: int) -> Flags:
-    """Which joints stand behind which unknown; shape (6 + 4 n, n)."""
+    """Which joints come after which unknown; shape (6 + 4 n, n)."""
     rows = np.repeat(np.arange(n), 4)
     before_own = np.tile([convention == "modified"] * 2 + [False] * 2, n)
     joints = np.arange(n)

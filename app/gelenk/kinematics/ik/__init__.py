@@ -1,6 +1,6 @@
 """Inverse kinematics: from a pose of the tip to configurations, or to the reason why there is none.
 
-- `words`: what can be chosen and what is told, by name, without what computes it.
+- `words`: what can be chosen and what is reported, by name, without what computes it.
 - `task`: which directions of a pose count, and errors in them.
 - `kernels`: many starts of damped least squares, eight at a time. No Pinocchio.
 - `search`: those kernels on a batch, in threads, within limits; `retrace` tells what they did, step by step.

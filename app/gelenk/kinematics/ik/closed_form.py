@@ -1,4 +1,4 @@
-"""Which arms have a closed form, told from the lines of their joints alone; and the names of its branches.
+"""Which arms have a closed form, judged by the lines of their joints alone; and the names of its branches.
 
 The plan of an arm is made by looking at which axes are parallel, meet or slide. It is then put to the test: of random
 configurations of the arm each must be among the branches of its own pose, else the plan is dropped. So what is
@@ -114,7 +114,7 @@ class ClosedForm:
 
     @property
     def doubt(self) -> float:
-        """Smallest singular value [m, rad] below which the arm may have other solutions than those that are told.
+        """Smallest singular value [m, rad] below which the arm may have other solutions than those reported.
 
         Where two solutions meet, what is off by ε is off by √ε in the joints: in the geometry, or at least by rounding.
         """

@@ -55,7 +55,7 @@ _OF_DOUBLE_ROOT = 1e-6
 """A lever so short may be none but the error of a quartic's double root, [rad]: what it tells may be wrong."""
 
 _TURNS_TRIED = 16
-"""Angles of a free joint at which others are looked for that go with it."""
+"""Angles of a free joint at which the other joints are solved for."""
 _MOST_BEFORE_LAST = 12
 """Candidates after which there might be no room for those at the last angles of a free joint."""
 

@@ -66,7 +66,7 @@ class Space(NamedTuple):
         vectors: Vectors that the matrix takes to next to nothing; shape (3, ORDER).
         combined: A sum of two of them; shape (ORDER,).
         order: Where pivoting has put each column; shape (ORDER,).
-        pairs: Joints 4 and 5 that go with a root; shape (3, 2).
+        pairs: Joints 4 and 5 of each root; shape (3, 2).
     """
 
     left: Array
@@ -414,7 +414,7 @@ def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slo
 
 @unmanaged
 def next_two(space: Space, q3: float) -> int:
-    """Joints 4 and 5 that go with a root: from what the matrix takes to nothing, products of powers of two tangents.
+    """Joints 4 and 5 of a root: from the null vector of the matrix, products of powers of two tangents.
 
     Args:
         space: The target's.

@@ -1,7 +1,7 @@
 """Families: where infinitely many solutions meet a target, which joints move among them and how they are tied.
 
 A singular Jacobian is no proof of a family: from there the arm may not be able to go on. So each family is walked, step
-by step on the target, and what is told of it is what the walk has shown.
+by step on the target, and only what the walk has shown is reported.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import quoted
 
 MOST_FAMILIES = 32
-"""Families of a target that are told: an arm of six joints has at most 16 branches [Raghavan1993]."""
+"""Most families reported for a target: an arm of six joints has at most 16 branches [Raghavan1993]."""
 
 _SINGULAR, _USELESS = 1e-6, 1e-8
 """Shares of σ_max below which a direction counts as lost, and below which a correction leaves it alone."""

@@ -80,7 +80,7 @@ class Work(NamedTuple):
 
     Attributes:
         state: Target, errors and counts of each lane.
-        q: Where each lane stands.
+        q: The configuration of each lane.
         previous: Where it stood when it was last judged.
         columns: The Jacobian by joints.
         J: The Jacobian by variables.
@@ -132,7 +132,7 @@ def workspace(flat: FlatChain, n: int) -> Work:
 
 @inlined
 def linearise(flat: FlatChain, goal: Goal, work: Work, as_angles: bool = False) -> Error:
-    """The error of every lane, and in `J` the columns that go with it; what does not count is zero in both.
+    """The error of every lane, and its Jacobian in `J`; components that do not count are zero in both.
 
     `as_angles`: whether a rotation counts its angle θ instead of 2 sin(θ/2), in a time of its own.
     """

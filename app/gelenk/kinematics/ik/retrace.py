@@ -1,4 +1,4 @@
-"""What the search did, told step by step: its kernels again, in NumPy and one configuration at a time."""
+"""What the search did, step by step: its kernels again, in NumPy and one configuration at a time."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -104,7 +104,7 @@ def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:
 
 
 def _followed(at: _Linearised, q: Array, bounds: Array, damping: float) -> _Steps:
-    """Small steps with a damping that follows success; a step to the worse is taken back and not told."""
+    """Small steps with a damping that follows success; a step that makes it worse is undone and not reported."""
     least, before = np.inf, q
     for _ in range(APPROACHES):
         e, J = at(q)

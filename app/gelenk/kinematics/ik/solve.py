@@ -81,7 +81,7 @@ class Options:
         random_seed: Of the starts.
         objective: What the freedom of a redundant arm is used for.
         elbow_angle: Where a free elbow is to be, [rad]; of a closed form that has one.
-        trace: Whether each iteration is to be told.
+        trace: Whether to report each iteration.
         fixed_joints: Variables of the chain that are held, and where, [rad or m].
     """
 

@@ -1,4 +1,4 @@
-"""What is special about an arm: which neighbours of its axes are parallel or meet, told by zeros of DH numbers.
+"""What is special about an arm: which neighbouring axes are parallel or meet, found as zeros of DH parameters.
 
 An arm that is special but for a little has solutions that rounding loses on their way to infinity. It is taken as the
 arm that is exactly so, which lacks them, and a target of the one is a target of the other but for as little.
