@@ -40,7 +40,9 @@ OF_HTTP = (
         "What came is not HTTP. The connection is closed.",
     ),
     Kind("invalid-host", HTTPStatus.BAD_REQUEST, "The request does not name the one host that it is for."),
-    Kind("repeated-header", HTTPStatus.BAD_REQUEST, "A header field that may appear only once, such as a key, appears twice."),
+    Kind(
+        "repeated-header", HTTPStatus.BAD_REQUEST, "A header that may appear once only, such as a key, appears twice."
+    ),
     Kind("malformed-json", HTTPStatus.BAD_REQUEST, "The body is not JSON: where its reader had to stop."),
     Kind(
         "key-needed",

@@ -232,7 +232,7 @@ def test_times_have_to_increase(times: list[float], reason: str) -> None:
 
 
 def test_what_a_boundary_refuses() -> None:
-    with pytest.raises(InvalidField, match="the last one has to be the first one"):
+    with pytest.raises(InvalidField, match="the last one must equal the first"):
         cubic_spline(*LECTURE, "periodic")
     for times in ((2.5, 4.5), (0.5, 2.5), (0.0, 4.5), (0.5, 5.0)):
         with pytest.raises(InvalidField, match="the first is within the first segment"):
