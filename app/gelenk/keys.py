@@ -33,7 +33,7 @@ def main() -> None:
         sys.exit(f"{arguments.file}: {error.strerror}")
     print(token)
     where = f"its entry was added to {arguments.file}" if arguments.file else f"its entry: {key.entry()}"
-    print(f"The key of {key.name} stands above, this once; {where}", file=sys.stderr)
+    print(f"The key of {key.name} is shown above, only once; {where}", file=sys.stderr)
 
 
 def add(key: Key, file: Path) -> None:

@@ -386,7 +386,7 @@ def test_joints_that_follow_others(convention: Convention) -> None:
     assert follower.offset == pytest.approx(-0.1)
     table, notes = found(inside, convention, ends=("link_1", "link_4"))
     assert table.variables == ("joint_1", "joint_3")
-    assert any("'joint_1'" in note and "not on the way" in note for note in notes)
+    assert any("'joint_1'" in note and "not in the chain" in note for note in notes)
     # The leader's limits of ±1 reach its follower, and come back in the robot that the table makes.
     assert (table.joints[0].lower, table.joints[0].upper) == pytest.approx((-1.3, 1.7))
     again = Robot(describe_dh("again", table)).chain("base", "tool")

@@ -39,7 +39,7 @@ ARMS = {
 RIGHT = 0.5 * np.pi
 IIWA = [(0.36, -RIGHT), (0.0, RIGHT), (0.42, RIGHT), (0.0, -RIGHT), (0.4, -RIGHT), (0.0, RIGHT), (0.126, 0.0)]
 """d and α of a shoulder, elbow and wrist of seven joints."""
-BEYOND = re.compile(r"beyond (\S+)% of the way")
+BEYOND = re.compile(r"beyond (\S+)% of the path")
 
 
 @cache
@@ -78,7 +78,7 @@ def test_a_limit_before_the_end_does_not_hide_that_the_end_is_out_of_reach() -> 
     assert way.stop is not None
     assert way.stop.reason == "out_of_reach"
     assert way.stop.joint == "joint_1"
-    assert "the end of the way is out of reach: beyond reach" in way.stop.detail
+    assert "the end of the path is out of reach: beyond reach" in way.stop.detail
     assert "0.8 m more than the links allow" in way.stop.detail
     assert "joint 'joint_1' meets its upper limit" in way.stop.detail
 
@@ -95,7 +95,7 @@ def test_out_of_reach_is_what_inverse_kinematics_do_not_reach(name: str) -> None
         options = Options(task=ARMS[name], every=True, random_seed=1)
         found = inverse_kinematics(arm, chain, path.at(places).poses, q[None], options)
         assert (way.stop.reason == "out_of_reach") == ("unreachable" in found.statuses), way.stop.detail
-        assert ("the end of the way is out of reach" in way.stop.detail) == (found.statuses[-1] == "unreachable")
+        assert ("the end of the path is out of reach" in way.stop.detail) == (found.statuses[-1] == "unreachable")
     assert "out_of_reach" in reasons
 
 

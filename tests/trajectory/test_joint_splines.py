@@ -215,7 +215,7 @@ _TIMES = np.array([1.0, 2.0, 3.0])
         (
             through(configurations=np.array([[0.6, 0.1], [0.6, 0.1 + 1e-9]])),
             "waypoints.1",
-            "a millionth of the whole way",
+            "a millionth of the whole path",
         ),
         (through(configurations=np.array([[9.0, 0.1], [5.5, 0.2]])), "waypoints.0", "joint joint_0 at 9 is outside"),
         (through(configurations=np.array([[1.0, 0.1], [1.0, -9.0]])), "waypoints.1", "joint joint_1 at -9 is outside"),

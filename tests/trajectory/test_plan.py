@@ -226,7 +226,7 @@ def test_poses_are_passed_at_their_times() -> None:
     assert found.motion.duration == 6.5
     with pytest.raises(InvalidField, match=r"segments\.0\.times.*all times are multiplied by"):
         planned(Segment("spline", "cubic", LIMITS, poses=poses, times=0.1 * times))
-    with pytest.raises(InvalidField, match=r"segments\.0\.times.*go back on its way"):
+    with pytest.raises(InvalidField, match=r"segments\.0\.times.*go backwards along its path"):
         planned(Segment("spline", "cubic", LIMITS, poses=poses, times=np.array([0.1, 30.0, 30.2])))
 
 

@@ -48,7 +48,7 @@ class Elsewhere:
 
         with self._lock:
             if self._is_over:
-                raise ChildProcessError("nobody waits for it any more")
+                raise ChildProcessError("the client no longer waits")
             self._under_way = under_way = asyncio.run_coroutine_threadsafe(call(), self._loop)
         try:
             return under_way.result()
@@ -57,7 +57,7 @@ class Elsewhere:
         except (WorkerCrashed, WorkerOutOfMemory) as error:
             raise ChildProcessError(error.detail) from error
         except CancelledError as error:
-            raise ChildProcessError("nobody waits for it any more") from error
+            raise ChildProcessError("the client no longer waits") from error
 
     def end(self) -> None:
         """Break off what is under way; later calls are refused."""

@@ -14,7 +14,7 @@ _VERDICTS = {
 }
 _CHAINS = {
     "open": "no loop: an open chain",
-    "closed": "each link is joined to each other in two ways: a closed chain",
+    "closed": "two paths join each link to each other: a closed chain",
     "mixed": "some links lie on no loop, or on none with the others: a mixed chain",
 }
 

@@ -294,7 +294,7 @@ class Runner:
 
     def _postpone(self, job: Job, reason: Unavailable) -> None:
         """Put a job back: nobody computes what is left of it."""
-        logger.warning("job %s %s: %s", job.id, "goes on here" if self._is_local else "waits", reason)
+        logger.warning("job %s %s: %s", job.id, "continues here" if self._is_local else "waits", reason)
         self._leave(job)
         if self._is_local:
             self._do_later(job)

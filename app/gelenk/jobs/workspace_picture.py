@@ -42,7 +42,7 @@ def captions(content: dict[str, Any]) -> Iterator[str]:
     if voxels["count"] and unit:
         yield f"{_number(voxels['count'], 'voxel')} of {voxels['size']:g} m: {voxels['volume']:.4g} {unit}"
     if dexterity is not None and voxels["count"]:
-        yield f"{_number(dexterity['orientations'], 'orientation')} asked for at each voxel"
+        yield f"{_number(dexterity['orientations'], 'orientation')} tested at each voxel"
 
 
 def _counted(counted: int, samples: int, is_slice: bool) -> str:

@@ -84,7 +84,7 @@ class Motion:
         if self.kept_to is None:
             return []
         note = (
-            f"the tip keeps to a {self.kept_to}: the voxels that it meets have a volume that shrinks with their size, "
+            f"the tip stays on a {self.kept_to}: the voxels that it meets have a volume that shrinks with their size, "
             f"and the measure of more than {counted(self.local_dimensions, 'direction')} vanishes everywhere"
         )
         return [note]

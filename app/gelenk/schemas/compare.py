@@ -16,7 +16,7 @@ class CompareRequest(ChainOptions):
     """A table and the chain to compare it with."""
 
     dh: DhTablePayload = Field(
-        description="The table: one row for each joint on the way, base to tip. A `base` or `tool` that it gives is "
+        description="The table: one row for each joint of the chain, base to tip. A `base` or `tool` that it gives is "
         "held; one that it leaves out is found, unless `find` says otherwise."
     )
     robot: RobotName

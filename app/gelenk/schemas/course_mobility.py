@@ -172,12 +172,12 @@ class MobilityRequest(Payload):
                 name for name in _OF_A_MECHANISM if name in self.model_fields_set and getattr(self, name) is not None
             ]
             if given:
-                reason = f"`robot` stands alone, without {', '.join(f'`{name}`' for name in given)}"
+                reason = f"`robot` is given alone, without {', '.join(f'`{name}`' for name in given)}"
                 raise InvalidField(given[0], reason)
             return self
         missing = next((name for name in ("space", "links", "pairs") if getattr(self, name) is None), None)
         if missing is not None:
-            reason = f"a mechanism has `space`, `links` and `pairs` (or `robot` stands alone); `{missing}` is missing"
+            reason = f"a mechanism has `space`, `links` and `pairs` (or `robot` alone); `{missing}` is missing"
             raise InvalidField(missing, reason)
         if isinstance(self.pairs, list) and isinstance(self.links, int):
             reason = "`links` are named where `pairs` are; a number of links needs numbers of pairs"

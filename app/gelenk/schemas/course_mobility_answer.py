@@ -120,7 +120,7 @@ class MobilityAnswer(Answer):
         description="The link at rest; null where only counts of pairs were given, as all below."
     )
     chain: Literal["open", "closed", "mixed"] | None = Field(
-        description="Closed: each link is joined to each other by two ways that share no pair. Open: no loop. Mixed: "
+        description="Closed: each link is joined to each other by two paths that share no pair. Open: no loop. Mixed: "
         "anything else."
     )
     loop_count: int | None = Field(description="L = j - n + number of components: independent loops.")

@@ -76,7 +76,7 @@ class ProfileInfo(Answer):
         description="k = T/T_j by which it was slowed uniformly, v/k and a/k²; 1 where it was not; null where it keeps "
         "its acceleration and coasts more slowly. No unit."
     )
-    reverses: bool = Field(description="Whether the joint turns back on its way.")
+    reverses: bool = Field(description="Whether the joint reverses during the motion.")
 
 
 class BlendsInfo(Answer):

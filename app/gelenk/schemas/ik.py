@@ -260,8 +260,8 @@ class InverseResult(Answer):
     )
     trace: list[IterationInfo] | None = Field(
         default=None,
-        description="If requested: every configuration on the way; with `auto` from the start that counts, or "
-        "from the seed if none does. Joints that turn freely may leave their limits on the way; in the solution they "
+        description="If requested: every configuration of the iteration; with `auto` from the start that counts, or "
+        "from the seed if none does. Joints that turn freely may leave their limits meanwhile; in the solution they "
         "are turned back.",
     )
     note: str | None = Field(default=None, description="What a long `trace` leaves out.")

@@ -167,7 +167,7 @@ class VelocityPolytope(Answer):
 
     along: list[VelocityLimit] = Field(description="One entry per direction in the task.")
     vertices: list[list[float]] | None = Field(
-        description="Where all motion keeps to one plane: its vertices in order, in the axes of `reference`, "
+        description="Where all motion lies in one plane: its vertices in order, in the axes of `reference`, "
         "[m/s or rad/s]; else null."
     )
 
@@ -177,7 +177,7 @@ class ForcePolytope(Answer):
 
     along: list[ForceLimit] = Field(description="One entry per direction in the task.")
     vertices: list[list[float]] | None = Field(
-        description="Where all motion keeps to one plane and the polytope is bounded in it: its vertices in order, in "
+        description="Where all motion lies in one plane and the polytope is bounded in it: its vertices in order, in "
         "the axes of `reference`, [N or N m]; else null."
     )
 

@@ -159,7 +159,7 @@ class LineSegment(SegmentOptions):
     orientation: OrientationLaw = Field(
         default="axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
-        "angles `zyz` each on its straight way, with `zyz_other` to the other triple of the same target. Of lines that "
+        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target. Of lines that "
         "are blended all turn about axes, or all by angles.",
     )
 
@@ -270,7 +270,7 @@ class TrajectoryRequest(ChainOptions, MotionOptions):
     near_singularity: NearSingularity = Field(
         default="stop",
         description="What to do on a tip path where `min_singular_value` is not kept: `stop`, the motion ends there; "
-        "`damp`, it goes on with damped joints and leaves the path, as each segment reports; `slow_down`, it goes on "
+        "`damp`, it continues with damped joints and leaves the path, as each segment reports; `slow_down`, it goes on "
         "exactly and slows down there as the joints' limits require, with the law `time_optimal`.",
     )
     min_singular_value: float = Field(

@@ -134,7 +134,7 @@ class MarginInfo(Answer):
 
 
 class SmallestInfo(Answer):
-    """The smallest singular value of the Jacobian along the way."""
+    """The smallest singular value of the Jacobian along the path."""
 
     value: float = Field(description="Its own, [m or rad] per [rad or m]: units are mixed.")
     time: float = Field(description="Time of the peak, [s].")
@@ -220,7 +220,7 @@ class TimingInfo(Answer):
         description="k_acc, likewise of accelerations; no unit. The law's duration is the larger one of k_vel and "
         "√k_acc in seconds, longer where the limits of jerk ask for it."
     )
-    time_optimal_duration: float = Field(description="Of the quickest motion along the same way, [s].")
+    time_optimal_duration: float = Field(description="Of the fastest motion along the same path, [s].")
 
 
 class TrajectoryAnswer(Answer):

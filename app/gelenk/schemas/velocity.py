@@ -181,7 +181,7 @@ class ExceededLimit(Answer):
 
     joint: str = Field(description="Whose limit it is.")
     velocity: float = Field(description="Of the joint, [rad/s or m/s].")
-    limit: float = Field(description="Of this joint and of those that mimic it on the way, [rad/s or m/s].")
+    limit: float = Field(description="Of this joint and of those in the chain that mimic it, [rad/s or m/s].")
     ratio: float = Field(description="Speed over limit, above 1; no unit.")
 
 

@@ -102,7 +102,7 @@ def verdict(inquiry: Inquiry, trace: Trace) -> Stop | None:
 def never_back(inquiry: Inquiry, trace: Trace) -> Stop:
     """Of a damped way whose tip leaves the path and is still off it at its end."""
     stop = _at_end_of_branch(inquiry, trace.reached, trace)
-    detail = f"{stop.detail}; the damped tip leaves the way there and is still off it at its end"
+    detail = f"{stop.detail}; the damped tip leaves the path there and is still off it at its end"
     return _with_the_rest(inquiry, replace(stop, detail=detail), trace)
 
 
@@ -120,7 +120,7 @@ def _with_the_rest(inquiry: Inquiry, stop: Stop, trace: Trace) -> Stop:
     if not missed:
         return stop
     i = missed[-1]
-    what = "the end of the way" if i == _POSES - 1 else f"the way {where(inquiry, places[i])}"
+    what = "the end of the path" if i == _POSES - 1 else f"the path {where(inquiry, places[i])}"
     detail = f"{what} is out of reach: {found.failures[i].reason}; {stop.detail}"
     return replace(stop, reason="out_of_reach", detail=detail)
 
@@ -146,14 +146,14 @@ def _at_limit(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
 
 def _at_threshold(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
     """Whether the exact branch ends while σ is below the threshold, or comes out again."""
-    course, onward = replace(inquiry.course, limited=False), "the branch goes on beyond"
+    course, onward = replace(inquiry.course, limited=False), "the branch continues beyond"
     bounds = trace.reached, 1.01 * inquiry.threshold, _MOST_PIECES
     try:
         ahead = traced(course, inquiry.tolerances, _last(inquiry, trace), 0.0, *bounds)
         if ahead.ending != "complete" and ahead.crossing is not None:
             return _at_end_of_branch(inquiry, ahead.crossing.bad, trace)
     except InvalidField:
-        onward = f"the next {_MOST_PIECES} pieces do not tell whether the branch goes on beyond"
+        onward = f"the next {_MOST_PIECES} pieces do not show whether the branch continues beyond"
     detail = (
         f"the smallest singular value falls to {inquiry.threshold:.6g}, the threshold min_singular_value, "
         f"{where(inquiry, s)}; {onward}"
@@ -166,7 +166,7 @@ def _too_fast(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
     joint = int(np.abs(trace.pieces[-1].b.dq).argmax())
     detail = (
         f"joint {quoted(chain.joint_names[joint])} would have to go {abs(trace.pieces[-1].b.dq[joint]):.3g} "
-        f"{unit_of(chain, joint)} per {inquiry.course.path.unit} of the way {where(inquiry, s)}, where the smallest "
+        f"{unit_of(chain, joint)} per {inquiry.course.path.unit} of the path {where(inquiry, s)}, where the smallest "
         f"singular value is {sigma:.3g}"
     )
     return _stop(inquiry, "singularity", s, detail)
@@ -186,19 +186,19 @@ def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
     if found.statuses[near] == "outside_limits":
         failure = found.failures[near]
         name = failure.blocking_joints[0].name if failure.blocking_joints else None
-        detail = f"the branch ends {where(inquiry, s)}, and the way beyond is reached {failure.reason}"
+        detail = f"the branch ends {where(inquiry, s)}, and the path beyond is reached {failure.reason}"
         return _stop(inquiry, "joint_limit", s, detail, name)
     if found.statuses[near] != "solved":
         is_unreachable = found.statuses[near] == "unreachable"
         detail = (
-            f"the branch ends at a singularity {where(inquiry, s)}{_missing(inquiry, s, trace)}; the way just beyond "
+            f"the branch ends at a singularity {where(inquiry, s)}{_missing(inquiry, s, trace)}; the path just beyond "
             f"is {'out of reach' if is_unreachable else 'not solved'}: {found.failures[near].reason}"
         )
         return _stop(inquiry, "out_of_reach" if is_unreachable else "singularity", s, detail)
     q = ", ".join(f"{value:.6g}" for value in found.qs[found.firsts[near]])
     detail = (
         f"the branch ends at a singularity {where(inquiry, s)}; beyond it only another branch of the inverse "
-        f"kinematics reaches the way, near ({q})"
+        f"kinematics reaches the path, near ({q})"
     )
     return _stop(inquiry, "branch_change", s, detail)
 
@@ -228,7 +228,7 @@ def _missing(inquiry: Inquiry, s: float, trace: Trace) -> str:
         if len(q) < len(names)
         else ""
     )
-    return f": the joints cannot move the tip on in {' '.join(named)} as the way asks{few}"
+    return f": the joints cannot move the tip on in {' '.join(named)} as the path asks{few}"
 
 
 def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
@@ -251,12 +251,12 @@ def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
             break
         if other.ending == "complete":
             numbers = ", ".join(f"{value:.6g}" for value in q)
-            return course.path.extent, f"; another branch can do the whole way, beginning at ({numbers})"
+            return course.path.extent, f"; another branch can do the whole path, beginning at ({numbers})"
         left -= len(other.pieces)
         traces.append(other)
     ends = [one.crossing for one in traces if one.crossing is not None]
     farthest = max(end.bad for end in ends)
-    share = f"leads beyond {farthest / course.path.extent:.4%} of the way"
+    share = f"leads beyond {farthest / course.path.extent:.4%} of the path"
     tried = f"{counted(len(traces), 'configuration')} of its first pose"
     # A joint that meets its limit might have begun a turn away from it; and what is given up might lead on.
     turns = course.chain.upper - course.chain.lower >= 2.0 * np.pi
@@ -275,7 +275,7 @@ def place(inquiry: Inquiry, s: float) -> str:
     """A place on the path in words."""
     path = inquiry.course.path
     x, y, z = path.at(np.array([s])).poses.positions[0]
-    return f"s = {s:.6g} {path.unit} ({s / path.extent:.4%} of the way, ({x:.6g}, {y:.6g}, {z:.6g}) m)"
+    return f"s = {s:.6g} {path.unit} ({s / path.extent:.4%} of the path, ({x:.6g}, {y:.6g}, {z:.6g}) m)"
 
 
 def _stop(inquiry: Inquiry, reason: StopReason, s: float, detail: str, joint: str | None = None) -> Stop:

@@ -69,7 +69,7 @@ def _spaced(positions: Array, velocity: Array, name: str) -> Array:
         return times
     k = int(short[0])
     before = "the start" if k == 0 else f"entry {k - 1}"
-    how = "the same as" if is_same[k] else "less than a millionth of the whole way from"
+    how = "the same as" if is_same[k] else "less than a millionth of the whole path from"
     raise InvalidField(f"{name}.{k}", f"is {how} {before}: leave one of both out, or give `times`")
 
 

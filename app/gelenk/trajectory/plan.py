@@ -161,7 +161,7 @@ def _with_stated_jerk(part: Part, problem: Problem) -> Part:
         segment = problem.segments[report.index]
         for name in ("duration", "times"):
             if getattr(segment, name) is not None:
-                reason = f"the limit of jerk that is asked for is kept in {factor:.6g} times the time"
+                reason = f"the requested limit of jerk is kept in {factor:.6g} times the time"
                 raise InvalidField(f"segments.{report.index}.{name}", reason)
     law = part.reports[0].law
     note = f"`{law}` keeps no limit of jerk by itself: it takes {factor:.4g} times its time for those that are given"

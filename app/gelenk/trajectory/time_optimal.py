@@ -165,7 +165,7 @@ def _task(
     if (travels <= _STILL * travels.max()).any():
         i = int(np.argmin(travels))
         raise InvalidField(
-            "path", f"stands still from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
+            "path", f"does not move from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
         )
     jumps = np.abs(_at_ends(unit)[1][:-1] - _at_ends(unit)[0][1:]).max(axis=1, initial=0.0)
     if (jumps > max(_JUMP * travels.max(), _EXACT)).any():

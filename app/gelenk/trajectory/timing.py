@@ -171,7 +171,7 @@ def _along(geometry: Geometry, law: Law, along: PiecewisePolynomial) -> Timed:
     notes: tuple[str, ...] = ()
     if smooth and not jerk_holds:
         places = ", ".join(f"{s:.4g}" for s in bends[:4]) + (", …" if len(bends) > 4 else "")
-        note = f"the way's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
+        note = f"the path's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
         notes = (f"{note} holds in between only",)
     binding = peaks.binding(geometry.limits, in_blends=bool(geometry.zones))
     return _scaled(Timed(motion, along, 2 if jerk_holds else 1, jerk_holds, binding, notes), peaks.factor)

@@ -196,7 +196,7 @@ def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt 
     detail = stop.detail
     if stop.s > joints.reached + _EARLY * way.path.extent:
         detail += (
-            f"; the motion ends before, at {100.0 * joints.reached / way.path.extent:.4f}% of the way, where the "
+            f"; the motion ends before, at {100.0 * joints.reached / way.path.extent:.4f}% of the path, where the "
             f"smallest singular value falls to {following.min_singular_value:g}"
         )
     return Halt(stop.reason, first + i, share, stop.position, stop.joint, detail)

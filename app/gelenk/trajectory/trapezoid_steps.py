@@ -45,7 +45,7 @@ def _rest(task: Task, own: Profile) -> Step:
     L, a = tex(abs(task.distance)), tex(task.acceleration)
     reach = task.max_velocity**2 / task.acceleration
     if own.duration == 0.0:
-        return Step("No way to go", "L = 0: nothing moves, T = 0.", (r"L = 0 \Rightarrow T = 0",))
+        return Step("Nothing to move", "L = 0: nothing moves, T = 0.", (r"L = 0 \Rightarrow T = 0",))
     if own.coast > 0.0:
         v = tex(task.max_velocity)
         return Step(
@@ -63,7 +63,7 @@ def _rest(task: Task, own: Profile) -> Step:
     compared = (rf"L = {L} \le \frac{{v^2}}{{a}} = {tex(reach)}",) if np.isfinite(reach) else ()
     return Step(
         "Without a coast",
-        "L ≤ v²/a: half of the way speeding up, half of it braking.",
+        "L ≤ v²/a: half of the length speeding up, half of it braking.",
         (
             *compared,
             rf"T_s = \sqrt{{\frac{{L}}{{a}}}} = {tex(own.first)},\quad T = 2 T_s = {tex(own.duration)}",
@@ -75,7 +75,7 @@ def _rest(task: Task, own: Profile) -> Step:
 def _moving(task: Task, own: Profile) -> Step:
     """With velocities at the ends."""
     v_i, v_f, a = (tex_factor(value) for value in (own.start_velocity, own.end_velocity, task.acceleration))
-    text = "v_p is what the way allows, at most the limit. "
+    text = "v_p is what the length allows, at most the limit. "
     if own.reverses:
         text += "The ends' velocities already carry the joint too far: it turns back."
     sign = "" if own.peak_velocity >= 0.0 else "-"

@@ -120,7 +120,7 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
     if segment.boundary in {"clamped", "assigned"}:
         note = (
             f"boundary {segment.boundary} of a tip's spline: the law of time brings the tip to rest at its ends; the "
-            "way itself is natural there, since one that is clamped has no tangent"
+            "path itself is natural there, because a clamped one has no tangent"
         )
         return "natural", (note,)
     return cast(SplineBoundary, segment.boundary), ()

@@ -239,7 +239,7 @@ def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> 
     n = len(table.joints)
     if written < n:
         notes.append(
-            f"T_0_i stands in symbols up to i = {written}: the next has an entry of more than {MAX_ENTRY_TERMS} terms, "
+            f"T_0_i is in symbols up to i = {written}: the next has an entry of more than {MAX_ENTRY_TERMS} terms, "
             "so that from there on, and for the Jacobian, only numbers at given configurations are given"
         )
     elif found.jacobian is None:
