@@ -7,8 +7,8 @@
     ...         found = job.result(lambda info: print(info.progress))
 
 Every operation of the API is a method with its types (`gelenk.calls.operations`). An array in the place of a list of
-configurations or targets goes as npy by itself. What the service refuses is raised as the core's own exception; a call
-is sent again where that is safe.
+configurations or targets is sent as npy automatically. If the service refuses a call, the core's own exception is
+raised; a call is retried where that is safe.
 """
 
 import asyncio
@@ -43,7 +43,7 @@ _PAGES = re.compile(r"/*(/(docs|redoc|v1)/*)?$")
 """The end of an address that was copied from a page of the service."""
 _LAST_PORT = 65_535
 _BETWEEN_STREAMS = 1.0
-"""[s]; a stream of events that was broken off is not asked for again at once."""
+"""Pause before an interrupted stream of events is opened again, [s]."""
 
 
 class _Settings:
@@ -58,7 +58,7 @@ class _Settings:
         self.headers = {"Authorization": f"Bearer {key}"} if key else {}
 
     def options(self, transport: Any) -> dict[str, Any]:
-        """For a client of httpx; what a laptop is set up to do with other hosts is not meant for a lab's service."""
+        """Arguments of an httpx client; proxies that a laptop is set up with do not apply to a lab's service."""
         return {
             "base_url": f"{self.url}/",
             "headers": self.headers,
@@ -86,24 +86,24 @@ def _check_address(url: str) -> None:
 
 
 class _Track:
-    """What is known of a job that is watched."""
+    """The last known state of a job."""
 
     def __init__(self) -> None:
         self._last: JobInfo | None = None
 
     def is_new(self, info: JobInfo) -> bool:
-        """Whether it is further on: a stream that was broken off begins with what is known."""
+        """Whether it has advanced: a reopened stream begins with the known state."""
         last, self._last = self._last, info
         return info != last
 
 
 class Client(Operations):
-    """The service, asked one call after the other; may be used by several threads.
+    """The service, called synchronously; safe to use from several threads.
 
     Args:
         url: Of the service, its path prefix included; else `GELENK_SERVER`, else this machine's port 8000.
         key: Where the service wants one; else `GELENK_KEY`.
-        transport: Another way to the service than the network.
+        transport: How to reach the service, if not over the network.
     """
 
     def __init__(
@@ -125,7 +125,7 @@ class Client(Operations):
         self.close()
 
     def close(self) -> None:
-        """End all connections."""
+        """Close all connections."""
         self._http.close()
 
     def send(self, call: Call[T]) -> T:
@@ -133,7 +133,7 @@ class Client(Operations):
 
         Raises:
             Refused: The service refuses it; an instance of the core's own exception where there is one.
-            NotAnswering: The service cannot be reached, or breaks off.
+            NotAnswering: The service cannot be reached, or the connection breaks.
         """
         patience = Patience(call, self.url)
         while True:
@@ -149,7 +149,7 @@ class Client(Operations):
             time.sleep(pause)
 
     def watch(self, job: str) -> Iterator[JobInfo]:
-        """A job, whenever it is further on, until it has come to its end.
+        """The state of a job whenever it has advanced, until it has ended.
 
         Raises:
             Refused: There is no such job.
@@ -174,7 +174,7 @@ class Client(Operations):
             time.sleep(_BETWEEN_STREAMS)
 
     def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
-        """A job that has come to its end.
+        """A job that has ended.
 
         Args:
             job: Its id.
@@ -187,7 +187,7 @@ class Client(Operations):
 
 
 class AsyncClient(Operations):
-    """The same, awaited: many calls may be under way at once. For its arguments see `Client`."""
+    """The same for `async` code: many calls may run at once. For its arguments see `Client`."""
 
     def __init__(
         self, url: str | None = None, key: str | None = None, transport: httpx2.AsyncBaseTransport | None = None
@@ -210,7 +210,7 @@ class AsyncClient(Operations):
         await self.close()
 
     async def close(self) -> None:
-        """End all connections."""
+        """Close all connections."""
         await self._http.aclose()
 
     async def send(self, call: Call[T]) -> T:
@@ -229,7 +229,7 @@ class AsyncClient(Operations):
             await asyncio.sleep(pause)
 
     async def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
-        """A job, whenever it is further on, until it has come to its end."""
+        """The state of a job whenever it has advanced, until it has ended."""
         track = _Track()
         while True:
             stream = self._http.stream("GET", _events_path(job), timeout=_EVENTS)
@@ -250,7 +250,7 @@ class AsyncClient(Operations):
             await asyncio.sleep(_BETWEEN_STREAMS)
 
     async def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
-        """A job that has come to its end; for its arguments see `Client.wait`."""
+        """A job that has ended; for its arguments see `Client.wait`."""
         async with contextlib.aclosing(self.watch(job)) as told:
             async for info in told:
                 if progress is not None:

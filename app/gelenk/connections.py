@@ -1,7 +1,7 @@
-"""HTTP connections with bounds: on time, on the size of a head, on their number, and on the requests begun at once.
+"""HTTP connections with bounds: on time, on the size of a head, on their number, and on the requests started at once.
 
-The server that this builds on waits for a slow client forever, takes a head of any size, and begins every request as
-it comes in, so that the last one of a thousand waits for all others, be it the question whether the process lives.
+The server that this builds on waits for a slow client forever, takes a head of any size, and starts every request as
+it comes in, so the last one of a thousand waits for all others, even if it is a health check.
 """
 
 import asyncio
@@ -19,41 +19,41 @@ import orjson
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
 AT_ONCE = ("/healthz", "/readyz", "/metrics")
-"""Never wait and are never refused: who watches the service must see it when it is busy."""
+"""Never wait and are never refused: monitoring must see the service when it is busy."""
 
 _AT_A_TIME = 8
-"""Requests that are begun in one turn of the event loop: most take a fifth of a millisecond."""
+"""Requests started in one turn of the event loop: most take a fifth of a millisecond."""
 _SWEEP_SECONDS = 0.5
 _SLOWEST_BYTES = 32 * 1024
 """A body that takes longer than its time must come at this rate, [bytes/s]."""
 _GRACE_SECONDS = 2.0
-"""How long the rest of a body is waited for when the service shuts down."""
+"""How long the service waits for the rest of a body when it shuts down."""
 _ARRIVAL_SECONDS = 0.5
-"""A connection that has just come has so long to send its request when the service shuts down."""
+"""How long a new connection has to send its request when the service shuts down."""
 _RETRY_SECONDS = 1.0
-"""How long a request that is not even begun is told to wait."""
+"""`Retry-After` of a request that was refused before it started."""
 _SHORTEST_PAUSE = 0.75
-"""The share of the time that a refused client is told to wait for which its connection is not read from, at least.
+"""The share of `Retry-After` for which the service reads nothing from a refused client's connection, at least.
 
-Or refusing would take all time. Who waits as told is read from again by then. Who does not has to wait, a crowd of them
-not all until the same moment: together they would hold up the event loop.
+Otherwise refusing would take all its time. The connection of a client that obeys is read again by then. Others wait,
+each until a different moment: together they would block the event loop.
 """
 _LONGEST_PAUSE = 8.0
-"""No connection is left alone for longer, [s]: it would be taken for one whose client has nothing to say."""
+"""No connection is ignored for longer, [s]: it would be taken for an idle one."""
 _EVICTED = 16
-"""Connections that make room together where there are too many; of few an eighth, or new ones would be among them."""
+"""Connections closed together where there are too many; at most an eighth of all, or new ones would be among them."""
 _CHUNK_BYTES = 20
-"""What frames a chunk of a body at most: sixteen hexadecimal digits and two ends of a line."""
+"""The most bytes that frame a chunk of a body: sixteen hexadecimal digits and two line ends."""
 _ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """What connections may take.
+    """Bounds of connections.
 
     Attributes:
-        connections: At a time, in this process; where there are more, those go that wait longest for their client.
-        waiting: Requests that wait to be begun; more are refused.
+        connections: Open ones of this process; beyond that, those that have waited longest for their client are closed.
+        waiting: Requests that may wait to be started; more are refused.
         head_seconds: From the beginning of a connection, the end of an answer or the first byte of a request to the
             end of its head.
         body_seconds: For a body; a longer one must keep coming.
@@ -70,11 +70,11 @@ class Bounds:
 
 
 class Gate:
-    """What the connections of a process share: the requests that wait to be begun, and the eye on the slow ones.
+    """What the connections of a process share: the queue of requests, and the watch over slow clients.
 
     Attributes:
-        bounds: What connections may take.
-        connections: That are open, in the order in which they came: many do within one tick of the loop's clock.
+        bounds: Bounds of connections.
+        connections: Open ones in the order of their arrival: many arrive within one tick of the loop's clock.
         refused: Requests for which there was no room.
         closed: Connections that were closed because their client was slow, or because there were too many.
         is_stopping: Whether each answer is the last one of its connection.
@@ -90,17 +90,17 @@ class Gate:
 
     @property
     def queue_length(self) -> int:
-        """Requests that wait to be begun."""
+        """Requests that wait to be started."""
         return len(self._waiting)
 
     def stop(self) -> None:
-        """Say in each answer from now on that its connection ends: a client that is told so is not cut off."""
+        """Announce in each answer from now on that its connection closes: no client is cut off without notice."""
         self.is_stopping = True
         for connection in self.connections:
             connection.end_with_answer()
 
     def enter(self, begin: Callable[[], None]) -> bool:
-        """Begin a request now, or when those before it have been; False where too many wait."""
+        """Start a request now or after those before it; False where too many wait."""
         if self._begun < _AT_A_TIME:
             if not self._begun:
                 asyncio.get_running_loop().call_soon(self._turn)
@@ -114,7 +114,7 @@ class Gate:
         return True
 
     def _turn(self) -> None:
-        """Begin the next few; between two turns the event loop looks at all connections."""
+        """Start the next few; between two turns the event loop serves all connections."""
         self._begun = min(len(self._waiting), _AT_A_TIME)
         for _ in range(self._begun):
             self._waiting.popleft()()
@@ -122,7 +122,7 @@ class Gate:
             asyncio.get_running_loop().call_soon(self._turn)
 
     def admit(self, connection: "BoundedProtocol") -> bool:
-        """Take in a new connection; False where all others are at work and there is no room for it."""
+        """Accept a new connection; False where all others are busy and there is no room for it."""
         if not self.connections:
             asyncio.get_running_loop().call_later(_SWEEP_SECONDS, self._sweep)
         self.connections[connection] = None
@@ -150,7 +150,7 @@ class BoundedProtocol(HttpToolsProtocol):
     """A connection within bounds.
 
     Attributes:
-        since: When that began which is waited for, on the loop's clock, [s].
+        since: Since when the current wait lasts, on the loop's clock, [s].
     """
 
     def __init__(self, *arguments: Any, gate: Gate, **options: Any) -> None:
@@ -164,12 +164,12 @@ class BoundedProtocol(HttpToolsProtocol):
 
     @property
     def waits_for_client(self) -> bool:
-        """Whether no request is being worked on."""
+        """Whether no request is in progress."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
     @property
     def is_gone(self) -> bool:
-        """Whether it is closed but for the end of this turn of the event loop."""
+        """Whether it closes at the end of this turn of the event loop."""
         return self.transport.is_closing() and not self.transport.get_write_buffer_size()
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -186,7 +186,7 @@ class BoundedProtocol(HttpToolsProtocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Bytes have come: what is not of a body is counted, but for the read that ends its stage."""
+        """Bytes have arrived: those outside a body are counted, except in the read that ends its stage."""
         stage, body_bytes = self._stage + (not self._in_message), self._body_bytes
         super().data_received(data)
         if stage == self._stage:
@@ -203,18 +203,18 @@ class BoundedProtocol(HttpToolsProtocol):
         self._other_bytes = self._chunks = 0
 
     def on_message_begin(self) -> None:
-        """The first byte of a request has come."""
+        """The first byte of a request has arrived."""
         super().on_message_begin()
         self.since = self.loop.time()
         self._begin_stage(in_head=True)
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """A header field has come; or a trailer field, which is dropped: the headers have been acted upon by then."""
+        """A header field has arrived, or a trailer field: it is dropped, since the headers have been acted upon."""
         if self._in_head:
             super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
-        """The head has come as a whole; where its target names a host, that one counts (RFC 9112, 3.2.2)."""
+        """The head is complete; where its target names a host, that one counts (RFC 9112, 3.2.2)."""
         self.since, self._body_bytes = self.loop.time(), 0
         self._begin_stage(in_body=True)
         if target := _ABSOLUTE.fullmatch(self.url):
@@ -228,12 +228,12 @@ class BoundedProtocol(HttpToolsProtocol):
         self._chunks += 1
 
     def on_body(self, body: bytes) -> None:
-        """Some of the body has come."""
+        """Part of the body has arrived."""
         self._body_bytes += len(body)
         super().on_body(body)
 
     def on_message_complete(self) -> None:
-        """The request has come as a whole."""
+        """The request is complete."""
         self._begin_stage()
         super().on_message_complete()
 
@@ -255,7 +255,7 @@ class BoundedProtocol(HttpToolsProtocol):
             self._turn_away(cycle)
 
     def _turn_away(self, cycle: RequestResponseCycle) -> None:
-        """Refuse a request; the connection stays, but it is not listened to for a while."""
+        """Refuse a request; the connection stays open, but is not read for a while."""
         stays = cycle.keep_alive and not self.pipeline
         detail = f"the service is at capacity: try again in {_RETRY_SECONDS:g} s"
         status, path = HTTPStatus.SERVICE_UNAVAILABLE, cycle.scope["path"]
@@ -268,7 +268,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self.on_response_complete()
 
     def _pause(self, told: float) -> None:
-        """Do not listen for nearly as long as the client was told to wait, [s]."""
+        """Read nothing for nearly as long as the client was told to wait, [s]."""
         if not self.transport.is_closing():
             self.flow.pause_reading()
             pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
@@ -283,13 +283,13 @@ class BoundedProtocol(HttpToolsProtocol):
         self._refuse(HTTPStatus.BAD_REQUEST, "malformed-request", msg.rstrip("."))
 
     def end_with_answer(self) -> None:
-        """Let the answer to the request that is being worked on be the last one, unless it has begun; streams end."""
+        """Let the answer to the current request be the last one, unless it has started; streams end."""
         if self.cycle is not None and not self.cycle.response_complete:
             self.cycle.keep_alive &= self.cycle.response_started
             self.cycle.scope["state"]["stopping"] = True
 
     def shutdown(self) -> None:
-        """The service is to stop: what is in flight finishes, streams end, and a client has little time left."""
+        """Prepare to stop: requests in progress finish, streams end, and a client has little time left."""
         self.end_with_answer()
         if self.cycle is not None and not self.cycle.response_complete:
             self.cycle.keep_alive = False
@@ -301,7 +301,7 @@ class BoundedProtocol(HttpToolsProtocol):
             super().shutdown()
 
     def is_late(self, now: float) -> bool:
-        """Whether the client has taken too long, at which the connection is closed."""
+        """Whether the client has taken too long, so that the connection is closed."""
         bounds = self._gate.bounds
         if self.transport.is_closing() or self.flow.write_paused:
             return self._is_stalled(now)
@@ -324,7 +324,7 @@ class BoundedProtocol(HttpToolsProtocol):
         return True
 
     def _is_stalled(self, now: float) -> bool:
-        """Whether nothing of what was sent has been taken for too long."""
+        """Whether the client has read nothing for too long."""
         unsent = self.transport.get_write_buffer_size()
         if unsent != self._unsent:
             self._unsent, self.since = unsent, now
@@ -344,7 +344,7 @@ class BoundedProtocol(HttpToolsProtocol):
             self.transport.close()
 
     def _refuse(self, status: HTTPStatus, kind: str, detail: str) -> None:
-        """Close the connection with a problem; whoever waits for the rest of the request is told that it is gone."""
+        """Close the connection with a problem; code that waits for the rest of the request learns that it is gone."""
         cycle = self.cycle
         if cycle is not None and not cycle.response_complete:
             cycle.disconnected = True

@@ -1,6 +1,6 @@
 """Make a key: `gelenk keys NAME`, in a checkout `./dev keys NAME`.
 
-The key is shown once; what the service keeps of it is only good to check it.
+The key is shown once; the service keeps only a hash to check it by.
 """
 
 import argparse

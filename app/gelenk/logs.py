@@ -1,7 +1,7 @@
 """The log: one JSON object a line on the standard error stream, printable ASCII alone, written by a thread of its own.
 
-Whoever logs only leaves the record behind, so that a slow reader of the log holds up nobody. Where lines come faster
-than they are taken, some are left out, and the log says how many.
+Logging only queues the record, so a slow reader of the log blocks nothing. If lines come faster than they are read,
+some are left out, and the log says how many.
 """
 
 import json
@@ -19,7 +19,7 @@ REQUEST_ID: ContextVar[str] = ContextVar("request_id", default="")
 
 _MOST_WAITING = 10_000
 _GATHER_SECONDS = 0.1
-"""How long lines are gathered before they are written together."""
+"""How long lines are collected before they are written together."""
 _LONGEST = 16_384
 """Characters of one text in a line; a traceback may be long."""
 
@@ -28,7 +28,7 @@ def configuration(level: str, at_once: bool = False) -> dict[str, Any]:
     """What `logging.config` and the server take: all loggers, one handler.
 
     Args:
-        level: The least that is logged, one of `LEVELS`.
+        level: The lowest level that is logged, one of `LEVELS`.
         at_once: See `LineHandler`.
     """
     return {
@@ -55,7 +55,7 @@ class LineHandler(logging.Handler):
 
     Args:
         stream: Where to; the standard error stream of the moment if left out.
-        at_once: Whether whoever logs writes the line, without a thread: in a process that is copied, or may be killed.
+        at_once: Whether the caller writes the line, without a thread: for a process that is copied or may be killed.
     """
 
     def __init__(self, stream: TextIO | None = None, at_once: bool = False) -> None:
@@ -68,7 +68,7 @@ class LineHandler(logging.Handler):
         self._thread: threading.Thread | None = None
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Leave a record behind; the caller waits for nothing."""
+        """Queue a record; the caller does not wait."""
         if len(self._waiting) >= _MOST_WAITING:
             self._lost += 1
             return
@@ -85,7 +85,7 @@ class LineHandler(logging.Handler):
             self._woken.set()
 
     def flush(self) -> None:
-        """Write all that waits, now."""
+        """Write all queued records now."""
         with self._writing:
             lines = []
             while self._waiting:

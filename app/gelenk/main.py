@@ -60,7 +60,7 @@ chain's joints from base to tip. Errors are `application/problem+json`.
 """
 
 _SWITCH_SECONDS = 5e-4
-"""How long a thread that computes may keep the event loop waiting, at most, for its turn in Python."""
+"""The longest that a computing thread may keep the event loop waiting for the interpreter."""
 
 
 def create_app(settings: Settings, crew: Crew | None = None) -> Application:
@@ -68,7 +68,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
 
     Args:
         settings: What the operator has set.
-        crew: What does the work that may take long; processes of its own if left out.
+        crew: The processes for long work; started by the application if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
@@ -170,7 +170,7 @@ def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
 
 
 def _door(app: Application, settings: Settings, metrics: Metrics, audit: Audit) -> Door:
-    """The way in: what a request must pass before the application answers it."""
+    """The checks that a request must pass before the application answers it."""
     checks: list[Check] = [repeated, TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
@@ -179,13 +179,13 @@ def _door(app: Application, settings: Settings, metrics: Metrics, audit: Audit) 
 
 
 async def _start(readiness: Readiness, crew: Crew) -> None:
-    """Get ready: first the crew, because what it is copied from compiles the kernels, which are in the cache then."""
+    """Get ready, the crew first: the process it is copied from compiles the kernels into the cache."""
     await crew.start()
     readiness.begin()
 
 
 def from_environment() -> FastAPI:
-    """The application as the environment sets it; what each worker process starts from."""
+    """The application configured by the environment; each worker process starts from it."""
     sys.setswitchinterval(_SWITCH_SECONDS)
     settings = Settings.from_environment(os.environ)
     if settings.otlp_endpoint:

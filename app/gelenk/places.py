@@ -1,4 +1,4 @@
-"""Where the files are that come along with the package."""
+"""Where the package's files are."""
 
 from pathlib import Path
 
@@ -12,5 +12,5 @@ def catalogue() -> Path:
 
 
 def studio() -> Path:
-    """The bundle of the page to look at robots with."""
+    """The bundle of the studio."""
     return _PACKAGE / "studio"

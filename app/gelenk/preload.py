@@ -1,4 +1,4 @@
-"""What the process imports that all others of the service are copies of: what requests need."""
+"""Imports of the process that all others of the service are copied from."""
 
 import gc
 import importlib
@@ -11,10 +11,9 @@ from functools import partial
 
 @contextmanager
 def kept() -> Iterator[None]:
-    """Keep the collector of garbage from what is loaded here.
+    """Exempt everything loaded so far from garbage collection.
 
-    It would look through all of it again and again, for a fifth of the time that it takes; and the copies share what
-    nobody writes to.
+    Scanning it again and again would take a fifth of the time; and the copies share only memory that is never written.
     """
     gc.disable()
     try:
@@ -37,7 +36,7 @@ with kept():
 
 
 def is_compiled() -> bool:
-    """Whether `warm_up` will find the kernels compiled, or has to compile them where they stay."""
+    """Whether `warm_up` finds the kernels compiled, or must compile them in this process."""
     return compilation.STORE is None or compilation.is_stored()
 
 
@@ -47,12 +46,12 @@ def _part(compute: Callable[[], None]) -> None:
 
 
 PARTS = tuple(partial(_part, compute) for compute in warm.PARTS)
-"""What processes of their own may compile side by side, after `basics`."""
+"""Kernels that separate processes may compile in parallel, after `basics`."""
 
 
 @kept()
 def basics() -> None:
-    """Compute what most requests need, while other processes compile the rest."""
+    """Compute what most requests need; other processes compile the rest meanwhile."""
     warm.basics()
 
 

@@ -1,8 +1,8 @@
-"""Take from an environment what the service never opens: `python -m gelenk.prune PREFIX`, for the container image.
+"""Remove from an environment what the service never opens: `python -m gelenk.prune PREFIX`, for the container image.
 
-Wheels carry headers, static libraries, three copies of one library, tests, and all of example-robot-data. What is
-needed is found by use: all robots of the catalogue are loaded, and what pictures and formulas need, then the libraries
-that this process has mapped stay. Meshes are compressed, as the service sends them.
+Wheels carry headers, static libraries, three copies of one library, tests, and all of example-robot-data. Use
+shows what is needed: this process loads all robots of the catalogue and everything for pictures and formulas; the
+libraries that it has mapped then stay. Meshes are compressed, as the service sends them.
 """
 
 import gzip
@@ -22,13 +22,13 @@ _FOR_DEVELOPERS = frozenset({".a", ".cmake", ".h", ".hh", ".hpp", ".hxx", ".pc",
 _UNOPENED = frozenset({"benchmarks", "distutils", "f2py", "tests"}) | {
     *("cffLib", "cu2qu", "designspaceLib", "feaLib", "otlLib", "pens", "qu2cu", "subset", "ttLib", "ufoLib", "varLib"),
 }
-"""Folders that are for developers, or of fontTools what only PDF and PostScript need."""
+"""Folders for developers, and the parts of fontTools that only PDF and PostScript need."""
 _SHAPES = frozenset({".dae", ".obj", ".sdf", ".srdf", ".stl", ".urdf"})
 _LICENCES = ("LICENSE", "LICENCE", "COPYING", "NOTICE")
 
 
 def main() -> None:
-    """Prune the environment that runs this; it must be named, so that nobody does it to their own by mistake."""
+    """Prune the environment that runs this; it must be named, to prevent mistakes."""
     if len(sys.argv) != 2 or Path(sys.argv[1]).resolve() != Path(sys.prefix).resolve():
         sys.exit(f"usage: python -m gelenk.prune {sys.prefix}")
     robots = set(catalogue_files())
@@ -61,7 +61,7 @@ def mapped_files() -> set[Path]:
 
 
 def compress(mesh: Path) -> None:
-    """Put a file in the place of a mesh, named alike but for `.gz` at its end, that holds the same compressed."""
+    """Replace a mesh by a compressed file, with `.gz` added to its name."""
     mesh.with_name(f"{mesh.name}.gz").write_bytes(gzip.compress(mesh.read_bytes(), mtime=0))
     mesh.unlink()
 

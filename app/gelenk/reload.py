@@ -1,4 +1,4 @@
-"""Run the service anew whenever one of its files changes: `gelenk serve --reload`, for those who work on it."""
+"""Restart the service whenever one of its files changes: `gelenk serve --reload`, for development."""
 
 import signal
 import subprocess

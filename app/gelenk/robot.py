@@ -1,12 +1,12 @@
-"""The core as a library, without a service: `gelenk.Robot`; needs `gelenk[engine]`.
+"""The core as a library, without a service: `gelenk.Robot`. It needs `gelenk[engine]`.
 
     >>> arm = gelenk.Robot.load("panda", tip_frame="panda_link8")
     >>> arm.fk([0.2, -0.785, 0.1, -2.356, 0.3, 1.571, 0.785]).poses.positions
     array([[0.28308777, 0.13047247, 0.59139586]])
 
-Results are the core's own, with arrays and with the certificate that the service sends. They have a row for each
-configuration or target, and one row where a single one was given. What is refused is raised as one of the classes of
-`gelenk.model.errors`. Metres, radians, linear before angular.
+Results are the core's own: arrays and the certificate that the service sends. They have one row for each configuration
+or target, also for a single one. Invalid input raises one of the classes of `gelenk.model.errors`. Metres, radians,
+linear before angular.
 """
 
 import os
@@ -69,7 +69,7 @@ class Robot:
 
     @classmethod
     def load(cls, name: str, base_frame: str | None = None, tip_frame: str | None = None) -> Self:
-        """A robot of the catalogue; a frame that is left out is that of its default chain.
+        """A robot of the catalogue; frames default to those of its default chain.
 
         Raises:
             UnknownRobot: There is none of this name.
@@ -89,16 +89,16 @@ class Robot:
         *,
         strict: bool = False,
     ) -> Self:
-        """The robot that a URDF describes; of frames that are left out the longest chain.
+        """The robot that a URDF describes; frames default to those of the longest chain.
 
         Args:
             urdf: A file, or the text itself.
             base_frame: Where the chain begins.
             tip_frame: Where it ends.
-            strict: Whether faults that kinematics does not feel are refused too.
+            strict: Whether faults that do not affect kinematics are refused too.
 
         Raises:
-            InvalidUrdf: It is none; the message names the element and the line.
+            InvalidUrdf: It is not a valid URDF; the message names the element and the line.
             UnknownFrame: The robot has no such frame.
             OSError: The file cannot be read.
         """

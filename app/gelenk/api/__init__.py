@@ -4,15 +4,15 @@
 - `payloads`, `npy`: bodies in and answers out: JSON and NumPy's npy, strictly.
 - `bodies`: how many bytes of large bodies are held at a time.
 - `routes`: a route that FastAPI documents and that runs without its overhead.
-- `access`: the door: hosts, origins, keys, headers of every answer, the log of requests.
-- `remote`: has requests answered by the crew; `errand`: what its processes are sent to do; `operations`: with what.
-- `tally`: what an answer says of itself to the metrics.
+- `access`: checks of every request (hosts, origins, keys), headers of every answer, the log of requests.
+- `remote`: sends requests to the crew; `errand`: what its processes do; `operations`: the table of operations.
+- `tally`: what an answer adds to the metrics.
 - `elsewhere`: the crew for code that is no coroutine.
-- `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources; `skeleton`: what is drawn of a robot
-  that shows nothing.
-- `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: questions to
-  a robot; `loads` and `velocity_call` read what several of their fields share.
-- `trajectory`: motions; `trajectory_request` and `trajectory_limits` read what is asked, `trajectory_samples` and
-  `trajectory_answer` tell what came of it.
+- `robots`, `dh`, `compare`, `derive`, `service`, `documentation`: the resources; `skeleton`: shapes for a robot without
+  visuals.
+- `kinematics`, `inverse`, `velocity`, `singularity`, `manipulability`, `statics`, `dynamics`, `workspace`: operations
+  on a robot; `loads` and `velocity_call` read what several of their fields share.
+- `trajectory`: motions; `trajectory_request` and `trajectory_limits` read the request, `trajectory_samples` and
+  `trajectory_answer` shape the answer.
 - `course_…`: the calculators of the course, on `course`; `jobs`: long work.
 """

@@ -3,13 +3,13 @@
 from gelenk.model.errors import NoRoomForBody
 
 SMALL = 64 * 1024
-"""A body of fewer bytes is not counted: connections are, and the server holds as much of each anyway."""
+"""A smaller body is not counted: connections are, and the server holds as much of each anyway."""
 
 
 class Bodies:
-    """The large bodies that have come in or are coming in, until what is asked with them is answered.
+    """The large bodies that have arrived or are arriving, until their requests are answered.
 
-    What has come counts, not what was announced: who announces much and sends nothing takes no room from others.
+    Received bytes count, not announced ones: a client that announces much and sends nothing takes no room from others.
 
     Args:
         allowed: Bytes of all of them.

@@ -109,7 +109,7 @@ def picture_content(description: str | None) -> dict[str, Any]:
 
 
 def without_null(schema: dict[str, Any]) -> None:
-    """Take null out of what a parameter or a field of a form may be: neither has a way to write it."""
+    """Take null out of what a parameter or a field of a form may be: neither can express it."""
     choices = schema.get("anyOf", [])
     given = [choice for choice in choices if choice != {"type": "null"}]
     if len(given) < len(choices):
@@ -189,7 +189,7 @@ def _refer(part: Any) -> None:
 
 
 def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:
-    """What any operation may answer before it is asked; that a key is not needed where keys are off."""
+    """Answers that any operation may give before it runs; where keys are off, none is needed."""
     statuses = [HTTPStatus.MISDIRECTED_REQUEST, HTTPStatus.FORBIDDEN]
     if security:
         operation["security"] = security if has_keys else [{}, *security]

@@ -1,4 +1,4 @@
-"""The way from a request to the crew and back: with a deadline, and for as long as somebody waits for the answer."""
+"""From a request to the crew and back: with a deadline, and for as long as the client waits for the answer."""
 
 import asyncio
 from collections import Counter
@@ -21,7 +21,7 @@ from gelenk.store.records import LoadedRobot
 INLINE_BYTES = 4096
 """A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms.
 
-So it compiles nothing either: as long as the crew is starting, that is all asked of it.
+So it compiles nothing either: while the crew is starting, every request goes to the crew.
 """
 
 PARSED_HERE_BYTES = 512 * 1024
@@ -92,10 +92,10 @@ class Remote:
 
 
 def client_of(request: Request) -> str:
-    """Whom a request is from: the key that it came with, else its address.
+    """The client of a request: its key, else its address.
 
-    Those without a key from this very machine are of one client, the nameless one, which has no share of its own to
-    keep to: a proxy in front of the service may pass on those of others.
+    All requests without a key from this machine belong to one nameless client without a share of its own, because a
+    proxy in front of the service may pass on those of others.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:

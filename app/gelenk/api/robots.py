@@ -43,14 +43,14 @@ from gelenk.store.records import LoadedRobot
 
 MULTIPART = "multipart/form-data"
 WITHOUT_KEY = "clients without a key"
-"""Whose an upload without a key is: addresses change, and where no key is needed all share one machine."""
+"""The owner of uploads without a key: addresses change, and where no key is needed all share one machine."""
 _PIECE = 256 * 1024
 _LIST_SECONDS = 5.0
-"""How long the list of robots is good for, where nothing says that it has changed."""
+"""How long the list of robots is cached if nothing says that it has changed."""
 
 
 def robots_router(library: Library, remote: Remote) -> APIRouter:
-    """What reads robots, or removes them: the crew looks at them, because a description comes from outside."""
+    """Operations that read or remove robots, in the crew, because descriptions come from outside."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
     listed = Listed(library, remote)
 
@@ -222,7 +222,7 @@ def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
 
 
 async def _receive(request: BoundedRequest, remote: Remote, name: str | None) -> Response:
-    """Take an upload in either form; the crew looks at it and keeps it."""
+    """Accept an upload in either form; the crew checks and stores it."""
     root_path, given = request.scope.get("root_path", ""), request.media_type
     key = request.scope.get("gelenk.key")
     owner = WITHOUT_KEY if key is None else f"key {key}"
@@ -247,7 +247,7 @@ async def _receive(request: BoundedRequest, remote: Remote, name: str | None) ->
 
 @dataclass(frozen=True, slots=True)
 class Keep:
-    """An upload that is looked at and kept, in the place of another one where that is named.
+    """An upload that is checked and stored, replacing another one if that is named.
 
     Attributes:
         name: The robot to replace; None adds one.
@@ -311,7 +311,7 @@ def _urdf(desk: Desk, inquiry: Inquiry) -> Response:
 
 
 def info(loaded: LoadedRobot) -> RobotInfo:
-    """Everything about a robot but its poses."""
+    """Everything about a robot except its poses."""
     record, robot = loaded.record, loaded.robot
     description = robot.description
     chain: Chain = robot.chain(None, None)

@@ -102,7 +102,7 @@ class Application(FastAPI):
 
     `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
     an unknown operation, takes FastAPI's way; and so do all where that way is traced (`is_traced`). `door` is where
-    requests come in, and leads to `answer`.
+    requests arrive, and leads to `answer`.
     """
 
     def __init__(self, max_body_bytes: int, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
@@ -119,7 +119,7 @@ class Application(FastAPI):
         await self.door(scope, receive, send)
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request that was let in; HEAD is GET, whose body the server keeps to itself."""
+        """Answer a request that has passed the checks; HEAD is GET without the body."""
         if self.root_path and scope.get("path") == self.root_path:  # links are relative to the folder
             await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
             return
@@ -204,7 +204,7 @@ class Computation(Generic[_Request]):
     long: LongWork[_Request] | None = None
 
     def handler(self, name: str, remote: Remote, runner: Runner) -> Handler:
-        """What answers its requests: on the event loop where that is quick, else an errand to the crew, or a job.
+        """The handler of its requests: on the event loop where that is fast, else in the crew, or as a job.
 
         Args:
             name: The operation's.

@@ -1,4 +1,4 @@
-"""About the service itself: whether it lives, and whether it is ready."""
+"""The service itself: whether it is alive, and whether it is ready."""
 
 import asyncio
 import gc
@@ -23,19 +23,19 @@ from gelenk.schemas.health import Health
 from gelenk.store import folders
 
 _LOOK_SECONDS = 1.0
-"""How long what is known of the disk is good for."""
+"""How long a check of the disk stays valid."""
 
 
 class Readiness:
-    """Whether all is there that requests need: the kernels compiled, or read from their cache; the crew; the disk.
+    """Whether everything that requests need is ready: the kernels (compiled or from their cache), the crew, the disk.
 
     Args:
-        crew: Who answers what may take long.
+        crew: The processes for long requests.
         data_dir: Where uploads and jobs are kept.
         jobs_failure: Why jobs cannot be done, where that is so.
 
     Attributes:
-        failure: Why the kernels will never be there.
+        failure: Why the kernels will never be ready.
     """
 
     def __init__(self, crew: Crew, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
@@ -62,7 +62,7 @@ class Readiness:
         return found
 
     def begin(self) -> None:
-        """Get ready in a thread of its own, so that the process answers meanwhile."""
+        """Get ready in a separate thread, so that the process answers meanwhile."""
         threading.Thread(target=self._prepare, name="warm-up", daemon=True).start()
 
     def _prepare(self) -> None:

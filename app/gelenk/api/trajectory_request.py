@@ -34,7 +34,7 @@ _SHORTEST = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What the core is asked, and where its limits are from.
+    """The problem for the core, and the source of its limits.
 
     Attributes:
         problem: For the core.
@@ -128,7 +128,7 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) 
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
-    """The law of a segment: of a way of the tip that is to be slow only where the joints must be there is but one.
+    """The law of a segment; a path of the tip that slows down only where the joints require it has only one.
 
     Raises:
         InvalidField: The request names another law and does not allow replacing it.
@@ -147,7 +147,7 @@ def _law(call: TrajectoryRequest, index: int) -> Law:
 
 
 def _is_way(segment: Segment) -> bool:
-    """Whether the tip follows a way, in times that are not given."""
+    """Whether the tip follows a path without given times."""
     if isinstance(segment, SplineSegment):
         return segment.times is None and isinstance(segment.waypoints[0], Pose)
     return not isinstance(segment, JointSegment)

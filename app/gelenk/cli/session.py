@@ -1,4 +1,4 @@
-"""What a command is given beside its own arguments: the service that it asks, and where its answer goes."""
+"""The options that commands share: the service to call, and where the answer goes."""
 
 import sys
 import threading
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 A = TypeVar("A")
 
 _LONG_SECONDS = 0.5
-"""Work that is over sooner needs no bar."""
+"""Shorter work gets no progress bar."""
 _COMPILING = "compiling the kernels{}: about a minute …"
 
 RobotArgument = Annotated[
@@ -73,7 +73,7 @@ class Session:
         output: Where the answer goes.
         arguments: For xacro, `NAME=VALUE`.
         packages: For xacro, `NAME=FOLDER`.
-        strict: Whether faults of a URDF that kinematics does not feel are refused too.
+        strict: Whether faults of a URDF that do not affect kinematics are refused too.
     """
 
     def __init__(
@@ -129,11 +129,11 @@ class Session:
 
     @contextmanager
     def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
-        """How far work is, 0 to 1, on the screen once it is long; not where standard error is no terminal.
+        """Show progress from 0 to 1 once the work takes long; not where standard error is no terminal.
 
         Args:
             what: The work.
-            is_measured: Whether it tells how far it is; else the bar tells only that it goes on.
+            is_measured: Whether it reports progress; else the bar shows only that it is running.
         """
         if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
             yield lambda _: None

@@ -40,7 +40,7 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
 
 
 def _sentence(error: Exception) -> str:
-    """What went wrong, on one line, and but once: xacro puts the class and the text of the cause beside its own."""
+    """What went wrong, once, on one line: xacro repeats the class and the text of the cause."""
     if isinstance(error, RecursionError):
         return "it includes itself, or a macro calls itself"
     words = re.sub(r"<class '[^']*'>: | \[Errno.*", "", " ".join(str(error).split()))
@@ -49,7 +49,7 @@ def _sentence(error: Exception) -> str:
 
 
 def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
-    """Take the place of ROS's index of packages, and ask it for what is not found otherwise."""
+    """Stand in for ROS's index of packages, and fall back on it."""
     index = sys.modules.get(_FINDER)
     real = getattr(index, "_real", index)
     if real is None:
@@ -74,7 +74,7 @@ def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
 
 
 def _above(file: Path, name: str) -> Path | None:
-    """The package of that name which the file is in, or which stands beside that."""
+    """The package of that name that contains the file, or one beside it."""
     for folder in file.parents:
         for candidate in (folder, folder / name):
             manifest = candidate / "package.xml"

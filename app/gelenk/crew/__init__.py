@@ -1,4 +1,4 @@
-"""Processes that answer what may take long or go wrong, each on its own and replaced by itself.
+"""Processes for requests that may take long or crash; each is isolated, and replaced alone.
 
 - `crew`: hands calls to idle processes, within a bounded queue and a deadline; kills and replaces them.
 - `process`: what such a process runs: one call after the other, within limits of memory and processor time.

@@ -1,8 +1,8 @@
-"""A number of processes that calls are handed to from an event loop: bounded, each with a deadline, none lost.
+"""A pool of processes that an event loop sends calls to: bounded, each call with a deadline, none lost.
 
-A call that crashes its process, outlasts its deadline, or whose caller leaves takes its own process with it and no
-other; a new one is there within milliseconds, because it is a copy of one that has everything loaded already. So is
-one more for a client that comes while others have all of them.
+If a call crashes its process, misses its deadline or is abandoned, only its own process ends. A new one is there within
+milliseconds, because it is a copy of one that has everything loaded. A client that comes while others occupy all
+processes gets an additional one in the same time.
 """
 
 import asyncio
@@ -28,19 +28,19 @@ _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 _END_SECONDS = 2.0
-"""How long is waited for the reason of a process's end."""
+"""How long to wait for the reason why a process ended."""
 _PATIENCE = 0.05
-"""A call whose caller has left may come to its end within this, [s]: it costs less than a new process."""
+"""An abandoned call may finish within this time, [s]: that costs less than a new process."""
 _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _CROWD_SECONDS = 10.0
 """Retries of refused calls are spread over at most this time, [s]: many clients never return."""
 _SMOOTHING = 0.1
 _START_SECONDS = 600.0
-"""How long the first processes may take, which may have to compile: it does not count against what a call may wait."""
+"""How long the first processes may take, because they may compile; calls' waiting times do not count it."""
 _MOMENT = 1.0
 """How long processes may be missing before that is reported, [s]."""
 _LOOK_SECONDS = 0.5
-"""How often is looked whether those have left for whom an idle process is kept, [s]."""
+"""How often to check whether clients have left for whom an idle process is kept, [s]."""
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
 """A function, its argument, and how many seconds it may take."""
@@ -54,11 +54,11 @@ class Crew:
     Args:
         count: How many; see `Turns` for when there are more.
         waiting: Calls that may wait for one.
-        memory_bytes: What each may take beside what it has at its start.
+        memory_bytes: What each may take in addition to what it has at its start.
 
     Attributes:
         busy: Processes at work.
-        restarts: Processes that were replaced after a crash, a deadline, a lack of memory or a caller who left.
+        restarts: Processes replaced after a crash, a missed deadline, a lack of memory or an abandoned call.
         refused: Calls for which there was no room.
         is_starting: Whether the first processes are being started.
     """
@@ -94,18 +94,18 @@ class Crew:
 
     @property
     def is_short(self) -> bool:
-        """Whether processes are missing, and not only for the moment that it takes to replace one."""
+        """Whether processes have been missing for longer than it takes to replace one."""
         return not self._seats or (bool(self._renewals) and time.monotonic() > self._whole_until + _MOMENT)
 
     async def start(self) -> None:
-        """Start all processes, and return when they are there."""
+        """Start all processes, and return when they are ready."""
         self.is_starting = True
         self._fill()
         await asyncio.gather(*self._renewals)
         self.is_starting, self._is_begun = False, True
 
     def check_room(self, client: str = "") -> None:
-        """See whether a call would be taken; a crowd can be refused by this before tasks are made for each of them.
+        """Check whether a call would be accepted, so that many can be refused before a task is made for each.
 
         Raises:
             ServiceBusy: Too many calls wait.
@@ -116,13 +116,13 @@ class Crew:
             raise ServiceBusy(self.retry_after)
 
     def _turn_away(self) -> None:
-        """Count a call that is refused among those that will come again."""
+        """Count a refused call among those that will be retried."""
         self.refused += 1
         self._outside = self._crowd_seconds() * self.size / max(self._seconds_a_call, 1e-6) + 1.0
         self._outside_since = time.monotonic()
 
     def _crowd_seconds(self) -> float:
-        """How long those that were refused would take, one after the other; time has worked off the first of them."""
+        """How long the refused calls would take one after the other, less the time that has passed."""
         seconds = self._outside * self._seconds_a_call / self.size
         return min(_CROWD_SECONDS, max(0.0, seconds - (time.monotonic() - self._outside_since)))
 
@@ -134,7 +134,7 @@ class Crew:
         Args:
             function: Of a module, with an argument and a result that can be sent to another process.
             argument: What it is called with.
-            seconds: How long it may wait for its turn, and how long it may then take; beside the start.
+            seconds: How long it may wait for its turn, and how long it may then take, not counting the start.
             client: Whose call it is.
 
         Raises:
@@ -155,7 +155,7 @@ class Crew:
             raise
 
     def close(self) -> None:
-        """End all processes, in the middle of a call if need be; later calls are refused."""
+        """End all processes, even during calls; later calls are refused."""
         self._closed = True
         for renewal in self._renewals:
             renewal.cancel()
@@ -195,7 +195,7 @@ class Crew:
             raise ServiceBusy(self.retry_after) from None
 
     def _hand_out(self) -> None:
-        """Give idle processes to those whose turn it is, and let those go that are too many."""
+        """Give idle processes to the clients whose turn it is, and end surplus ones."""
         while self._idle and not self._closed:
             if not self._idle[-1].is_alive():
                 self._renew(self._idle.pop())
@@ -226,7 +226,7 @@ class Crew:
             self._give_back(seat)
 
     def _give_back(self, seat: "_Seat") -> None:
-        """Hand a process to whoever's turn it is; replace it first where it is not fit any more."""
+        """Give a process to the next client; replace it first if it is no longer fit."""
         if self._closed:
             seat.close()
             return
@@ -259,7 +259,7 @@ class Crew:
 
 
 class _Seat:
-    """A process and the way to it."""
+    """A process and the connection to it."""
 
     def __init__(self, memory_bytes: int) -> None:
         self._memory_bytes = memory_bytes
@@ -290,14 +290,14 @@ class _Seat:
             self.close()
 
     def close(self) -> None:
-        """End the process for good; a call in flight sees it end, and closes the way to it afterwards."""
+        """End the process for good; a running call notices, and then closes the connection."""
         self._is_closed = True
         self._end_process()
         if not self._is_asked:
             self._close_stream()
 
     def is_alive(self) -> bool:
-        """Whether an idle process is still there: nothing comes from it, and no end either."""
+        """Whether an idle process is still alive: it has sent nothing and not closed its connection."""
         if self._stream is None:
             return False
         try:

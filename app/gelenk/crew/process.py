@@ -20,19 +20,19 @@ from gelenk.processes.original import SELDOM_NEEDED
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """What came of a call: its result, what it has raised, or that there was not enough memory."""
 Reply: TypeAlias = tuple[Outcome, bool]
-"""An outcome, and whether the process goes on."""
+"""An outcome, and whether the process continues."""
 
 _NICENESS = 5
-"""The event loops go first: they answer in a fraction of a millisecond, and while they wait nobody is let in."""
+"""The event loops take precedence: they answer within a fraction of a millisecond, and accept nothing before."""
 _SPARE_SECONDS = 2
 _TIRED = 0.5
-"""A process that has come to hold this share of what it may makes room for a fresh one."""
+"""A process that holds this share of its memory limit is replaced by a fresh one."""
 _OWN_SECONDS = 20.0
-"""So does one that has loaded modules of its own so long ago: fresh ones share them."""
+"""So is one that loaded modules of its own so long ago: fresh ones share theirs."""
 
 
 def serve(memory_bytes: int, connection: Connection) -> None:
-    """Answer calls until the other side is gone, or until memory has run out.
+    """Answer calls until the other side is gone or memory has run out.
 
     Args:
         memory_bytes: What it may take beside what it has at its start.
@@ -85,7 +85,7 @@ def _outcome(function: Callable[[Any], Any], argument: Any) -> Outcome:
 
 
 def _sendable(error: Exception) -> Exception:
-    """The error itself where it survives the way, with its trace as a note: a trace does not travel."""
+    """The error itself if it can be sent, with its traceback as a note, because a traceback cannot."""
     trace = "".join(traceback.format_exception(error))
     try:
         again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
@@ -98,7 +98,7 @@ def _sendable(error: Exception) -> Exception:
 
 
 def _held_bytes() -> int:
-    """What `RLIMIT_DATA` counts, where the system tells it."""
+    """The memory that `RLIMIT_DATA` counts, where the system reports it."""
     try:
         return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
     except OSError:
@@ -106,7 +106,7 @@ def _held_bytes() -> int:
 
 
 def _limit_processor_time(seconds: float) -> None:
-    """A last resort, should nobody be left to kill this process: all processors for as long as the call may take."""
+    """A last resort if nothing is left to kill this process: the time of all processors during the call."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     most = used.ru_utime + used.ru_stime + (os.cpu_count() or 1) * seconds + _SPARE_SECONDS
     _limit(resource.RLIMIT_CPU, int(most))

@@ -1,4 +1,4 @@
-"""Messages between the service and a process of its crew: an object, and large bytes beside it that nobody copies.
+"""Messages between the service and a process of its crew: an object, and large bytes beside it that are not copied.
 
 On a stream socket, big-endian: the count of parts, the length of each, the parts. The first one is the pickled object;
 the others are the buffers that it wraps in `pickle.PickleBuffer`.
@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from typing import Any
 
 PIECE = 256 * 1024
-"""Bytes of a large answer that go through the hands of the event loop at once."""
+"""Bytes of a large answer that the event loop sends at once."""
 
 _COUNT = struct.Struct("!I")
 _SMALL = 64 * 1024
-"""A message of fewer bytes is sent in one go."""
+"""A shorter message is sent in one piece."""
 
 
 def pieces_of(content: bytes) -> list[pickle.PickleBuffer]:
@@ -36,7 +36,7 @@ def send(connection: socket.socket, content: Any) -> None:
 
 
 async def send_soon(connection: socket.socket, content: Any) -> None:
-    """The same from an event loop, on a socket that does not block; between two parts others get their turn."""
+    """The same from an event loop, on a socket that does not block; between two parts other tasks run."""
     loop = asyncio.get_running_loop()
     for i, part in enumerate(_parts(content)):
         if i:
@@ -58,7 +58,7 @@ def receive(connection: socket.socket) -> Any:
 
 
 async def receive_soon(connection: socket.socket) -> Any:
-    """The same from an event loop, on a socket that does not block; between two parts others get their turn."""
+    """The same from an event loop, on a socket that does not block; between two parts other tasks run."""
     (count,) = _COUNT.unpack(await _taken_soon(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", await _taken_soon(connection, 8 * count))
     parts: list[bytearray] = []

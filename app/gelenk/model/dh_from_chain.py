@@ -461,7 +461,7 @@ def _joint_notes(description: Description, joints: Sequence[Joint], rows: Sequen
         leader = description.joint[row.mimic.joint]
         note = f"{quoted(row.name)} follows {quoted(leader.name)}"
         if leader.name not in on_the_way:
-            note += ", which is not in the chain and has a variable of its own; the row's limits are what its limits allow"
+            note += ", which is not in the chain and has its own variable; the row's limits are what its limits allow"
             if (leader.type == "prismatic") != (row.type == "prismatic"):
                 note += f"; unlike its follower it is {leader.type}"
         yield note

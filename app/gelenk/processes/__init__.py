@@ -1,7 +1,7 @@
-"""Processes of ours: copies of one that has loaded everything, there within milliseconds, gone with whom they are for.
+"""The service's own processes: copies of one that has loaded everything, started within milliseconds.
 
-- `copies`: starts a process, and ends it so that nothing of it is left.
+- `copies`: starts a process, and ends it without leftovers.
 - `original`: what runs in the process that is copied.
-- `pages`: gives back memory that only loading has needed.
+- `pages`: returns memory that only loading needed.
 - `turns`: whose turn it is, where clients share processes or other places.
 """

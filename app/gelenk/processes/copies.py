@@ -1,4 +1,4 @@
-"""A process of ours at the other end of a pipe: started as a copy of one that has loaded everything, and ended."""
+"""Starting and ending a process at the other end of a pipe, as a copy of one that has loaded everything."""
 
 import atexit
 import contextlib
@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from gelenk.processes.original import COPY, LOAD, NUMBER, WARM_UP
 
 GOODBYE_SECONDS = 1.0
-"""How long the end of a killed process is waited for."""
+"""How long to wait for the end of a killed process."""
 _BEGIN = """
 import sys
 sys.path[:] = sys.argv[3:]
@@ -34,7 +34,7 @@ class Copy:
         lifeline: Where its exit code comes from.
 
     Attributes:
-        exitcode: How it has ended, -9 for example by signal 9; None as long as nobody has seen that.
+        exitcode: How it ended, for example -9 by signal 9; None while that is not known.
     """
 
     def __init__(self, pid: int, lifeline: socket.socket) -> None:
@@ -46,12 +46,12 @@ class Copy:
         return self._lifeline.fileno()
 
     def is_alive(self) -> bool:
-        """Whether it is still there."""
+        """Whether it is still running."""
         self.join(0.0)
         return not self._is_over
 
     def join(self, seconds: float) -> None:
-        """Wait for its end, at most so long, [s]."""
+        """Wait for its end for at most this time, [s]."""
         with self._lock:
             if self._is_over:
                 return
@@ -73,7 +73,7 @@ class Copy:
                 os.kill(self.pid, number)
 
     def end(self) -> None:
-        """Kill it, wait for its end, and let go of it."""
+        """Kill it, wait for its end, and release it."""
         self.signal(signal.SIGKILL)
         self.join(GOODBYE_SECONDS)
         self._lifeline.close()
@@ -88,7 +88,7 @@ class _Original:
         self._lock = threading.Lock()
 
     def begin(self) -> bool:
-        """Start it where there is none, and say whether that was done."""
+        """Start it unless there is one, and return whether it was started."""
         with self._lock:
             if self._process is not None and self._process.poll() is not None:
                 self.end()
@@ -138,10 +138,10 @@ def begin() -> bool:
 
 
 def warm_up() -> socket.socket:
-    """Have it load what takes long, when it has made the copies that it was asked for before.
+    """Have it load what takes long, after it has made the copies requested before.
 
     Returns:
-        What becomes readable when that is over.
+        A descriptor that becomes readable when that is done.
 
     Raises:
         OSError: It is gone.
@@ -153,20 +153,20 @@ def warm_up() -> socket.socket:
 
 
 def load_seldom_needed() -> None:
-    """Have it load what few requests need, so that the copies that it makes from then on share that; do not wait."""
+    """Have it load what few requests need, so that later copies share it; do not wait."""
     with contextlib.suppress(OSError):
         _original.ask(LOAD)
 
 
 def reach_by(control: int) -> None:
-    """Say, in the process that is copied, how its copies reach it."""
+    """Set, in the process that is copied, how its copies reach it."""
     _original.inherit(control)
 
 
 def started(target: Callable[[Connection], object], name: str) -> tuple[Copy, Connection]:
     """A new process that runs a function with its end of a pipe, and our end.
 
-    It takes no notice of SIGINT and SIGTERM: the service ends first, and its processes with it, whatever they are at.
+    It ignores SIGINT and SIGTERM: the service ends first, and its processes with it, whatever they are doing.
 
     Args:
         target: One that can be pickled.

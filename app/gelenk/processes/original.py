@@ -1,12 +1,12 @@
 """The process that others are copies of: it loads everything once, copies itself when asked, and does nothing else.
 
-It is asked over a socket that whoever started it has, and each of its copies. A request brings two sockets: the way to
-the copy, and its lifeline, on which the copy's number comes first and its exit code last. Whoever asked holds the other
-end of that; when it is closed, because they are gone for example, the copy is killed. The process itself ends when its
-standard input does, which the one who started it holds, and its copies end with it.
+Requests come over a socket that its parent and each of its copies hold. A request brings two sockets: the connection to
+the copy, and its lifeline, which first carries the copy's process id and at last its exit code. The requester holds the
+other end of the lifeline; when that is closed, for example because the requester is gone, the copy is killed. The
+process itself ends when its parent closes its standard input, and its copies end with it.
 
-Copies that are requested before the warm-up are made before it: it may take a minute. What is seldom
-needed it loads when a copy has needed some of it, so that the copies that it makes from then on share that.
+Copies requested before the warm-up are made before it, because it may take a minute. Modules that are seldom needed are
+loaded once a copy has needed one, so that later copies share them.
 """
 
 import contextlib
@@ -29,8 +29,8 @@ from gelenk.processes.pages import release_code
 LOADED = "gelenk.preload"
 """What is imported first.
 
-Its function `warm_up` computes one of everything, `is_compiled` tells whether another process could compile nothing for
-it, and `load` imports. `basics` computes what most requests need, and each of `PARTS` a share of the rest.
+Its function `warm_up` computes one of everything, `is_compiled` says whether nothing is left for other processes to
+compile, and `load` imports. `basics` computes what most requests need, and each of `PARTS` a share of the rest.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
 """Modules that only pictures and worked solutions need: they take 50 MB, and half a second when first needed."""
@@ -43,7 +43,7 @@ logger = logging.getLogger("gelenk")
 
 
 def main(control: int) -> None:
-    """Load everything, then do what is asked until the end.
+    """Load everything, then serve requests until the end.
 
     Args:
         control: File descriptor of the socket on which requests come.
@@ -73,7 +73,7 @@ class Original:
         self._goes_on = True
 
     def run(self) -> None:
-        """Do what is asked until nobody is left to ask."""
+        """Serve requests until no requester is left."""
         self._wakes.setblocking(False)
         signal.set_wakeup_fd(self._wakes.fileno())
         signal.signal(signal.SIGCHLD, lambda *_: None)
@@ -102,7 +102,7 @@ class Original:
                 self._try(module, partial(self._loaded.load, module))
 
     def _get_warm(self, asker: socket.socket) -> None:
-        """Load what takes long; the end of its socket tells whoever asked that this is over."""
+        """Load what takes long; closing its socket tells the requester that this is done."""
         if not self._compilers and (self._loaded.is_compiled() or not self._compile_apart(self._loaded.basics)):
             self._try("the kernels", self._loaded.warm_up)
             release_code()
@@ -114,7 +114,7 @@ class Original:
         self._askers.append(asker)
 
     def _compile_apart(self, compute: Callable[[], None]) -> bool:
-        """Let a process of its own compile: the gigabyte that this takes is gone with it, here and in all copies."""
+        """Let a separate process compile: the gigabyte that this takes is freed with it, here and in all copies."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -168,7 +168,7 @@ class Original:
         self._tell(lifeline, pid)
 
     def _become(self, way: int, parent: int) -> NoReturn:
-        """Do what the other end of the way asks for, and end."""
+        """Do what the other end of the connection requests, and end."""
         code = 1
         try:
             _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -192,7 +192,7 @@ class Original:
             os._exit(code)
 
     def _forget(self) -> None:
-        """Let go, in a copy, of what the original alone needs."""
+        """Release, in a copy, what only the original needs."""
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         self._selector.close()
@@ -209,7 +209,7 @@ class Original:
             os.kill(pid, signal.SIGKILL)
 
     def _reap(self) -> None:
-        """Tell of the copies that have ended."""
+        """Report the copies that have ended."""
         self._woken.recv(4096)
         while self._lifelines or self._compilers:
             pid, status = os.waitpid(-1, os.WNOHANG)

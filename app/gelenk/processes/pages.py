@@ -10,9 +10,9 @@ _MAPPING = re.compile(r"([0-9a-f]+)-([0-9a-f]+) (r-[x-]p) \S+ \S+ \S+ +/")
 
 
 def release_code() -> None:
-    """Give back the code of libraries, 80 MB of which only loading the kernels has needed; what is run is read again.
+    """Return the memory of library code, 80 MB of which only loading the kernels needed; code that runs is read again.
 
-    Only pages that are as in their file are given back, so nothing is lost; elsewhere than on Linux nothing happens.
+    Only pages equal to their file are returned, so nothing is lost. On other systems than Linux nothing happens.
     """
     try:
         mappings = Path("/proc/self/smaps").read_text()
@@ -24,7 +24,7 @@ def release_code() -> None:
 
 
 def _unchanged_code(mappings: str) -> Iterator[tuple[int, int]]:
-    """Addresses of what is mapped from files, cannot be written to and has no page that was changed before."""
+    """Address ranges mapped read-only from files that have no changed page."""
     found: tuple[int, int] | None = None
     for line in mappings.splitlines():
         if match := _MAPPING.match(line):

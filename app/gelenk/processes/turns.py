@@ -1,4 +1,4 @@
-"""Whose turn it is, where clients share a number of places: of processes, or of jobs that are done at a time."""
+"""Whose turn it is, where clients share a number of places: processes, or jobs that run at a time."""
 
 import time
 from collections import Counter, deque
@@ -9,15 +9,15 @@ from typing import Generic, TypeVar
 _Turn = TypeVar("_Turn")
 
 _PRESENT_SECONDS = 2.0
-"""A client counts as there for so long after it had its last turn."""
+"""A client counts as present for so long after its last turn."""
 
 
 class Turns(Generic[_Turn]):
     """A queue for each client, and how many places each one holds.
 
-    Turns go round the clients: between two turns of one each other that waits has one. A client alone has all places;
-    beside others it takes more than half of them only where one is left for these. Who has none gets a place beyond
-    their number where all are taken, up to half as many more: what is begun is not broken off for others.
+    Turns go round the clients: between two turns of one client each other waiting client has one. A single client has
+    all places; beside others it takes more than half of them only if one is left for these. If all places are taken, a
+    client that has none gets an extra one, up to half as many more: running work is not interrupted for others.
 
     Args:
         size: How many places there are.
@@ -41,7 +41,7 @@ class Turns(Generic[_Turn]):
         self._seen[client] = time.monotonic()
 
     def remove(self, client: str, turn: _Turn) -> bool:
-        """Wait no longer; False where it did not."""
+        """Stop waiting; False if it did not wait."""
         queue = self._queues.get(client)
         if queue is None or turn not in queue:
             return False
@@ -51,7 +51,7 @@ class Turns(Generic[_Turn]):
         return True
 
     def take(self) -> tuple[str, _Turn] | None:
-        """What is to have a place now, and whose it is; None where nothing may."""
+        """The next item to get a place, and its client; None if none may."""
         client = next(filter(self.has_room, self._queues), None)
         if client is None:
             return None

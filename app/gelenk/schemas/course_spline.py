@@ -22,7 +22,8 @@ class SplineRequest(SampledRequest):
     boundary: Boundary = Field(
         default="clamped",
         description="`clamped`: velocities given; `natural`: no acceleration; `not_a_knot`: the jerk goes on across "
-        "the second and the last but one knot; `periodic`: velocity and acceleration continue from the end to the start; "
+        "the second and the last but one knot; `periodic`: velocity and acceleration continue from the end to the "
+        "start; "
         "`assigned`: velocities and accelerations given, by two fictitious knots.",
     )
     start_velocity: Coordinates | None = Field(

@@ -159,8 +159,8 @@ class LineSegment(SegmentOptions):
     orientation: OrientationLaw = Field(
         default="axis_angle",
         description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
-        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target. Of lines that "
-        "are blended all turn about axes, or all by angles.",
+        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target. Blended "
+        "lines all turn about axes, or all by angles.",
     )
 
 

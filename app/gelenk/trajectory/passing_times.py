@@ -64,7 +64,7 @@ def _refuse_going_back(law: PiecewisePolynomial) -> None:
     if (least < -_ROUNDING * rates.max()).any():
         i = int(least.argmin())
         reason = (
-            f"the tip would have to go backwards along its path between {law.breaks[i]:.6g} and {law.breaks[i + 1]:.6g} s: "
-            "space the times more evenly over the length of the path"
+            f"the tip would have to go backwards along its path between {law.breaks[i]:.6g} and "
+            f"{law.breaks[i + 1]:.6g} s: space the times more evenly over the length of the path"
         )
         raise InvalidField("times", reason)

@@ -26,8 +26,8 @@ _BOUNDARIES: dict[Boundary, tuple[str, tuple[str, ...]]] = {
     ),
     "not_a_knot": (
         (
-            "The jerk is continuous across the second and the last but one knot. The row of that knot eliminates the third "
-            "unknown."
+            "The jerk is continuous across the second and the last but one knot. The row of that knot eliminates the "
+            "third unknown."
         ),
         (
             (
@@ -64,7 +64,9 @@ def spline_steps(spline: Spline, boundary: Boundary) -> tuple[Step, ...]:
         ),
         Step(
             "Rows of A(h) v = b",
-            f"The acceleration is continuous across each inner knot, {inner} in all." if inner else "There is no inner knot.",
+            f"The acceleration is continuous at each inner knot, {inner} in all."
+            if inner
+            else "There is no inner knot.",
             (
                 (
                     r"h_{k+1} v_k + 2 (h_k + h_{k+1}) v_{k+1} + h_k v_{k+2} = \frac{3}{h_k h_{k+1}} "

@@ -1,4 +1,4 @@
-"""Where every request comes in and every answer goes out."""
+"""What every request and every answer passes through."""
 
 import asyncio
 import time
@@ -17,7 +17,7 @@ from gelenk.api.tally import TALLY
 from gelenk.logs import REQUEST_ID
 
 Check: TypeAlias = Callable[[Exchange], Response | None]
-"""Looks at a request; what it returns is the answer, and None lets the request pass."""
+"""Checks a request; returns the refusal, or None to let the request pass."""
 
 
 class Door:

@@ -22,12 +22,12 @@ class Exchange:
 
     Attributes:
         scope: As the server has it.
-        operation: What is asked for.
+        operation: The requested operation.
         robot: The robot that the path names.
         headers: Of the request; of a repeated one the last.
-        request_id: The caller's own where it has sent a good one, else a new one.
+        request_id: The caller's own if it is valid, else a new one.
         started: On the monotonic clock, [s].
-        key: Name of the key it was let in with; "" where there was none.
+        key: Name of the key that allowed it; "" without a key.
         answer_headers: What its answer carries beside the headers that all have.
         status: Of the answer; 0 until there is one.
         was_let_in: Whether it has passed all checks.
@@ -66,7 +66,7 @@ class Exchange:
 
     @property
     def is_audited(self) -> bool:
-        """Whether it writes, by someone who was let in or whose key is known."""
+        """Whether it writes, and was allowed or has a known key."""
         return self.operation.scope is Scope.WRITE and (self.was_let_in or self.key != "")
 
     @property

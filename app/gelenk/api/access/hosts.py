@@ -24,7 +24,7 @@ _MOST_REMEMBERED = 64
 
 
 def repeated(exchange: Exchange) -> Response | None:
-    """Refuses requests that say twice what counts once: whoever passed them on may have looked at the other one."""
+    """Refuses requests with duplicates of single-valued fields: a proxy may have acted on the other one."""
     names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
     if len(names) == len(set(names)):
         return None

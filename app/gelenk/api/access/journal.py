@@ -16,7 +16,7 @@ from gelenk.store import folders
 _LONGEST_PATH = 256
 _BUSY = 503
 _LEFT = 499
-"""Stands in the log for the status of an answer that nobody waited for."""
+"""Logged as the status of an answer whose client had left."""
 
 _MOST_CLIENTS = 8
 """Addresses that such a line names."""
@@ -26,9 +26,9 @@ logger = logging.getLogger("gelenk")
 
 
 def log_request(exchange: Exchange) -> None:
-    """Log a request that is over: what went wrong in the service as an error, who was not let in as a warning.
+    """Log a request that is over: failures of the service as errors, refused access as a warning.
 
-    All else is information, also that the service was busy, which it would say often: the metrics count that.
+    Everything else is information, also a busy service: that would be logged often, and the metrics count it.
     """
     if exchange.status >= 500 and exchange.status != _BUSY:
         level = logging.ERROR
@@ -54,8 +54,8 @@ def _facts(exchange: Exchange) -> dict[str, Any]:
 class Audit:
     """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
 
-    A line is on disk before the write is acknowledged. Who was not let in has written nothing: what keys may not do is
-    summed up, and requests without a valid key appear in the log alone, so that no one can flood this file.
+    A line is on disk before the write is acknowledged. A refused request has written nothing: refusals of
+    valid keys are summed up, and requests without a valid key appear only in the log, so no one can flood this file.
 
     Args:
         folder: Where it is kept; made when first written to.
@@ -149,7 +149,7 @@ class _Refusals:
             self.clients.add(facts["client"])
 
     def summed(self) -> dict[str, Any]:
-        """What a line says of all of them; counting begins anew."""
+        """The line that sums them up; counting restarts."""
         entry = self.last | {"refused": self.count, "since": moment(self.since), "clients": sorted(self.clients)}
         self.count, self.clients = 0, set()
         return entry

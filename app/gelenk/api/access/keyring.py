@@ -1,7 +1,7 @@
 """The keys of the service: made at random, kept as salted hashes, read from a file or from the environment.
 
-A key is 32 random bytes behind the name it was given, `gelenk.anna.…`. Nobody guesses 256 bits, so that a slow hash
-would protect nothing and only cost each request; BLAKE2b under a salt gives away no key either, and takes half a
+A key is 32 random bytes behind the name it was given, `gelenk.anna.…`. 256 bits cannot be guessed, so a slow hash
+would protect nothing and cost time in each request; BLAKE2b under a salt gives away no key either, and takes half a
 microsecond.
 """
 
@@ -31,7 +31,7 @@ logger = logging.getLogger("gelenk")
 
 
 class InvalidKeys(Exception):
-    """Keys that cannot be taken, and why."""
+    """Keys that cannot be accepted, and why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +39,8 @@ class Key:
     """What is kept of a key.
 
     Attributes:
-        name: Whose it is; logs name it.
-        scopes: What it is good for.
+        name: The owner's name; logs show it.
+        scopes: What it permits.
         salt: 16 random bytes.
         digest: BLAKE2b of the key under the salt, 32 bytes.
     """
@@ -120,7 +120,7 @@ class Keyring:
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time to look at the file again; true once a second at most."""
+        """Whether it is time to check the file again; true once a second at most."""
         now = time.monotonic()
         if self._file is None or now < self._looked + _LOOK_SECONDS:
             return False
@@ -129,7 +129,7 @@ class Keyring:
 
     @property
     def is_overdue(self) -> bool:
-        """Whether nobody has looked at the file for so long that a key may have been taken away since."""
+        """Whether the file was last checked so long ago that a key may have been removed since."""
         return self._file is not None and time.monotonic() > self._looked + 2.0 * _LOOK_SECONDS
 
     def refresh(self) -> None:

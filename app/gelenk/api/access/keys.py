@@ -11,7 +11,7 @@ from gelenk.api.access.scopes import Scope
 from gelenk.api.problems import problem
 
 _PATIENCE = 0.5
-"""How long a request may wait until the keys are looked at, [s]."""
+"""How long a request may wait until the keys are checked, [s]."""
 _REALM = 'Bearer realm="gelenk"'
 
 

@@ -1,8 +1,8 @@
 """What the service does, as numbers for Prometheus: by operation and robot, over all of its processes.
 
 Where several processes serve, each keeps its numbers in a file of a folder that all share (prometheus_client's mode for
-several processes, switched on by the variable PROMETHEUS_MULTIPROC_DIR before it is imported), and whichever is asked
-adds them up. Robots have labels of their own up to a number: names come from outside.
+several processes, switched on by the variable PROMETHEUS_MULTIPROC_DIR before it is imported), and the one that is
+scraped adds them up. Robots have labels of their own up to a number: names come from outside.
 """
 
 import asyncio
@@ -107,7 +107,7 @@ class Metrics:
             self._bound(self._iterations, robot).inc(tally.iterations)
 
     def publish(self) -> None:
-        """Tell how much is over, and how much under way, in this process."""
+        """Report how many requests of this process are finished and in progress."""
         self._settle()
         self._open.set(self._in_flight)
         self._resident.set(_resident_bytes())
@@ -125,7 +125,7 @@ class Metrics:
 
     @contextlib.asynccontextmanager
     async def publishing(self) -> AsyncIterator[None]:
-        """Tell it every second: another process may be asked."""
+        """Report it every second: another process may be scraped."""
 
         async def go_on() -> None:
             while True:

@@ -1,6 +1,6 @@
 """Which operation needs which scope: the one place that says so.
 
-No scope includes another one: what scrapes the metrics needs `admin` and can neither ask nor change anything.
+No scope includes another one: a key for the metrics needs `admin`, and can neither compute nor change anything.
 """
 
 from enum import StrEnum
@@ -8,7 +8,7 @@ from typing import Any
 
 
 class Scope(StrEnum):
-    """What a key is good for."""
+    """What a key permits."""
 
     READ = "read"
     WRITE = "write"

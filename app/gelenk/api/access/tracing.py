@@ -1,6 +1,6 @@
 """Optional OpenTelemetry: FastAPI's own spans, each with the id of its request.
 
-Nothing but the few names here is imported before a trace is wanted; the exporter is an extra of its own.
+Nothing but the few names here is imported before tracing is switched on; the exporter is an extra of its own.
 """
 
 from collections.abc import Mapping
