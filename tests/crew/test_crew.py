@@ -71,11 +71,12 @@ def test_processes_have_everything_loaded_and_stay() -> None:
 
 @pytest.mark.slow
 def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
-    """It is loaded when nobody has asked for a process for a while, not while the service begins."""
+    """All of it, once a call has loaded some of it; not while the service starts."""
 
     async def test(crew: Crew) -> None:
+        await crew.run(calls.load, "sympy", LONG)
         async with asyncio.timeout(LONG):
-            while not await crew.run(calls.loaded_modules, None, LONG) >= {"sympy", "matplotlib"}:
+            while not await crew.run(calls.loaded_modules, None, LONG) >= {"sympy", "matplotlib.figure"}:
                 await asyncio.sleep(3.0)
                 with pytest.raises(WorkerCrashed):
                     await crew.run(calls.die, signal.SIGKILL, LONG)
@@ -84,12 +85,13 @@ def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
 
 
 @pytest.mark.slow
-def test_processes_of_the_start_make_room_for_those_that_have_everything() -> None:
-    """Half a minute later; in a service of its own, whose processes are not copies of one that is long there."""
+def test_a_process_that_loaded_modules_of_its_own_makes_room_for_one_that_shares_them() -> None:
+    """Some seconds later; in a service of its own, whose original has not loaded them yet."""
     program = (
         "import asyncio; from gelenk.crew.crew import Crew; from tests.crew import calls\n"
         "async def run():\n"
         "    crew = Crew(1, 1, 10**9)\n"
+        "    await crew.run(calls.load, 'sympy', 60.0)\n"
         "    for seconds in (0.0, 25.0):\n"
         "        await asyncio.sleep(seconds)\n"
         "        print(await crew.run(calls.own_pid, None, 60.0), await crew.run(calls.loaded_modules, None, 60.0))\n"
@@ -99,8 +101,9 @@ def test_processes_of_the_start_make_room_for_those_that_have_everything() -> No
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=True)
     first, later = (line.split(maxsplit=1) for line in done.stdout.splitlines())
     assert first[0] == later[0], "its last call is the one after which it makes room"
-    assert "sympy" not in first[1]
-    assert "sympy" in later[1]
+    assert "sympy" in first[1]
+    assert "matplotlib.figure" not in first[1]
+    assert "matplotlib.figure" in later[1]
 
 
 @pytest.mark.slow
