@@ -18,6 +18,7 @@ ROWS = [
     {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0},
     {"type": "revolute", "a": 0.7, "alpha": 0.0, "d": 0.0, "theta": 0.0},
 ]
+LIFT = np.array([[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0.05], [0, 0, 0, 0]])
 Q = [[0.2, -1.3, 1.1, 0.4, 0.9, -0.5], [0.0, -1.5, 1.5, 0.1, 0.2, 0.3]]
 
 
@@ -50,6 +51,23 @@ def test_every_solution_is_that_of_the_service(client: Client, ur5: gelenk.Robot
     qs = [solution.joint_positions for result in answer.results for solution in result.solutions]
     assert found.qs == pytest.approx(np.array(qs), abs=1e-9)
     assert found.firsts[1] == len(answer.results[0].solutions) > 1
+
+
+def test_a_motion_is_that_of_the_service(client: Client, ur5: gelenk.Robot) -> None:
+    (T,) = ur5.fk(Q[1]).poses.matrices()
+    segments: list[dict[str, Any]] = [
+        {"type": "joint", "target": Q[1]},
+        {"type": "line", "target": {"matrix": T + LIFT}},
+    ]
+    found = ur5.trajectory(np.array(Q[0]), segments, law="quintic")
+    answer = client.trajectory("ur5", start=Q[0], segments=segments, law="quintic", sample_period=0.05)
+    assert found.motion.duration == pytest.approx(answer.duration)
+    assert found.motion.at(np.array(answer.times)) == pytest.approx(np.array(answer.joint_positions), abs=1e-9)
+    assert found.motion.rates_at(np.array(answer.times))[1] == pytest.approx(
+        np.array(answer.joint_velocities), abs=1e-9
+    )
+    assert found.completed_fraction == answer.completed_fraction == 1.0
+    assert found.audit.passed
 
 
 def test_targets_and_configurations_come_in_every_form(ur5: gelenk.Robot) -> None:
@@ -96,6 +114,9 @@ def test_a_description_is_a_text_a_file_or_a_table(tmp_path: Path, client: Clien
         (lambda ur5: ur5.ik(np.eye(3)), errors.InvalidArray, r"\(3, 3\)"),
         (lambda ur5: ur5.ik(np.eye(4), solution="all"), errors.InvalidField, "'solution'.*known are.* solutions"),
         (lambda ur5: ur5.ik(np.eye(4), solutions="some"), errors.InvalidField, "'one' or 'all'"),
+        (lambda ur5: ur5.trajectory(Q[0], [{"type": "leap"}]), errors.InvalidField, "segments.*joint, line"),
+        (lambda ur5: ur5.trajectory(Q[0][:5], []), errors.InvalidField, "segments"),
+        (lambda ur5: ur5.trajectory([9.0] * 6, [{"type": "joint", "target": Q[0]}]), errors.OutsideLimits, "limit"),
     ],
 )
 def test_a_refusal_names_what_is_wrong(

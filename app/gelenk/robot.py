@@ -18,6 +18,7 @@ from typing import Any, Self, TypeAlias, TypeVar, cast
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
+from gelenk.api import trajectory_request
 from gelenk.api.inverse_request import Bounds, asked, options_of
 from gelenk.kinematics.configuration import configurations
 from gelenk.kinematics.forward import ForwardKinematics, forward_kinematics
@@ -37,7 +38,10 @@ from gelenk.places import catalogue
 from gelenk.schemas.common import as_lists
 from gelenk.schemas.dh import DhTablePayload
 from gelenk.schemas.ik import InverseRequest
+from gelenk.schemas.trajectory import TrajectoryRequest
 from gelenk.store.records import describe, load, read_record
+from gelenk.trajectory.plan import plan
+from gelenk.trajectory.problem import Trajectory
 
 Configurations: TypeAlias = Configuration | Sequence[Configuration] | Array
 _Payload = TypeVar("_Payload", bound=BaseModel)
@@ -217,6 +221,25 @@ class Robot:
         call = call.model_copy(update=fields)  # arrays do not go number by number through pydantic
         chain, poses, seeds = asked(self.core, call, _UNBOUNDED)
         return inverse_kinematics(self.core, chain, poses, seeds, options_of(chain, call, call.time_limit))
+
+    def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:
+        """A motion from rest to rest: its polynomials as `motion`, and the `audit` that it passed.
+
+        `motion.at(times)` are positions at times of shape (N,) up to `motion.duration`; `motion.rates_at(times)` are
+        positions, velocities and accelerations; each of shape (N, n).
+
+        Args:
+            start: The configuration that it starts from.
+            segments: Those of the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target": pose}`.
+            options: Those of the API that choose the motion, such as `law`, `limits`, `duration`, `near_singularity`.
+
+        Raises:
+            InvalidField: A segment or an option is unknown or contradicts another one, or its duration is too short.
+            OutsideLimits: The start is beyond a joint's limits.
+            AuditFailed: The motion does not pass its audit.
+        """
+        call = _checked(TrajectoryRequest, {**self._ends(), "start": start, "segments": segments, **options})
+        return plan(self.core, self.chain, trajectory_request.asked(self.core, self.chain, call).problem)
 
     def _ends(self) -> dict[str, str]:
         return {"base_frame": self.chain.base_frame, "tip_frame": self.chain.tip_frame}
