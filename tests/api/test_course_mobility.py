@@ -142,7 +142,7 @@ PAIR = {"link_a": "frame", "link_b": "crank", "type": "revolute"}
 NODE = {"links": ["frame", "crank", "rod"]}
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "nothing": ({}, "#/space", "`space` is missing"),
-    "robot and mechanism": ({**RR, "robot": "panda"}, "#/space", "`robot` stands alone"),
+    "robot and mechanism": ({**RR, "robot": "panda"}, "#/space", "`robot` alone"),
     "no pairs": ({"space": "planar", "links": 4}, "#/pairs", "`pairs` is missing"),
     "no space": ({"links": 4, "pairs": {}}, "#/space", "`space` is missing"),
     "another space": ({**RR, "space": "flat"}, "#/space", "'planar' or 'spatial'"),
@@ -250,12 +250,12 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "an output of a robot": (
         {"robot": "panda", "output": "panda_hand"},
         "#/output",
-        "`robot` stands alone, without `output`",
+        "`robot` is given alone, without `output`",
     ),
     "a tolerance of a robot": (
         {"robot": "ur5", "rank_tolerance": 1e-6},
         "#/rank_tolerance",
-        "`robot` stands alone, without `rank_tolerance`",
+        "`robot` is given alone, without `rank_tolerance`",
     ),
     "a tolerance without geometry": ({**RR, "rank_tolerance": 1e-6}, "#/rank_tolerance", "needs pairs that say where"),
     "a kind counted twice": (
