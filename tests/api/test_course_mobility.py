@@ -142,7 +142,7 @@ PAIR = {"link_a": "frame", "link_b": "crank", "type": "revolute"}
 NODE = {"links": ["frame", "crank", "rod"]}
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "nothing": ({}, "#/space", "`space` is missing"),
-    "robot and mechanism": ({**RR, "robot": "panda"}, "#/space", "`robot` alone"),
+    "robot and mechanism": ({**RR, "robot": "panda"}, "#/space", "`robot` is given alone"),
     "no pairs": ({"space": "planar", "links": 4}, "#/pairs", "`pairs` is missing"),
     "no space": ({"links": 4, "pairs": {}}, "#/space", "`space` is missing"),
     "another space": ({**RR, "space": "flat"}, "#/space", "'planar' or 'spatial'"),
