@@ -55,7 +55,7 @@ def test_every_solution_is_that_of_the_service(client: Client, ur5: gelenk.Robot
 
 def test_a_motion_is_that_of_the_service(client: Client, ur5: gelenk.Robot) -> None:
     (T,) = ur5.fk(Q[1]).poses.matrices()
-    segments: list[dict[str, Any]] = [
+    segments: Any = [
         {"type": "joint", "target": Q[1]},
         {"type": "line", "target": {"matrix": T + LIFT}},
     ]

@@ -17,7 +17,7 @@ def test_a_change_starts_it_again_and_a_mistake_does_not_end_it(tmp_path: Path) 
     package, port = tmp_path / "gelenk", free_port()
     shutil.copytree("app/gelenk", package, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree("robots", package / "robots")
-    file = package / "schemas" / "health.py"
+    file = package / "contract" / "health.py"
     right = file.read_text()
     environment = {**os.environ, "PYTHONPATH": str(tmp_path), "GELENK_DATA_DIR": str(tmp_path / "data")}
     command = [sys.executable, "-m", "gelenk.serve", "--port", str(port), "--reload"]

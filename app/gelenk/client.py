@@ -30,8 +30,8 @@ from gelenk.calls.jobs import AsyncJobs, Jobs
 from gelenk.calls.operations import Operations
 from gelenk.calls.patience import AT_ONCE, TIMEOUT, Patience
 from gelenk.calls.reading import answer
+from gelenk.contract.jobs import JobInfo
 from gelenk.model.errors import InvalidField, quoted
-from gelenk.schemas.jobs import JobInfo
 
 T = TypeVar("T")
 

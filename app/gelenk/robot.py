@@ -20,6 +20,10 @@ from pydantic import BaseModel, ValidationError
 
 from gelenk.api import trajectory_request
 from gelenk.api.inverse_request import Bounds, asked, options_of
+from gelenk.contract.common import as_lists
+from gelenk.contract.dh import DhTablePayload
+from gelenk.contract.ik import InverseRequest
+from gelenk.contract.trajectory import TrajectoryRequest
 from gelenk.kinematics.configuration import configurations
 from gelenk.kinematics.forward import ForwardKinematics, forward_kinematics
 from gelenk.kinematics.ik.result import InverseKinematics
@@ -35,10 +39,6 @@ from gelenk.model.dh import Convention
 from gelenk.model.errors import InvalidField, UnknownRobot, counted
 from gelenk.model.urdf import read_urdf
 from gelenk.places import catalogue
-from gelenk.schemas.common import as_lists
-from gelenk.schemas.dh import DhTablePayload
-from gelenk.schemas.ik import InverseRequest
-from gelenk.schemas.trajectory import TrajectoryRequest
 from gelenk.store.records import describe, load, read_record
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem import Trajectory

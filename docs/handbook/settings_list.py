@@ -8,8 +8,8 @@ from dataclasses import MISSING, fields
 from docs.handbook.schema_words import anchor, defined
 from gelenk.api import remote
 from gelenk.api.access import keyring
+from gelenk.contract import ik
 from gelenk.model import dh, tree, urdf, xml
-from gelenk.schemas import ik
 from gelenk.settings import Settings
 from gelenk.store import archive
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.common import Answer
-from gelenk.schemas.course_components import (
+from gelenk.contract.common import Answer
+from gelenk.contract.course_components import (
     EXAMPLE_GEAR,
     EXAMPLE_MOTOR,
     EXAMPLE_PWM,
@@ -18,7 +18,7 @@ from gelenk.schemas.course_components import (
     GearAnswer,
     PwmAnswer,
 )
-from gelenk.schemas.course_encoder import EXAMPLE_ENCODER, EncoderAnswer
+from gelenk.contract.course_encoder import EXAMPLE_ENCODER, EncoderAnswer
 
 ANSWERS: dict[str, type[Answer]] = {
     "dc-motor": DcMotorAnswer,

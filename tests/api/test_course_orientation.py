@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from gelenk.schemas.course_orientation import OrientationAnswer
-from gelenk.schemas.pose import ORIENTATIONS
+from gelenk.contract.course_orientation import OrientationAnswer
+from gelenk.contract.pose import ORIENTATIONS
 
 PATH = "/v1/course/orientation"
 PRINTED = 5e-13

@@ -11,11 +11,11 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.api import derive
+from gelenk.contract.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
+from gelenk.contract.lagrangian import EXAMPLE_MOTION
 from gelenk.kinematics.derive.check import Checks
 from gelenk.main import create_app
 from gelenk.model.errors import CertificationFailed
-from gelenk.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
-from gelenk.schemas.lagrangian import EXAMPLE_MOTION
 from gelenk.settings import Settings
 from tests.oracles import catalogue, dh_columns, expressions
 from tests.robots import swept

@@ -12,9 +12,8 @@ import pytest
 import yourdfpy
 from starlette.testclient import TestClient
 
-from gelenk.model.arrays import Array
-from gelenk.schemas.common import Answer
-from gelenk.schemas.dh import (
+from gelenk.contract.common import Answer
+from gelenk.contract.dh import (
     EXAMPLE_TABLE,
     EXAMPLE_URDF,
     ConvertAnswer,
@@ -23,6 +22,7 @@ from gelenk.schemas.dh import (
     ToUrdfAnswer,
     table_content,
 )
+from gelenk.model.arrays import Array
 from tests.corpus.dh import REFUSED_DH, TABLE, RefusedDh
 from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid
 from tests.model.test_convert import random_table

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.dynamics import DynamicsAnswer
+from gelenk.contract.dynamics import DynamicsAnswer
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 MOVING = {"joint_positions": [READY], "joint_velocities": [[0.1, -0.2, 0.3, -0.4, 0.5, -0.6, 0.7]]}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.ik import InverseAnswer
+from gelenk.contract.ik import InverseAnswer
 from tests.api.test_inverse import ik, refused
 from tests.api.test_kinematics import NPY, fk, npy
 from tests.robots import robot

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.pose import ORIENTATIONS
 from gelenk.kinematics import configuration
 from gelenk.kinematics.ik import branch_kernels, branches, judge, kernels, task
 from gelenk.kinematics.ik.closed_form import closed_form
 from gelenk.main import create_app
-from gelenk.schemas.ik import InverseAnswer
-from gelenk.schemas.pose import ORIENTATIONS
 from gelenk.settings import Settings
 from tests.api.test_kinematics import NPY, Array, fk, npy
 from tests.robots import robot

@@ -9,9 +9,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
+from gelenk.contract.kinematics import ForwardAnswer, JacobianAnswer
+from gelenk.contract.pose import ORIENTATIONS, Pose
 from gelenk.kinematics import configuration, kernels
-from gelenk.schemas.kinematics import ForwardAnswer, JacobianAnswer
-from gelenk.schemas.pose import ORIENTATIONS, Pose
 
 Array = npt.NDArray[np.float64]
 NPY = "application/x-npy"

@@ -10,7 +10,7 @@ from scipy.linalg import null_space
 from starlette.testclient import TestClient
 
 from gelenk.api.payloads import JSON, NPY, PNG, SVG, preferred_type
-from gelenk.schemas.manipulability import MAX_DETAILED, ManipulabilityAnswer
+from gelenk.contract.manipulability import MAX_DETAILED, ManipulabilityAnswer
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 PATH = "/v1/robots/{}/manipulability"

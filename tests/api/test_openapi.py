@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.kinematics import MAX_CONFIGURATIONS
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS
 from tests.corpus import npy
 from tests.openapi import document
 

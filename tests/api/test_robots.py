@@ -12,8 +12,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk import prune
+from gelenk.contract.robots import EXAMPLE_DH, RobotInfo, RobotList
 from gelenk.crew.crew import Crew
-from gelenk.schemas.robots import EXAMPLE_DH, RobotInfo, RobotList
 from tests.api.conftest import ready_client
 from tests.corpus.zips import URDF, zipped
 

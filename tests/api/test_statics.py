@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.statics import StaticsAnswer
+from gelenk.contract.statics import StaticsAnswer
 
 READY = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]
 PLANAR = {"joint_positions": [[0.3, 0.8]], "task": ["x", "y"]}

@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from gelenk.schemas.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from tests.oracles.catalogue import NAMES
 from tests.robots import robot as robot_of
 

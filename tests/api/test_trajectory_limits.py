@@ -8,8 +8,8 @@ import pytest
 
 from gelenk.api.trajectory_limits import Bounds, Layer, bounds_of, limit_notes, own_velocities
 from gelenk.api.trajectory_samples import check_samples, sample_count, sample_times
+from gelenk.contract.trajectory import MotionOptions
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.trajectory import MotionOptions
 from tests.oracles import catalogue
 from tests.robots import robot, swept
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.schemas.velocity import VelocityAnswer
+from gelenk.contract.velocity import VelocityAnswer
 
 Array = npt.NDArray[np.float64]
 NPY = "application/x-npy"

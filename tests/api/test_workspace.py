@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.contract.workspace import WorkspaceAnswer
 from gelenk.jobs.workspace_picture import captions
 from gelenk.main import create_app
 from gelenk.model.arrays import Array
-from gelenk.schemas.workspace import WorkspaceAnswer
 from gelenk.settings import Settings
 from tests.oracles import wrist_shell
 from tests.test_faults import wait_for

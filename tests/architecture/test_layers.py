@@ -50,7 +50,7 @@ OF_THE_SERVER = (
     "uvicorn",
     "gelenk.settings",
     "gelenk.api",
-    "gelenk.schemas",
+    "gelenk.contract",
     "gelenk.store",
 )
 

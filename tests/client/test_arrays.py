@@ -13,13 +13,13 @@ from gelenk.calls.call import Reply
 from gelenk.calls.npy import packed, unpacked
 from gelenk.calls.operations import Operations
 from gelenk.client import Client
+from gelenk.contract.ik import InverseRequest
+from gelenk.contract.kinematics import ForwardAnswer, ForwardRequest
+from gelenk.contract.pose import Pose
+from gelenk.contract.statics import PayloadInfo, StaticsRequest
+from gelenk.contract.trajectory import JointSegment
+from gelenk.contract.velocity import NullSpace
 from gelenk.model.errors import InvalidArray, InvalidField
-from gelenk.schemas.ik import InverseRequest
-from gelenk.schemas.kinematics import ForwardAnswer, ForwardRequest
-from gelenk.schemas.pose import Pose
-from gelenk.schemas.statics import PayloadInfo, StaticsRequest
-from gelenk.schemas.trajectory import JointSegment
-from gelenk.schemas.velocity import NullSpace
 
 QS = np.array([[0.3, 0.8], [-0.2, 0.1]])
 

@@ -9,11 +9,11 @@ import pytest
 from gelenk.calls.jobs import AsyncJob, Job
 from gelenk.calls.refusals import Refused
 from gelenk.client import AsyncClient, Client
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.workspace import WorkspaceAnswer
 from gelenk.model import errors
 from gelenk.model.arrays import Array
-from gelenk.schemas.ik import InverseAnswer
-from gelenk.schemas.trajectory_answer import TrajectoryAnswer
-from gelenk.schemas.workspace import WorkspaceAnswer
 from tests.robots import robot, samples
 
 MOTION: dict[str, Any] = {"start": [0.3, 0.8], "segments": [{"type": "joint", "target": [0.5, 0.2]}]}

@@ -13,10 +13,10 @@ from gelenk.calls.arrays import ArrayOperations, Reached
 from gelenk.calls.call import Call, Sent
 from gelenk.calls.operations import Operations
 from gelenk.client import AsyncClient, Client
+from gelenk.contract.jobs import JobInfo
+from gelenk.contract.kinematics import ForwardAnswer
+from gelenk.contract.pose import Pose
 from gelenk.model.arrays import Array
-from gelenk.schemas.jobs import JobInfo
-from gelenk.schemas.kinematics import ForwardAnswer
-from gelenk.schemas.pose import Pose
 from tests.corpus import zips
 from tests.robots import robot, samples
 from tests.test_serve import get

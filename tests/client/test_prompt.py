@@ -8,8 +8,8 @@ import pytest
 
 from gelenk.calls.refusals import Refused
 from gelenk.client import AsyncClient, Client
+from gelenk.contract.pose import Pose
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.pose import Pose
 from tests.corpus import zips
 
 

@@ -16,8 +16,8 @@ from docs.handbook.problem_kinds import Kind, all_kinds
 from gelenk.api import problems
 from gelenk.calls.refusals import NotAnswering, Refused, refusal
 from gelenk.client import Client
+from gelenk.contract.jobs import JobInfo
 from gelenk.model import errors
-from gelenk.schemas.jobs import JobInfo
 from tests.model.test_errors import example
 from tests.test_serve import free_port
 

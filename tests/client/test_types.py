@@ -17,11 +17,11 @@ import numpy.typing as npt
 from gelenk.calls.arrays import Reached
 from gelenk.calls.jobs import Job
 from gelenk.client import AsyncClient, Client
-from gelenk.schemas.ik import InverseAnswer
-from gelenk.schemas.kinematics import ForwardAnswer
-from gelenk.schemas.pose import Pose
-from gelenk.schemas.statics import PayloadInfo
-from gelenk.schemas.trajectory import JointSegment
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.kinematics import ForwardAnswer
+from gelenk.contract.pose import Pose
+from gelenk.contract.statics import PayloadInfo
+from gelenk.contract.trajectory import JointSegment
 
 Array = npt.NDArray[np.float64]
 

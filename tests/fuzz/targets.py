@@ -14,6 +14,7 @@ import numpy as np
 from gelenk.api.npy import npy_response, read_npy
 from gelenk.api.payloads import read_json
 from gelenk.api.problems import InvalidPayload, status_of
+from gelenk.contract.robots import NewRobot
 from gelenk.kinematics.certify import certify_table
 from gelenk.kinematics.forward import forward_kinematics
 from gelenk.model.convert import describe_dh
@@ -21,7 +22,6 @@ from gelenk.model.description import Description
 from gelenk.model.errors import KinematicsError
 from gelenk.model.robot import Robot
 from gelenk.model.urdf import read_urdf, write_urdf
-from gelenk.schemas.robots import NewRobot
 from gelenk.store.archive import UnpackedRobot, unpacked
 from gelenk.store.folders import pieces
 from gelenk.store.meshes import KEPT_SUFFIXES

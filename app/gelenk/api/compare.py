@@ -8,6 +8,9 @@ from gelenk.api.dh import dh_route
 from gelenk.api.errand import RobotErrand
 from gelenk.api.remote import Remote, json_handler
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.compare import EXAMPLE_COMPARISON, CompareAnswer, CompareRequest
+from gelenk.contract.pose import PoseFormat
+from gelenk.contract.pose_arrays import pose_list
 from gelenk.kinematics.compare import Comparison, compare
 from gelenk.kinematics.comparison.alignment import Freedom
 from gelenk.kinematics.comparison.numbers import Difference
@@ -16,9 +19,6 @@ from gelenk.kinematics.comparison.trials import Diagnosis
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
-from gelenk.schemas.compare import EXAMPLE_COMPARISON, CompareAnswer, CompareRequest
-from gelenk.schemas.pose import PoseFormat
-from gelenk.schemas.pose_arrays import pose_list
 from gelenk.store.library import Library
 
 

@@ -11,7 +11,7 @@ from gelenk.api.openapi import json_example, picture_content, problem_responses
 from gelenk.api.payloads import JSON, PNG, SVG, json_response, read_json
 from gelenk.api.remote import Remote, json_handler
 from gelenk.api.routes import DocumentedRoute
-from gelenk.schemas.common import Payload
+from gelenk.contract.common import Payload
 
 TAG = "Course"
 

@@ -10,6 +10,17 @@ from gelenk.api.course_encoder import encoder_route
 from gelenk.api.course_planar import workspace_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_components import (
+    EXAMPLE_GEAR,
+    EXAMPLE_MOTOR,
+    EXAMPLE_PWM,
+    DcMotorAnswer,
+    DcMotorRequest,
+    GearAnswer,
+    GearRequest,
+    PwmAnswer,
+    PwmRequest,
+)
 from gelenk.course import pwm
 from gelenk.course.dc_motor import (
     Motor,
@@ -24,17 +35,6 @@ from gelenk.course.gear import Gear, Sides, back_driving_note, gear_steps, inert
 from gelenk.course.motor_response import step_response
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.course_components import (
-    EXAMPLE_GEAR,
-    EXAMPLE_MOTOR,
-    EXAMPLE_PWM,
-    DcMotorAnswer,
-    DcMotorRequest,
-    GearAnswer,
-    GearRequest,
-    PwmAnswer,
-    PwmRequest,
-)
 
 _SAMPLES = 101
 _QUICK_SAMPLES = 1000

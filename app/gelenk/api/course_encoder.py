@@ -6,11 +6,11 @@ from typing import Any
 from gelenk.api.course import course_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_encoder import EXAMPLE_ENCODER, EncoderAnswer, EncoderRequest
 from gelenk.course import gray, quadrature
 from gelenk.course.encoders import COUNTS_A_LINE, TURN, Scale, required, required_step, scale_steps
 from gelenk.course.steps import Step, tex
 from gelenk.model.errors import InvalidField, counted
-from gelenk.schemas.course_encoder import EXAMPLE_ENCODER, EncoderAnswer, EncoderRequest
 
 _FIELDS = {
     "incremental": ("pulses_per_revolution", "samples", "counter_bits", "decoding"),

@@ -8,9 +8,9 @@ import numpy as np
 from gelenk.api.course import Picture, course_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_fly_over import EXAMPLE_FLY_OVER, FlyOverAnswer, FlyOverRequest
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.course_fly_over import EXAMPLE_FLY_OVER, FlyOverAnswer, FlyOverRequest
 from gelenk.trajectory.blended_motion import BlendedMotion, rest_to_rest
 from gelenk.trajectory.fly_over import Blend, Given, blended, corner_of
 from gelenk.trajectory.fly_over_check import checked

@@ -7,6 +7,8 @@ from gelenk.api.course import course_route
 from gelenk.api.errand import RobotErrand
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_mobility import EXAMPLE_FOUR_BAR, MobilityRequest
+from gelenk.contract.course_mobility_answer import MobilityAnswer
 from gelenk.course.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
 from gelenk.course.mobility import KindCount, Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
 from gelenk.course.mobility_steps import steps
@@ -14,8 +16,6 @@ from gelenk.course.pairs import FREEDOMS
 from gelenk.course.screws import Posture, posture
 from gelenk.course.spaces import tasks
 from gelenk.model.chain import Chain
-from gelenk.schemas.course_mobility import EXAMPLE_FOUR_BAR, MobilityRequest
-from gelenk.schemas.course_mobility_answer import MobilityAnswer
 from gelenk.store.library import Library
 
 

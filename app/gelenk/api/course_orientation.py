@@ -8,12 +8,12 @@ import numpy as np
 from gelenk.api.course import course_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_orientation import EXAMPLE_ZYZ, OrientationAnswer, OrientationRequest
 from gelenk.course.composition import composed
 from gelenk.course.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
 from gelenk.course.rotations import DEGENERATE, Validation
 from gelenk.model.arrays import Array
 from gelenk.model.poses import ROTATION_TOLERANCE
-from gelenk.schemas.course_orientation import EXAMPLE_ZYZ, OrientationAnswer, OrientationRequest
 
 _INLINE_MOTIONS = 8
 

@@ -8,8 +8,8 @@ from typing import Any, Literal
 from gelenk.api.course import Picture, course_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer, PlanarWorkspaceRequest
 from gelenk.course import planar
-from gelenk.schemas.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer, PlanarWorkspaceRequest
 
 
 def workspace_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:

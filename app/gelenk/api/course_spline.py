@@ -17,8 +17,8 @@ from gelenk.api.course_trajectory import (
 )
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_spline import EXAMPLE_SPLINE, SplineAnswer, SplineRequest
 from gelenk.model.arrays import Array
-from gelenk.schemas.course_spline import EXAMPLE_SPLINE, SplineAnswer, SplineRequest
 from gelenk.trajectory.formulas import SHOWN_JOINTS
 from gelenk.trajectory.spline_steps import spline_steps
 from gelenk.trajectory.splines import Ends, Spline, cubic_spline

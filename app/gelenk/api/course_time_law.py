@@ -19,11 +19,11 @@ from gelenk.api.course_trajectory import (
 )
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS
+from gelenk.contract.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer, TimeLawRequest
 from gelenk.course.steps import Step
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField, counted
-from gelenk.schemas.course_motion import MAX_SAMPLED_NUMBERS
-from gelenk.schemas.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer, TimeLawRequest
 from gelenk.trajectory.formulas import SHOWN_JOINTS
 from gelenk.trajectory.parabolic_blends import Blends, with_accelerations, with_blend_times
 from gelenk.trajectory.splines import checked_times

@@ -17,9 +17,9 @@ from gelenk.api.course_trajectory import (
 )
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_time_scaling import EXAMPLE_TIME_SCALING, TimeScalingAnswer, TimeScalingRequest
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.course_time_scaling import EXAMPLE_TIME_SCALING, TimeScalingAnswer, TimeScalingRequest
 from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.splines import cubic_spline, through_samples
 from gelenk.trajectory.time_laws import between

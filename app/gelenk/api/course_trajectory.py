@@ -10,10 +10,10 @@ import numpy as np
 from gelenk.api.course import Picture, course_route
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
 from gelenk.course.steps import Step
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField, counted
-from gelenk.schemas.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
 from gelenk.trajectory.certify import Promise, certified
 from gelenk.trajectory.extremes import Peaks, peaks
 from gelenk.trajectory.polynomial import PiecewisePolynomial

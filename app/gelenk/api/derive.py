@@ -14,6 +14,7 @@ from gelenk.api.places import Places
 from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.remote import PARSED_HERE_BYTES, client_of, while_wanted
 from gelenk.api.routes import DocumentedRoute, in_thread
+from gelenk.contract.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
 from gelenk.crew.crew import Crew
 from gelenk.kinematics.derive.jacobian import ROW_NAMES
 from gelenk.kinematics.derive.numeric import NumericSolution
@@ -21,7 +22,6 @@ from gelenk.kinematics.derive.steps import which_block
 from gelenk.kinematics.derive.texts import ColumnText, ConditionText, Entry, Singularities, SolutionText
 from gelenk.kinematics.derive.worked import WorkedSolution, worked_solution
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
 
 SECONDS = 8.0
 """Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""

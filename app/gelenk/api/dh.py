@@ -13,16 +13,8 @@ from gelenk.api.openapi import RobotPath, json_example, problem_responses
 from gelenk.api.payloads import BoundedRequest, json_response, read_query
 from gelenk.api.remote import Remote, json_handler
 from gelenk.api.routes import DocumentedRoute, Handler
-from gelenk.kinematics.certify import certify_conversion, certify_table
-from gelenk.kinematics.dh_of_chain import dh_of_chain
-from gelenk.model.appearance import INVENTED_MASSES
-from gelenk.model.convert import BASE_FRAME, TOOL_FRAME, converted, describe_dh
-from gelenk.model.description import MOVABLE, Description
-from gelenk.model.errors import listed
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import UNLIMITED, read_urdf, write_urdf
-from gelenk.schemas.common import FrameName
-from gelenk.schemas.dh import (
+from gelenk.contract.common import FrameName
+from gelenk.contract.dh import (
     EXAMPLE_TABLE,
     EXAMPLE_URDF,
     Convention,
@@ -36,6 +28,14 @@ from gelenk.schemas.dh import (
     ToUrdfRequest,
     table_content,
 )
+from gelenk.kinematics.certify import certify_conversion, certify_table
+from gelenk.kinematics.dh_of_chain import dh_of_chain
+from gelenk.model.appearance import INVENTED_MASSES
+from gelenk.model.convert import BASE_FRAME, TOOL_FRAME, converted, describe_dh
+from gelenk.model.description import MOVABLE, Description
+from gelenk.model.errors import listed
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import UNLIMITED, read_urdf, write_urdf
 
 TAG = "DH tables"
 

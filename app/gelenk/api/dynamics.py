@@ -18,6 +18,7 @@ from gelenk.api.loads import (
     wrench_rows,
 )
 from gelenk.api.routes import Computation, Operation, Outcome
+from gelenk.contract.dynamics import DynamicsAnswer, DynamicsOptions, DynamicsRequest
 from gelenk.kinematics.bodies import Load
 from gelenk.kinematics.configuration import check_limits, configurations
 from gelenk.kinematics.dynamics import Dynamics, dynamics
@@ -29,7 +30,6 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge
 from gelenk.model.robot import Robot
-from gelenk.schemas.dynamics import DynamicsAnswer, DynamicsOptions, DynamicsRequest
 from gelenk.store.records import LoadedRobot
 
 _FIELDS = {

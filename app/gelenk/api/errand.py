@@ -13,8 +13,8 @@ from starlette.responses import Response
 
 from gelenk.api.payloads import JSON, SVG, json_response, read_json
 from gelenk.api.tally import TALLY, Tally
+from gelenk.contract.common import Payload
 from gelenk.crew.wire import pieces_of
-from gelenk.schemas.common import Payload
 from gelenk.store.library import Library
 
 if TYPE_CHECKING:

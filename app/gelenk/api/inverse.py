@@ -9,6 +9,7 @@ from gelenk.api.inverse_request import Bounds, asked, options_of, task_of
 from gelenk.api.lesson import Lesson
 from gelenk.api.routes import Computation, Operation, Outcome
 from gelenk.api.tally import Tally
+from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseAnswer, InverseOptions, InverseRequest
 from gelenk.kinematics.ik.closed_form import ClosedForm, closed_form, is_looked_at, look_at
 from gelenk.kinematics.ik.result import InverseKinematics
 from gelenk.kinematics.ik.search import ITERATIONS_PER_START, MAX_ITERATIONS
@@ -17,7 +18,6 @@ from gelenk.kinematics.ik.verdict import Question
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.compilation import is_awaited
-from gelenk.schemas.ik import MAX_STEPWISE, MAX_TARGETS, InverseAnswer, InverseOptions, InverseRequest
 from gelenk.store.records import LoadedRobot
 
 _QUICK_STARTS = 64

@@ -13,6 +13,7 @@ from gelenk.api.inverse_answer import closed_form_of, table, told, told_results,
 from gelenk.api.inverse_request import Bounds, asked, is_stepwise, options_of
 from gelenk.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from gelenk.api.payloads import JSON, NPY, read_json
+from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.jobs.parcel import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
@@ -23,7 +24,6 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
-from gelenk.schemas.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
+from gelenk.contract.ik import MAX_TRACE, InverseRequest
+from gelenk.contract.pose_arrays import poses_from
 from gelenk.kinematics.configuration import MAX_MAGNITUDE, configurations, one_configuration
 from gelenk.kinematics.ik.descent import Rule
 from gelenk.kinematics.ik.null_space import Objective
@@ -15,8 +17,6 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge, counted, quoted
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
-from gelenk.schemas.ik import MAX_TRACE, InverseRequest
-from gelenk.schemas.pose_arrays import poses_from
 
 
 @dataclass(frozen=True, slots=True)

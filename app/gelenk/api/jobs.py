@@ -15,15 +15,15 @@ from gelenk.api.job_info import NO_STORE, job_content, job_response
 from gelenk.api.long_work import HEADERS, RESULTS, headers_of
 from gelenk.api.openapi import csv_content, npy_content, picture_content, problem_responses
 from gelenk.api.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.jobs import Finished, JobInfo
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.workspace import WorkspaceAnswer
 from gelenk.jobs.job import Job
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.workspace import ARRAY, KIND, SUMMARY
 from gelenk.jobs.workspace_picture import picture
 from gelenk.model.errors import InvalidArray, UnknownJob
-from gelenk.schemas.ik import InverseAnswer
-from gelenk.schemas.jobs import Finished, JobInfo
-from gelenk.schemas.trajectory_answer import TrajectoryAnswer
-from gelenk.schemas.workspace import WorkspaceAnswer
 from gelenk.store.folders import open_plain
 
 EVENT_STREAM = "text/event-stream"

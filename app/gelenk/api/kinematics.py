@@ -5,14 +5,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.api.routes import Computation, Operation, Outcome
-from gelenk.kinematics.configuration import check_limits, configurations
-from gelenk.kinematics.forward import forward_kinematics
-from gelenk.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
-from gelenk.model.arrays import Array, Indices
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, TooLarge, counted
-from gelenk.model.robot import Robot
-from gelenk.schemas.kinematics import (
+from gelenk.contract.kinematics import (
     ForwardAnswer,
     ForwardOptions,
     ForwardRequest,
@@ -20,7 +13,14 @@ from gelenk.schemas.kinematics import (
     JacobianOptions,
     JacobianRequest,
 )
-from gelenk.schemas.pose_arrays import pose_array, pose_list
+from gelenk.contract.pose_arrays import pose_array, pose_list
+from gelenk.kinematics.configuration import check_limits, configurations
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, TooLarge, counted
+from gelenk.model.robot import Robot
 from gelenk.store.records import LoadedRobot
 
 _QUICK_POSES = 100

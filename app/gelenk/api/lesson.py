@@ -9,7 +9,7 @@ from typing import Any, Generic, TypeVar
 from starlette.responses import Response
 
 from gelenk.api.errand import Desk, Inquiry
-from gelenk.schemas.common import Payload
+from gelenk.contract.common import Payload
 from gelenk.store.records import LoadedRobot
 
 _Request = TypeVar("_Request", bound=Payload)

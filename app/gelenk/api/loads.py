@@ -6,6 +6,9 @@ from typing import Any
 import numpy as np
 
 from gelenk.api.lesson import Lesson
+from gelenk.contract.common import Vectors
+from gelenk.contract.dynamics import DynamicsRequest
+from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from gelenk.kinematics.bodies import Load
 from gelenk.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanism, mechanism
 from gelenk.kinematics.wrenches import WrenchFrame
@@ -14,9 +17,6 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, UnknownFrame, counted, listed
 from gelenk.model.robot import Robot
-from gelenk.schemas.common import Vectors
-from gelenk.schemas.dynamics import DynamicsRequest
-from gelenk.schemas.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
 from gelenk.store.records import LoadedRobot
 
 DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a URDF with `inertial` elements"

@@ -6,6 +6,13 @@ from typing import Any
 import numpy as np
 
 from gelenk.api.routes import Computation, Operation, Outcome, PictureFormat
+from gelenk.contract.manipulability import (
+    MAX_DETAILED,
+    MAX_WITH_POLYTOPES,
+    ManipulabilityAnswer,
+    ManipulabilityOptions,
+    ManipulabilityRequest,
+)
 from gelenk.kinematics.configuration import check_limits, configurations, one_configuration
 from gelenk.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
 from gelenk.kinematics.manipulability import (
@@ -18,13 +25,6 @@ from gelenk.kinematics.manipulability import (
 from gelenk.model.arrays import Array, Configuration
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge
-from gelenk.schemas.manipulability import (
-    MAX_DETAILED,
-    MAX_WITH_POLYTOPES,
-    ManipulabilityAnswer,
-    ManipulabilityOptions,
-    ManipulabilityRequest,
-)
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 4

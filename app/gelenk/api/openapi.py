@@ -12,9 +12,9 @@ from pydantic import BaseModel, TypeAdapter
 from gelenk.api.access.scopes import SCHEME, security_of
 from gelenk.api.payloads import CSV, NPY, PNG, SVG
 from gelenk.api.problems import MEDIA_TYPE
-from gelenk.schemas.jobs import JobInfo
-from gelenk.schemas.kinematics import ByName, Configuration
-from gelenk.schemas.problem import Problem
+from gelenk.contract.jobs import JobInfo
+from gelenk.contract.kinematics import ByName, Configuration
+from gelenk.contract.problem import Problem
 
 RobotPath = Annotated[str, Path(description="Name of a robot.", openapi_examples={"panda": {"value": "panda"}})]
 UploadedRobotPath = Annotated[

@@ -18,9 +18,9 @@ from starlette.types import Receive, Scope, Send
 
 from gelenk.api.bodies import SMALL, Bodies
 from gelenk.api.problems import InvalidPayload
+from gelenk.contract.common import Payload
 from gelenk.model.arrays import Array
 from gelenk.model.errors import TooLarge, quoted
-from gelenk.schemas.common import Payload
 
 MAX_MEMBERS = 1_000_000
 """Members of objects in a body: each unknown one would be a validation error of its own."""

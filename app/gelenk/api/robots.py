@@ -17,13 +17,10 @@ from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
 from gelenk.api.skeleton import skeleton_of
-from gelenk.model.chain import Chain
-from gelenk.model.description import Joint
-from gelenk.model.errors import InvalidArchive
-from gelenk.schemas.common import ChainEnds
-from gelenk.schemas.dh import DhTablePayload, table_content
-from gelenk.schemas.pose import Pose
-from gelenk.schemas.robots import (
+from gelenk.contract.common import ChainEnds
+from gelenk.contract.dh import DhTablePayload, table_content
+from gelenk.contract.pose import Pose
+from gelenk.contract.robots import (
     EXAMPLE_DH,
     ArchiveReplacement,
     JointInfo,
@@ -36,6 +33,9 @@ from gelenk.schemas.robots import (
     RobotList,
     RobotReplacement,
 )
+from gelenk.model.chain import Chain
+from gelenk.model.description import Joint
+from gelenk.model.errors import InvalidArchive
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, RobotUpload

@@ -56,10 +56,10 @@ from gelenk.api.preference import wants_answer_later
 from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.remote import INLINE_BYTES, Remote
 from gelenk.api.tally import TALLY, Tally
+from gelenk.contract.common import Answer, Payload
 from gelenk.jobs.runner import Runner
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidArray, InvalidField
-from gelenk.schemas.common import Answer, Payload
 from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 

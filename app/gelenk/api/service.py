@@ -16,10 +16,10 @@ from gelenk.api.access.metrics import Metrics
 from gelenk.api.openapi import problem_responses
 from gelenk.api.payloads import json_response
 from gelenk.api.problems import problem
+from gelenk.contract.health import Health
 from gelenk.crew.crew import Crew
 from gelenk.kinematics.warm import warm_up
 from gelenk.model.compilation import wait_for_others
-from gelenk.schemas.health import Health
 from gelenk.store import folders
 
 _LOOK_SECONDS = 1.0

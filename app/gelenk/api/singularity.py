@@ -7,6 +7,15 @@ from typing import Any
 import numpy as np
 
 from gelenk.api.routes import Computation, Operation, Outcome
+from gelenk.contract.singularity import (
+    MAX_NEAREST,
+    MAX_PATH,
+    MAX_PLACES,
+    MAX_REPORTS,
+    SingularityAnswer,
+    SingularityOptions,
+    SingularityRequest,
+)
 from gelenk.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
 from gelenk.kinematics.certify_singularity import certify_reports
 from gelenk.kinematics.configuration import check_limits, configurations
@@ -22,15 +31,6 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge, counted
 from gelenk.model.robot import Robot
-from gelenk.schemas.singularity import (
-    MAX_NEAREST,
-    MAX_PATH,
-    MAX_PLACES,
-    MAX_REPORTS,
-    SingularityAnswer,
-    SingularityOptions,
-    SingularityRequest,
-)
 from gelenk.store.records import LoadedRobot
 
 _QUICK_REPORTS = 1

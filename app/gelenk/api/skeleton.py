@@ -1,10 +1,10 @@
 """What is offered to be drawn of a robot whose links show nothing."""
 
+from gelenk.contract.pose import Pose
+from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
 from gelenk.model.appearance import Solid
 from gelenk.model.notations import quaternions_xyzw_from_rotations
 from gelenk.model.skeleton import skeleton
-from gelenk.schemas.pose import Pose
-from gelenk.schemas.shapes import BoxShape, CylinderShape, LinkShape
 from gelenk.store.records import LoadedRobot
 
 

@@ -20,6 +20,8 @@ from gelenk.api.loads import (
     wrench_rows,
 )
 from gelenk.api.routes import Computation, Operation, Outcome
+from gelenk.contract.common import Vectors
+from gelenk.contract.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from gelenk.kinematics.configuration import check_limits, configurations
 from gelenk.kinematics.ik.words import DIRECTIONS, Direction
 from gelenk.kinematics.mechanism import mechanism
@@ -37,8 +39,6 @@ from gelenk.kinematics.subspaces import Subspaces
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge, counted
-from gelenk.schemas.common import Vectors
-from gelenk.schemas.statics import StaticsAnswer, StaticsOptions, StaticsRequest
 from gelenk.store.records import LoadedRobot
 
 _MOST_SPLITS = 20_000

@@ -6,9 +6,9 @@ from gelenk.api.routes import Computation, Operation, Outcome
 from gelenk.api.trajectory_job import trajectory_work
 from gelenk.api.trajectory_planned import Bounds, Planned
 from gelenk.api.trajectory_samples import MAX_SAMPLES
+from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.model.arrays import Array
-from gelenk.schemas.trajectory import TrajectoryRequest
-from gelenk.schemas.trajectory_answer import TrajectoryAnswer
 from gelenk.store.records import LoadedRobot
 
 

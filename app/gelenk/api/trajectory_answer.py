@@ -10,11 +10,11 @@ import orjson
 
 from gelenk.api.payloads import json_list, json_rows
 from gelenk.api.trajectory_limits import Bounds
+from gelenk.contract.pose import PoseFormat
+from gelenk.contract.pose_arrays import pose_list
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
-from gelenk.schemas.pose import PoseFormat
-from gelenk.schemas.pose_arrays import pose_list
 from gelenk.trajectory.audit import DERIVATIVES, Audit, Margin, Peak
 from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem import MotionLimits, SegmentReport, Trajectory

@@ -14,11 +14,11 @@ from gelenk.api.routes import PictureFormat
 from gelenk.api.trajectory_planned import SAMPLED, Bounds, Planned, checked
 from gelenk.api.trajectory_request import shortest_duration
 from gelenk.api.trajectory_samples import MAX_JOB_SAMPLES
+from gelenk.contract.trajectory import TrajectoryRequest
 from gelenk.jobs.parcel import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.schemas.trajectory import TrajectoryRequest
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
 from gelenk.trajectory.plan import plan

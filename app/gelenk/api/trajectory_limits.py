@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gelenk.contract.trajectory import JointValues, MotionOptions, TrajectoryLimits
+from gelenk.contract.trajectory_answer import LimitSource
 from gelenk.model.arrays import Array, Flags
 from gelenk.model.chain import Chain
 from gelenk.model.errors import UnknownJoint, WrongJointCount, listed
 from gelenk.model.robot import Robot
-from gelenk.schemas.trajectory import JointValues, MotionOptions, TrajectoryLimits
-from gelenk.schemas.trajectory_answer import LimitSource
 from gelenk.trajectory.audit_demands import TipLimits
 from gelenk.trajectory.problem import MotionLimits
 

@@ -21,6 +21,7 @@ from gelenk.api.trajectory_answer import (
 from gelenk.api.trajectory_limits import limit_notes
 from gelenk.api.trajectory_request import Asked, asked, shortest_duration
 from gelenk.api.trajectory_samples import check_samples, sample_times
+from gelenk.contract.trajectory import TrajectoryRequest
 from gelenk.kinematics.certify import Certificate
 from gelenk.kinematics.forward import forward_kinematics
 from gelenk.kinematics.kernels import chain_poses
@@ -29,7 +30,6 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import TooLarge
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
-from gelenk.schemas.trajectory import TrajectoryRequest
 from gelenk.trajectory.plan import plan
 from gelenk.trajectory.problem import Trajectory
 

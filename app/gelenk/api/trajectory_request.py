@@ -6,16 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gelenk.api.trajectory_limits import Bounds, Layer, OwnVelocities, bounds_of, own_velocities
-from gelenk.kinematics.configuration import check_limits, configurations, one_configuration
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.kinematics.ik.words import DIRECTIONS
-from gelenk.model.arrays import Array, Configuration
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
-from gelenk.model.robot import Robot
-from gelenk.schemas.pose import Pose
-from gelenk.schemas.pose_arrays import poses_from
-from gelenk.schemas.trajectory import (
+from gelenk.contract.pose import Pose
+from gelenk.contract.pose_arrays import poses_from
+from gelenk.contract.trajectory import (
     MAX_WAYPOINTS,
     CircleSegment,
     JointSegment,
@@ -24,6 +17,13 @@ from gelenk.schemas.trajectory import (
     SplineSegment,
     TrajectoryRequest,
 )
+from gelenk.kinematics.configuration import check_limits, configurations, one_configuration
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.model.arrays import Array, Configuration
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
+from gelenk.model.robot import Robot
 from gelenk.trajectory.problem import Following, Problem
 from gelenk.trajectory.problem import Segment as Part
 from gelenk.trajectory.words import Law

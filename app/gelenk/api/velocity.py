@@ -16,6 +16,7 @@ from gelenk.api.velocity_call import (
     space_of_call,
     targets_of_call,
 )
+from gelenk.contract.velocity import MAX_REPORTS, VelocityAnswer, VelocityOptions, VelocityRequest
 from gelenk.kinematics.certify_motion import MotionCertificate
 from gelenk.kinematics.configuration import check_limits
 from gelenk.kinematics.inverse_velocity import (
@@ -33,7 +34,6 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import TooLarge, counted
 from gelenk.model.robot import Robot
-from gelenk.schemas.velocity import MAX_REPORTS, VelocityAnswer, VelocityOptions, VelocityRequest
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 1

@@ -5,6 +5,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from gelenk.contract.velocity import NullSpace, VelocityRequest
 from gelenk.kinematics.configuration import configurations, one_configuration
 from gelenk.kinematics.ik.null_space import Objective
 from gelenk.kinematics.ik.task import Task
@@ -15,7 +16,6 @@ from gelenk.kinematics.task_space import TaskSpace
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidArray, InvalidField, counted, quoted
-from gelenk.schemas.velocity import NullSpace, VelocityRequest
 
 RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
 """The fields that give the joints' derivatives, in their order."""

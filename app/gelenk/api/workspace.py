@@ -15,6 +15,8 @@ from gelenk.api.payloads import JSON, BoundedRequest, read_json
 from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.remote import PARSED_HERE_BYTES, Remote, client_of
 from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.jobs import JobInfo
+from gelenk.contract.workspace import SlicePlane, WorkspaceRequest
 from gelenk.jobs.job import Job
 from gelenk.jobs.robot_files import robot_files, robot_of, robot_text
 from gelenk.jobs.runner import Runner, Work
@@ -24,8 +26,6 @@ from gelenk.kinematics.workspace import Plane, Wish
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge
 from gelenk.model.robot import Robot
-from gelenk.schemas.jobs import JobInfo
-from gelenk.schemas.workspace import SlicePlane, WorkspaceRequest
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
 

@@ -10,15 +10,15 @@ from pydantic import BaseModel
 from gelenk.calls.call import NPY, ROBOT, Awaited, Blocking, Call, Reply, Sent, documented
 from gelenk.calls.exchange import encoded, segment
 from gelenk.calls.npy import packed, query_of, unpacked
+from gelenk.contract.dynamics import DynamicsOptions
+from gelenk.contract.ik import InverseOptions
+from gelenk.contract.kinematics import ForwardOptions, JacobianOptions
+from gelenk.contract.manipulability import ManipulabilityOptions
+from gelenk.contract.singularity import SingularityOptions
+from gelenk.contract.statics import StaticsOptions
+from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.velocity import VelocityOptions
 from gelenk.model.arrays import Array
-from gelenk.schemas.dynamics import DynamicsOptions
-from gelenk.schemas.ik import InverseOptions
-from gelenk.schemas.kinematics import ForwardOptions, JacobianOptions
-from gelenk.schemas.manipulability import ManipulabilityOptions
-from gelenk.schemas.singularity import SingularityOptions
-from gelenk.schemas.statics import StaticsOptions
-from gelenk.schemas.trajectory import TrajectoryRequest
-from gelenk.schemas.velocity import VelocityOptions
 
 P = ParamSpec("P")
 T = TypeVar("T")

@@ -13,9 +13,9 @@ from pydantic import BaseModel
 
 from gelenk.calls.call import Call, Reply, documented
 from gelenk.calls.npy import numbers
+from gelenk.contract.common import Answer, as_lists
 from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
-from gelenk.schemas.common import Answer, as_lists
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)

@@ -11,9 +11,9 @@ from gelenk.calls.arrays import ArrayOperations
 from gelenk.calls.call import Awaited, Blocking, Call, method_of
 from gelenk.calls.exchange import reader
 from gelenk.calls.operations import Operations
+from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.model.arrays import Array
 from gelenk.model.errors import KinematicsError
-from gelenk.schemas.jobs import Finished, JobInfo
 
 P = ParamSpec("P")
 A = TypeVar("A")

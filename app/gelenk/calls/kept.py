@@ -10,11 +10,11 @@ from pydantic import BaseModel
 
 from gelenk.calls.call import ROBOT, Call
 from gelenk.calls.exchange import described_by, encoded, posted, reader, segment
-from gelenk.schemas.common import Answer, ChainEnds
-from gelenk.schemas.dh import FromUrdfAnswer
-from gelenk.schemas.health import Health
-from gelenk.schemas.jobs import Finished, JobInfo
-from gelenk.schemas.robots import NewRobot, RobotInfo, RobotList, RobotReplacement
+from gelenk.contract.common import Answer, ChainEnds
+from gelenk.contract.dh import FromUrdfAnswer
+from gelenk.contract.health import Health
+from gelenk.contract.jobs import Finished, JobInfo
+from gelenk.contract.robots import NewRobot, RobotInfo, RobotList, RobotReplacement
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)

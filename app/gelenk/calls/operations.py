@@ -13,9 +13,9 @@ from gelenk.calls import kept
 from gelenk.calls.call import NPY, ROBOT, Call, Sent
 from gelenk.calls.exchange import described_by, posted, reader, segment
 from gelenk.calls.npy import fits_query, packed, query_of
-from gelenk.schemas.common import Answer
-from gelenk.schemas.compare import CompareAnswer, CompareRequest
-from gelenk.schemas.course_components import (
+from gelenk.contract.common import Answer
+from gelenk.contract.compare import CompareAnswer, CompareRequest
+from gelenk.contract.course_components import (
     DcMotorAnswer,
     DcMotorRequest,
     GearAnswer,
@@ -23,17 +23,17 @@ from gelenk.schemas.course_components import (
     PwmAnswer,
     PwmRequest,
 )
-from gelenk.schemas.course_encoder import EncoderAnswer, EncoderRequest
-from gelenk.schemas.course_fly_over import FlyOverAnswer, FlyOverRequest
-from gelenk.schemas.course_mobility import MobilityRequest
-from gelenk.schemas.course_mobility_answer import MobilityAnswer
-from gelenk.schemas.course_orientation import OrientationAnswer, OrientationRequest
-from gelenk.schemas.course_spline import SplineAnswer, SplineRequest
-from gelenk.schemas.course_time_law import TimeLawAnswer, TimeLawRequest
-from gelenk.schemas.course_time_scaling import TimeScalingAnswer, TimeScalingRequest
-from gelenk.schemas.course_workspace import PlanarWorkspaceAnswer, PlanarWorkspaceRequest
-from gelenk.schemas.derive import DeriveAnswer, DeriveRequest
-from gelenk.schemas.dh import (
+from gelenk.contract.course_encoder import EncoderAnswer, EncoderRequest
+from gelenk.contract.course_fly_over import FlyOverAnswer, FlyOverRequest
+from gelenk.contract.course_mobility import MobilityRequest
+from gelenk.contract.course_mobility_answer import MobilityAnswer
+from gelenk.contract.course_orientation import OrientationAnswer, OrientationRequest
+from gelenk.contract.course_spline import SplineAnswer, SplineRequest
+from gelenk.contract.course_time_law import TimeLawAnswer, TimeLawRequest
+from gelenk.contract.course_time_scaling import TimeScalingAnswer, TimeScalingRequest
+from gelenk.contract.course_workspace import PlanarWorkspaceAnswer, PlanarWorkspaceRequest
+from gelenk.contract.derive import DeriveAnswer, DeriveRequest
+from gelenk.contract.dh import (
     ConvertAnswer,
     ConvertRequest,
     FromUrdfAnswer,
@@ -41,18 +41,18 @@ from gelenk.schemas.dh import (
     ToUrdfAnswer,
     ToUrdfRequest,
 )
-from gelenk.schemas.dynamics import DynamicsAnswer, DynamicsRequest
-from gelenk.schemas.ik import InverseAnswer, InverseRequest
-from gelenk.schemas.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
-from gelenk.schemas.manipulability import ManipulabilityAnswer, ManipulabilityRequest
-from gelenk.schemas.pose import pose_fields
-from gelenk.schemas.robots import NewRobot, RobotReplacement
-from gelenk.schemas.singularity import SingularityAnswer, SingularityRequest
-from gelenk.schemas.statics import StaticsAnswer, StaticsRequest
-from gelenk.schemas.trajectory import TrajectoryRequest
-from gelenk.schemas.trajectory_answer import TrajectoryAnswer
-from gelenk.schemas.velocity import VelocityAnswer, VelocityRequest
-from gelenk.schemas.workspace import WorkspaceAnswer, WorkspaceRequest
+from gelenk.contract.dynamics import DynamicsAnswer, DynamicsRequest
+from gelenk.contract.ik import InverseAnswer, InverseRequest
+from gelenk.contract.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
+from gelenk.contract.manipulability import ManipulabilityAnswer, ManipulabilityRequest
+from gelenk.contract.pose import pose_fields
+from gelenk.contract.robots import NewRobot, RobotReplacement
+from gelenk.contract.singularity import SingularityAnswer, SingularityRequest
+from gelenk.contract.statics import StaticsAnswer, StaticsRequest
+from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.velocity import VelocityAnswer, VelocityRequest
+from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)

@@ -25,8 +25,8 @@ from gelenk.model.errors import InvalidField
 if TYPE_CHECKING:
     from gelenk.cli.rows import Rows as Given
     from gelenk.client import Client
-    from gelenk.schemas.ik import InverseAnswer, NearestInfo, SolutionInfo
-    from gelenk.schemas.pose import Pose
+    from gelenk.contract.ik import InverseAnswer, NearestInfo, SolutionInfo
+    from gelenk.contract.pose import Pose
 
 QOption = Annotated[
     list[str] | None,

@@ -10,7 +10,7 @@ from gelenk.calls.refusals import Refused, refusal
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from gelenk.schemas.common import Answer
+    from gelenk.contract.common import Answer
 
 A = TypeVar("A", bound="Answer")
 

@@ -12,7 +12,7 @@ from gelenk.cli.session import BaseOption, TipOption, session
 from gelenk.model.errors import InvalidField
 
 if TYPE_CHECKING:
-    from gelenk.schemas.robots import RobotInfo
+    from gelenk.contract.robots import RobotInfo
 
 
 def robots(
@@ -69,7 +69,7 @@ def add(
         raise InvalidField("file", f"there is no file {str(file)!r} that a robot can be in")
     if (base is None) != (tip is None):
         raise InvalidField("base" if base is None else "tip", "a default chain has two ends: give --base and --tip")
-    from gelenk.schemas.common import ChainEnds  # noqa: PLC0415 - takes seconds to load
+    from gelenk.contract.common import ChainEnds  # noqa: PLC0415 - takes seconds to load
 
     ends = None if base is None or tip is None else ChainEnds(base_frame=base, tip_frame=tip)
     shared, name = session(context), name or name_of(file)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from gelenk.calls.jobs import Job
     from gelenk.client import Client
-    from gelenk.schemas.jobs import JobInfo
+    from gelenk.contract.jobs import JobInfo
 
 A = TypeVar("A")
 

@@ -13,7 +13,7 @@ from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOptio
 from gelenk.model.errors import InvalidField
 
 if TYPE_CHECKING:
-    from gelenk.schemas.dh import DhTablePayload
+    from gelenk.contract.dh import DhTablePayload
 
 TableArgument = Annotated[Path, typer.Argument(metavar="TABLE", help="DH table as JSON, TOML or CSV.")]
 ConventionOption = Annotated[str, typer.Option(help="standard or modified.", autocompletion=one_of(CONVENTIONS))]

@@ -17,8 +17,8 @@ from typing import Any, NamedTuple
 
 import orjson
 
+from gelenk.contract.robots import RobotFile
 from gelenk.model.errors import KinematicsError, StorageFailed
-from gelenk.schemas.robots import RobotFile
 from gelenk.store import folders
 from gelenk.store.records import ROBOT_FILE, Source, Stamp, read_record, stamp_of
 

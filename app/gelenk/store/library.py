@@ -22,6 +22,8 @@ from typing import Literal
 
 import orjson
 
+from gelenk.contract.common import ChainEnds
+from gelenk.contract.robots import RobotFile
 from gelenk.model.errors import (
     InvalidName,
     InvalidRobotFolder,
@@ -34,8 +36,6 @@ from gelenk.model.errors import (
     UnknownRobot,
 )
 from gelenk.model.robot import Robot
-from gelenk.schemas.common import ChainEnds
-from gelenk.schemas.robots import RobotFile
 from gelenk.store import folders
 from gelenk.store.folders import Content, Stretch
 from gelenk.store.index import NAME, Index, summary

@@ -14,6 +14,8 @@ from typing import Literal, TypeAlias
 
 from pydantic import ValidationError
 
+from gelenk.contract.dh import DhTablePayload
+from gelenk.contract.robots import RobotFile
 from gelenk.model.convert import describe_dh
 from gelenk.model.description import Description
 from gelenk.model.dh import DhTable
@@ -21,8 +23,6 @@ from gelenk.model.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, count
 from gelenk.model.robot import Robot
 from gelenk.model.urdf import read_urdf, write_urdf
 from gelenk.model.xml import MAX_BYTES
-from gelenk.schemas.dh import DhTablePayload
-from gelenk.schemas.robots import RobotFile
 from gelenk.store.folders import read_plain
 from gelenk.store.meshes import KEPT_SUFFIXES, MeshFiles, ends, flat, mesh_warnings
 

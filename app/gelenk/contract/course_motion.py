@@ -1,0 +1,129 @@
+"""What all calculators of motions in time share on the wire."""
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BeforeValidator, Field
+
+from gelenk.contract.common import Answer, Payload
+
+MAX_JOINTS = 32
+MAX_KNOTS = 1000
+MAX_SAMPLES = 10_000
+MAX_SAMPLED_NUMBERS = 100_000
+"""Samples times joints, at most."""
+
+_LARGEST = 1e6
+_NEXT_TO_NOTHING = 1e-30
+
+
+def one_joint(value: Any) -> Any:
+    """A number alone is a list of one."""
+    return [value] if isinstance(value, int | float) and not isinstance(value, bool) else value
+
+
+def _no_underflow(value: float) -> float:
+    """Numbers whose squares would vanish count as 0."""
+    return value if abs(value) > _NEXT_TO_NOTHING else 0.0
+
+
+Coordinate = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST), AfterValidator(_no_underflow)]
+_CoordinateList = Annotated[list[Coordinate], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True)]
+Coordinates = Annotated[
+    _CoordinateList, BeforeValidator(one_joint, json_schema_input_type=Coordinate | _CoordinateList)
+]
+"""One number per joint; a number alone stands for a list of one."""
+
+Bound = Annotated[float, Field(ge=1e-9, le=1e9)]
+_BoundList = Annotated[list[Bound], Field(min_length=1, max_length=MAX_JOINTS, fail_fast=True)]
+Bounds = Annotated[_BoundList, BeforeValidator(one_joint, json_schema_input_type=Bound | _BoundList)]
+Time = Annotated[float, Field(ge=-1e6, le=1e6), AfterValidator(_no_underflow)]
+Duration = Annotated[float, Field(ge=1e-6, le=1e6)]
+
+Waypoints = Annotated[list[Coordinates], Field(min_length=2, max_length=MAX_KNOTS, fail_fast=True)]
+Times = Annotated[list[Time], Field(min_length=2, max_length=MAX_KNOTS, fail_fast=True)]
+SampleTimes = Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)]
+SampleCount = Annotated[int, Field(ge=2, le=MAX_SAMPLES)]
+
+
+class MotionLimits(Payload):
+    """Limits of each joint; a single number applies to all joints."""
+
+    joint_velocity: Bounds | None = Field(default=None, description="|q̇|, > 0, [rad/s or m/s].")
+    joint_acceleration: Bounds | None = Field(default=None, description="|q̈|, > 0, [rad/s² or m/s²].")
+    joint_jerk: Bounds | None = Field(default=None, description="|q⃛|, > 0, [rad/s³ or m/s³].")
+
+
+class SampledRequest(Payload):
+    """Where a motion is to be sampled, and what it is compared with."""
+
+    samples: SampleCount = Field(
+        default=101, description="Number of samples, evenly spaced from start to end, both included; no unit."
+    )
+    sample_times: SampleTimes | None = Field(
+        default=None, description="Instead of `samples`: the times, none outside the motion, [s]."
+    )
+    limits: MotionLimits | None = Field(
+        default=None, description="Limits of each joint: peaks are given as ratios to them, and pictures show them."
+    )
+
+
+class SegmentInfo(Answer):
+    """A piece of the motion, q(t) = Σ c_k (t - start_time)^k."""
+
+    start_time: float = Field(description="When it begins, [s].")
+    end_time: float = Field(description="When it ends, [s].")
+    coefficients: list[list[float]] = Field(
+        description="One row per joint, lowest power first: c_0 is the position where the piece begins, "
+        "[rad or m per sᵏ]. The lecture lists them the other way round."
+    )
+
+
+class PeakInfo(Answer):
+    """Peak of a joint, furthest from zero."""
+
+    value: float = Field(description="Signed peak, [rad or m per s, s² or s³].")
+    time: float = Field(description="The first time at which it is so large, [s].")
+    limit: float | None = Field(description="Of this joint, in the unit of the value; null without one.")
+    ratio: float | None = Field(description="|value| / limit, no unit; null without a limit.")
+
+
+class PeaksInfo(Answer):
+    """Exact peaks, one per joint: from the roots of the next derivative and the ends of the pieces."""
+
+    velocity: list[PeakInfo]
+    acceleration: list[PeakInfo]
+    jerk: list[PeakInfo] = Field(description="Of the pieces: jumps of the acceleration between them do not count.")
+
+
+class MotionCertificate(Answer):
+    """The motion's numbers checked a second way: Bézier control points, their differences and repeated means.
+
+    Each number is a difference as a fraction of the largest value of its kind; an answer with more than 1e-9 is not
+    sent.
+    """
+
+    boundary_error: float = Field(description="Of the derivatives at both ends, as far as they were given; no unit.")
+    knot_error: float = Field(description="Of the positions at the knots, both ends included; no unit.")
+    continuity: int = Field(description="Order of the highest derivative that is promised to be continuous; no unit.")
+    continuity_error: float = Field(description="Largest jump at the joins, up to that order; no unit.")
+    peak_error: float = Field(
+        description="Of a peak from the value at its time, or of any value on a grid beyond a peak; no unit."
+    )
+    samples: int = Field(description="Times of that grid.")
+
+
+class MotionAnswer(Answer):
+    """A motion: its pieces, its peaks, its samples."""
+
+    duration: float = Field(description="Of the whole, [s].")
+    switching_times: list[float] = Field(description="Where the pieces begin and end, [s].")
+    segments: list[SegmentInfo]
+    peaks: PeaksInfo
+    times: list[float] = Field(description="Of the samples, [s].")
+    joint_positions: list[list[float]] = Field(description="One row per sample, [rad or m].")
+    joint_velocities: list[list[float]] = Field(description="One row per sample, [rad/s or m/s].")
+    joint_accelerations: list[list[float]] = Field(
+        description="One row per sample, [rad/s² or m/s²]; where they jump, those after the jump."
+    )
+    joint_jerks: list[list[float]] = Field(description="One row per sample, [rad/s³ or m/s³].")
+    certificate: MotionCertificate

@@ -1,0 +1,201 @@
+"""The worked solution of a table on the wire."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.dh import DhTablePayload
+from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
+from gelenk.contract.kinematics import Configuration
+from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload
+
+
+class DeriveRequest(Payload):
+    """A table, how to write its solution, and the configurations at which to evaluate it."""
+
+    dh: DhTablePayload
+    joint_positions: Annotated[
+        list[Configuration],
+        Field(
+            max_length=MAX_CONFIGURATIONS,
+            description="Configurations for `numeric`: each one number per row, or an object of values by joint name; "
+            "[rad] for revolute joints, [m] for prismatic ones. If left out, the answer has formulas alone.",
+        ),
+    ] = []  # noqa: RUF012
+    notation: Literal["short", "full"] = Field(
+        default="short", description="`short` writes c_{12} for cos(q_1 + q_2), `full` writes cos(q_1 + q_2)."
+    )
+    symbolic: bool = Field(
+        default=True,
+        description="Whether lengths and angles of the table stay symbols; otherwise formulas contain their values.",
+    )
+    dynamics: DynamicsPayload | None = Field(
+        default=None,
+        description="For a planar arm of up to three joints: its equations of motion by the Lagrangian too. `{}` "
+        "gives them in symbols throughout.",
+        examples=[EXAMPLE_MOTION["dynamics"]],
+    )
+
+
+class LegendEntry(Answer):
+    """A symbol and its meaning."""
+
+    latex: str = Field(description="The symbol in LaTeX.")
+    plain: str = Field(description="The symbol as plain text.")
+    meaning_latex: str = Field(description="Its meaning, in LaTeX.")
+    meaning: str = Field(description="Its meaning, as plain text.")
+    value: float | None = Field(description="Its value in the table, [m], or a cosine or sine; null for variables.")
+
+
+class ColumnInfo(Answer):
+    """A column of the geometric Jacobian in the axes of the base."""
+
+    joint: str = Field(description="The joint whose rate the column is multiplied by.")
+    axis: MatrixInfo = Field(description="z of the joint: z_{i-1} in a standard table, z_i in a modified one.")
+    arm: MatrixInfo | None = Field(description="p from the joint's frame to the tip; null for a prismatic joint.")
+    linear: MatrixInfo = Field(description="z × p, simplified; z for a prismatic joint.")
+    angular: MatrixInfo = Field(description="z; zero for a prismatic joint.")
+
+
+class JacobianInfo(Answer):
+    """The geometric Jacobian, linear rows first, in the axes of the base, at the tip."""
+
+    matrix: MatrixInfo
+    columns: list[ColumnInfo]
+
+
+class DeterminantInfo(Answer):
+    """The determinant of the square block of the Jacobian."""
+
+    block: Literal["full", "moving", "linear", "angular"] = Field(
+        description="The whole Jacobian; the rows that ever differ from zero; the linear, or the angular ones of these."
+    )
+    rows: list[Literal["v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"]] = Field(
+        description="Rows of the Jacobian that form the block."
+    )
+    frame: int = Field(description="Number of the frame in whose axes these rows are expressed.")
+    why: str = Field(description="Why this block.")
+    latex: str | None = Field(
+        description="The determinant as a product; null where it has too many terms, or failed its check."
+    )
+    plain: str | None = Field(description="The product as plain text; null where `determinant` is.")
+    factors: list[FormulaInfo] = Field(description="The factors of the product beside its number, each one once.")
+
+
+class SingularValueInfo(Answer):
+    """A value at which a factor vanishes."""
+
+    joints: list[str] = Field(description="The joints whose variables, added with `signs`, have the value.")
+    signs: list[int] = Field(description="1 or -1 for each of these.")
+    variable: FormulaInfo
+    formula: FormulaInfo
+    value: float = Field(description="[rad] in (-π, π], or [m].")
+
+
+class SingularConditionInfo(Answer):
+    """A factor of the determinant that some configurations make vanish."""
+
+    kind: Literal["solved", "equation", "never"] = Field(
+        description="Solved for a variable, left as an equation, or without a real solution with these lengths."
+    )
+    condition: FormulaInfo = Field(description="The factor that is zero.")
+    solutions: list[SingularValueInfo]
+    example: list[float] | None = Field(
+        description="A configuration that fulfils the condition, the other joints drawn at random, [rad or m]; null "
+        "where none was found."
+    )
+    example_singular_value: float | None = Field(
+        description="Smallest singular value of the block at the example, by the numbers of the table."
+    )
+
+
+class NumericColumnInfo(Answer):
+    """A column of the Jacobian at a configuration."""
+
+    axis: list[float] = Field(description="z of the joint.")
+    arm: list[float] = Field(description="From the joint's frame to the tip, [m].")
+    linear: list[float] = Field(description="Its upper three numbers, [m per rad or m].")
+    angular: list[float] = Field(description="Its lower three numbers, [rad per rad or m].")
+
+
+class NumericInfo(Answer):
+    """The numbers at one configuration."""
+
+    joint_positions: list[float] = Field(description="At which the numbers are, [rad or m].")
+    A: list[Grid] = Field(description="A_1 … A_n, translation in [m].")
+    T_0: list[Grid] = Field(description="T_0_1 … T_0_n, translation in [m].")
+    T_base_tool: Grid = Field(description="Translation in [m].")
+    position: list[float] = Field(description="Of the tool in the base, [m].")
+    rotation: Grid = Field(description="Of the tool in the base; no unit.")
+    columns: list[NumericColumnInfo]
+    jacobian: Grid = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
+    singular_values: list[float] = Field(description="Largest first, [m or rad] per [rad or m]: units are mixed.")
+    rank: int = Field(description="Singular values above 1e-10 times the largest.")
+    determinant: float | None = Field(description="Of the block that `determinant` names; null where none is square.")
+
+
+class StepInfo(Answer):
+    """A section of the worked solution."""
+
+    title: str = Field(description="What the step computes.")
+    text: str = Field(description="The step in a sentence or two.")
+    latex: list[str] = Field(description="Formulas, one per line.")
+
+
+class DeriveCertificate(Answer):
+    """Formulas against numbers from the table's own product of transforms, at random configurations."""
+
+    samples: int = Field(description="Configurations at which every formula was evaluated.")
+    max_error: float = Field(description="Largest difference of an entry; [m] or no unit.")
+    seed: int = Field(description="Random seed of the sampling.")
+
+
+class NumericCertificate(Answer):
+    """Numbers at the given configurations against Pinocchio's."""
+
+    samples: int = Field(description="Configurations that were recomputed.")
+    max_position_error: float = Field(description="Largest distance, [m].")
+    max_orientation_error: float = Field(description="Largest angle, [rad].")
+    max_jacobian_error: float = Field(description="Largest difference of an entry of the Jacobian.")
+
+
+class DeriveAnswer(Answer):
+    """The worked solution."""
+
+    convention: Literal["standard", "modified"] = Field(description="Of the table.")
+    joint_names: list[str] = Field(description="The order of a configuration.")
+    notation: Literal["short", "full"] = Field(description="As requested.")
+    symbolic: bool = Field(description="Whether the answer has formulas, or numbers alone.")
+    legend: list[LegendEntry] = Field(description="Meaning of each symbol.")
+    A: list[MatrixInfo] = Field(description="A_1 … A_n.")
+    T_0: list[MatrixInfo] = Field(description="T_0_1 … T_0_n.")
+    T_base_tool: MatrixInfo | None
+    position: MatrixInfo | None = Field(description="Of the tool in the base.")
+    rotation: MatrixInfo | None = Field(description="Of the tool in the base.")
+    jacobian: JacobianInfo | None
+    determinant: DeterminantInfo | None = Field(description="Null where no block is square, or without time.")
+    singularities: list[SingularConditionInfo] = Field(
+        description="One for each factor of the determinant that depends on a joint."
+    )
+    dynamics: DynamicsInfo | None = Field(
+        description="The equations of motion; null if they were not requested, or if `notes` says why there are none."
+    )
+    numeric: list[NumericInfo] = Field(description="One entry per configuration.")
+    steps: list[StepInfo] = Field(description="The solution step by step, in the order of a lecture.")
+    notes: list[str] = Field(description="What was read differently, what stays numeric or failed its check, and why.")
+    certificate: DeriveCertificate | None = Field(description="Null where there are no formulas.")
+    numeric_certificate: NumericCertificate | None = Field(description="Null where there are no configurations.")
+
+
+EXAMPLE_ANTHROPOMORPHIC: dict[str, Any] = {
+    "dh": {
+        "convention": "standard",
+        "joints": [
+            {"type": "revolute", "a": 0.0, "alpha": 1.5707963267948966, "d": 0.0, "theta": 0.0},
+            {"type": "revolute", "a": 0.5, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+            {"type": "revolute", "a": 0.4, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+        ],
+    },
+    "joint_positions": [[0.3, 0.6, -0.8]],
+}

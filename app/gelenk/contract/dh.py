@@ -1,0 +1,224 @@
+"""Denavit-Hartenberg tables on the wire."""
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from gelenk.contract.common import Answer, ChainOptions, Payload, RobotName, Strict
+from gelenk.contract.pose import Pose
+from gelenk.model.arrays import Array
+from gelenk.model.description import Mimic
+from gelenk.model.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
+from gelenk.model.errors import InvalidPose
+
+JointName = Annotated[str, Field(min_length=1, max_length=128, pattern=r"^[^\x00-\x1f\x7f-\x9f]+$")]
+
+
+class MimicPayload(Payload):
+    """The row's position is `multiplier` · position of `joint` + `offset`."""
+
+    joint: JointName = Field(
+        description="A row with a position of its own, or a joint outside the table: that is a variable then, in its "
+        "place where the first row needs it."
+    )
+    multiplier: float = Field(default=1.0, description="Of the position of the leader, [rad or m] per [rad or m].")
+    offset: float = Field(default=0.0, description="Added to the multiple of the leader's position, [rad or m].")
+
+
+class DhJointRow(Payload):
+    """A row of the table; the joint's position adds to `theta` (revolute) or to `d` (prismatic)."""
+
+    name: JointName | None = Field(
+        default=None, description="Unique in the table; `joint_1`, `joint_2`, … if left out."
+    )
+    type: Literal["revolute", "prismatic"] = Field(
+        description="Whether the joint turns about or slides along its axis."
+    )
+    a: float = Field(description="Length of the common normal, [m].")
+    alpha: float = Field(description="Twist about the common normal, [rad].")
+    d: float = Field(description="Offset along the joint axis, [m].")
+    theta: float = Field(description="Angle about the joint axis, [rad].")
+    lower: float | None = Field(
+        default=None, description="Lower limit of the position, [rad or m]; -π or -1 m if left out."
+    )
+    upper: float | None = Field(
+        default=None, description="Upper limit of the position, [rad or m]; π or 1 m if left out."
+    )
+    velocity: float | None = Field(default=None, ge=0, description="Velocity limit, [rad/s or m/s].")
+    effort: float | None = Field(default=None, ge=0, description="Effort limit, [N m or N].")
+    mimic: MimicPayload | None = Field(
+        default=None,
+        description="The joint that this one follows; if left out, its position is a variable of the table.",
+    )
+
+    def row(self, number: int) -> DhJoint:
+        """The core's row, the `number`-th from 1."""
+        fields = {**dict(self), "name": self.name or f"joint_{number}"}
+        return DhJoint(**{**fields, "mimic": None if self.mimic is None else Mimic(**dict(self.mimic))})
+
+
+class DhTablePayload(Payload):
+    """A Denavit-Hartenberg table: T_base_tool = base · A_1 ⋯ A_n · tool.
+
+    `standard` (distal): A_i = Rz(θ_i) Tz(d_i) Tx(a_i) Rx(α_i).
+    `modified` (Craig): A_i = Rx(α_i) Tx(a_i) Rz(θ_i) Tz(d_i).
+    """
+
+    convention: Literal["standard", "modified"] = Field(description="How the four parameters of a row are composed.")
+    joints: list[DhJointRow] = Field(min_length=1, max_length=MAX_JOINTS, description="The rows, base to tip.")
+    base: Pose | None = Field(default=None, description="T_base_0; the identity if left out.")
+    tool: Pose | None = Field(default=None, description="T_n_tool; the identity if left out.")
+
+    def table(self) -> DhTable:
+        """The core's table.
+
+        Raises:
+            InvalidPose: Base or tool is no rotation.
+            InvalidDhTable: The table is not a robot.
+        """
+        joints = tuple(row.row(number) for number, row in enumerate(self.joints, start=1))
+        return DhTable(self.convention, joints, _placed("base", self.base), _placed("tool", self.tool))
+
+
+def _placed(place: str, pose: Pose | None) -> Array:
+    if pose is None:
+        return np.eye(4)
+    try:
+        return pose.transform()
+    except InvalidPose as error:
+        raise InvalidPose(error.reason, error.distance, place) from error
+
+
+def table_content(table: DhTable) -> dict[str, Any]:
+    """A table as it travels: a valid `DhTablePayload` that gives the same numbers again.
+
+    Base and tool are matrices, which keep quarter turns exact, and are left out where they are the identity.
+    """
+    joints = []
+    for row in table.joints:
+        optional = {key: getattr(row, key) for key in ("lower", "upper", "velocity", "effort")}
+        content: dict[str, Any] = {key: getattr(row, key) for key in ("name", "type", "a", "alpha", "d", "theta")}
+        content |= {key: value for key, value in optional.items() if value is not None}
+        if row.mimic is not None:
+            content["mimic"] = {key: getattr(row.mimic, key) for key in ("joint", "multiplier", "offset")}
+        joints.append(content)
+    places = {place: T for place, T in (("base", table.base), ("tool", table.tool)) if not np.array_equal(T, np.eye(4))}
+    matrices = {place: {"matrix": T.tolist()} for place, T in places.items()}
+    return {"convention": table.convention, "joints": joints, **matrices}
+
+
+# Conversions
+
+Convention = Annotated[
+    Literal["standard", "modified"],
+    Field(description="Convention of the table: standard (distal) or modified (Craig)."),
+]
+SnapTolerance = Annotated[
+    float,
+    Field(
+        ge=0.0,
+        le=MAX_SNAP_TOLERANCE,
+        description="Angles within this distance [rad] of a multiple of π/2 are rounded to it, and lengths within this "
+        "distance [m] of zero become zero: the table a person would write for a description with truncated numbers. "
+        "The certificate gives the resulting error. At 0 the table is exact, except for axes that `notes` lists as "
+        "taken to be parallel.",
+    ),
+]
+
+
+class ToUrdfRequest(Payload):
+    """A table to be written as URDF."""
+
+    name: RobotName
+    dh: DhTablePayload
+
+
+class FromUrdfOptions(ChainOptions):
+    """Which chain of a robot, and what its table should be like."""
+
+    convention: Convention = "standard"
+    snap_tolerance: SnapTolerance = 0.0
+
+
+class FromUrdfRequest(FromUrdfOptions):
+    """A description with the chain to write as a table."""
+
+    urdf: str = Field(description="The URDF as text, xacro expanded.")
+    strict: Strict = False
+
+
+class ConvertRequest(Payload):
+    """A table to be written in a convention."""
+
+    dh: DhTablePayload
+    convention: Convention
+
+
+class TableCertificate(Answer):
+    """Difference between the two sides of a conversion, measured through Pinocchio at random configurations.
+
+    These are `lower + r (upper - lower)` with `r = numpy.random.default_rng(seed).random((samples, n))`. In the first
+    half of the rows the bounds are the joints' limits (one further than 10 rad or m from the position next to zero
+    counts as that far), in the second half revolute joints turn within ±π.
+    """
+
+    samples: int = Field(description="Number of configurations.")
+    max_position_error: float = Field(description="Largest distance of the two poses, [m].")
+    max_orientation_error: float = Field(description="Largest angle between the two poses, [rad].")
+    seed: int = Field(description="Random seed of the configurations.")
+
+
+class ToUrdfAnswer(Answer):
+    """The robot that a table describes."""
+
+    urdf: str = Field(description="Links `base`, `frame_0`, `link_1`, …, `tool`; each DH frame is a link `frame_i`.")
+    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
+    certificate: TableCertificate = Field(description="The table's own product against the URDF through Pinocchio.")
+    notes: list[str] = Field(description="What the URDF states and no table can: masses, and limits not given.")
+    warnings: list[str] = Field(description="What the table leaves open, and how it was resolved.")
+
+
+class FromUrdfAnswer(Answer):
+    """The table of a chain."""
+
+    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
+    joint_names: list[str] = Field(description="The variables, those of the chain, base to tip.")
+    base_frame: str = Field(description="Where the chain begins: the base of the table.")
+    tip_frame: str = Field(description="Where it ends: the tool of the table.")
+    certificate: TableCertificate = Field(description="The table's own product against the robot through Pinocchio.")
+    notes: list[str] = Field(description="What was chosen where the convention leaves a choice.")
+    warnings: list[str] = Field(description="Oddities of the description that were accepted.")
+
+
+class ConvertAnswer(Answer):
+    """The same chain by a table of the convention."""
+
+    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
+    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
+    certificate: TableCertificate = Field(description="Both tables, as URDF, through Pinocchio.")
+
+
+EXAMPLE_TABLE: dict[str, Any] = {
+    "convention": "modified",
+    "joints": [
+        {"name": "shoulder", "type": "revolute", "a": 0.0, "alpha": 0.0, "d": 0.333, "theta": 0.0}
+        | {"lower": -2.8, "upper": 2.8, "velocity": 2.1, "effort": 87.0},
+        {"name": "elbow", "type": "revolute", "a": 0.0, "alpha": -1.5707963267948966, "d": 0.0, "theta": 0.0}
+        | {"lower": -1.7, "upper": 1.7},
+        {"name": "slide", "type": "prismatic", "a": 0.1, "alpha": 1.5707963267948966, "d": 0.3, "theta": 0.0}
+        | {"lower": 0.0, "upper": 0.25},
+    ],
+    "tool": {"position": [0.0, 0.0, 0.1], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]},
+}
+EXAMPLE_URDF = """<robot name="two_links">
+  <link name="foot"/><link name="upper"/><link name="fore"/><link name="hand"/>
+  <joint name="shoulder" type="revolute"><parent link="foot"/><child link="upper"/>
+    <origin xyz="0 0 0.4" rpy="1.5708 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" velocity="1.5" effort="40"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/>
+    <origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+    <limit lower="-2.5" upper="2.5" velocity="2" effort="20"/></joint>
+  <joint name="wrist" type="fixed"><parent link="fore"/><child link="hand"/><origin xyz="0.35 0 0"/></joint>
+</robot>
+"""

@@ -1,0 +1,112 @@
+"""Requests and answers of dynamics."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer
+from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
+
+Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
+_ALL: list[Term] = ["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
+
+
+class DynamicsOptions(WrenchOptions):
+    """Axes, point, gravity and terms of a call of dynamics."""
+
+    list_fields = frozenset({"terms"})
+    vector_fields = frozenset({"gravity"})
+
+    gravity: Gravity = Field(
+        default=True,
+        description="True for 9.81 m/s² along -z of the root link, false for none, or the gravity in the axes of the "
+        "root link, [m/s²].",
+        examples=[[0.0, 0.0, -9.81]],
+    )
+    terms: Annotated[list[Term], Field(max_length=5)] = Field(
+        default=_ALL, description="Terms to compute in addition to what `joint_accelerations` or `torques` ask for."
+    )
+
+
+class DynamicsRequest(DynamicsOptions, WrenchRequest):
+    """Dynamics of a batch of configurations."""
+
+    joint_positions: Configurations
+    joint_velocities: Configurations | None = Field(
+        default=None, description="One entry per configuration, [rad/s or m/s]; zero if left out."
+    )
+    joint_accelerations: Configurations | None = Field(
+        default=None, description="For inverse dynamics: one entry per configuration, [rad/s² or m/s²]."
+    )
+    torques: Configurations | None = Field(
+        default=None,
+        description="For forward dynamics: τ of the motors, one entry per configuration, [N m], or [N] for sliding.",
+    )
+    wrenches: Wrenches | None = Field(
+        default=None,
+        description="γ, exerted by the tip on its surroundings, force before moment, six numbers, [N] and [N m]: a "
+        "list of one for all configurations or of one each.",
+    )
+
+
+class DynamicsCertificateInfo(Answer):
+    """How far sums over the bodies, by our own Jacobians, are from these numbers; null if not requested."""
+
+    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
+    max_mass_error: float | None = Field(description="Of M = Σ m J_vᵀJ_v + J_ωᵀIJ_ω, [kg m², kg m or kg].")
+    max_coriolis_error: float | None = Field(description="Of C q̇, [N m or N].")
+    max_skew_error: float | None = Field(
+        description="Of C + Cᵀ - dM/dt, which is zero where dM/dt - 2C is skew, [kg m², kg m or kg] per second."
+    )
+    max_gravity_error: float | None = Field(description="Of g = -Σ m J_vᵀg₀, [N m or N].")
+    max_energy_error: float | None = Field(description="Of kinetic and potential energy, [J].")
+    max_torque_error: float | None = Field(description="Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].")
+    max_round_trip_error: float | None = Field(
+        description="Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m or N]."
+    )
+    seed: int = Field(description="Random seed of the sampling.")
+
+
+class DynamicsAnswer(Answer):
+    """M q̈ + C q̇ + g + Jᵀγ = τ, one entry per configuration, in order; rows and columns as `joint_names`."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
+    root_frame: str = Field(description="The root link, which is fixed and in whose axes gravity is given.")
+    gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
+    mass_matrices: list[Matrix] | None = Field(
+        default=None, description="M(q): [kg m²] for two turning joints, [kg m] for one, [kg] for none."
+    )
+    coriolis_matrices: list[Matrix] | None = Field(
+        default=None,
+        description="C(q, q̇), of the many with these C q̇ one with dM/dt - 2C skew, [kg m², kg m or kg] per second.",
+    )
+    coriolis_torques: list[list[float]] | None = Field(
+        default=None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."
+    )
+    gravity_torques: list[list[float]] | None = Field(
+        default=None, description="g(q), the motor torques that hold the weight, [N m or N]."
+    )
+    kinetic_energies: list[float] | None = Field(default=None, description="½ q̇ᵀM q̇, [J].")
+    potential_energies: list[float] | None = Field(
+        default=None,
+        description="Of all that the chain's joints move, [J]: zero where its centre of mass is level with the origin "
+        "of the root link.",
+    )
+    wrench_torques: list[list[float]] | None = Field(
+        default=None, description="Jᵀγ, where wrenches were given, [N m or N]."
+    )
+    torques: list[list[float]] | None = Field(
+        default=None, description="By inverse dynamics, where `joint_accelerations` were given, [N m or N]."
+    )
+    joint_accelerations: list[list[float]] | None = Field(
+        default=None, description="By forward dynamics, where `torques` were given, [rad/s² or m/s²]."
+    )
+    overloaded_joints: list[list[str]] | None = Field(
+        default=None,
+        description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
+    )
+    notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
+    certificate: DynamicsCertificateInfo

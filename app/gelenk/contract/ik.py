@@ -1,0 +1,281 @@
+"""Requests and answers of inverse kinematics."""
+
+from collections.abc import Sequence
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, ChainOptions, OnTheWire
+from gelenk.contract.kinematics import Configuration, Configurations
+from gelenk.contract.pose import Pose, PoseFormat, pose_fields
+from gelenk.kinematics.ik.words import Direction, ObjectiveName, Status, StopReason
+from gelenk.model.arrays import Array
+
+MAX_TARGETS = 1_000_000
+MAX_STEPWISE = 1000
+"""Targets of a call that follows a method step by step, in Python."""
+
+MAX_TRACE = 1000
+"""Most configurations of a trace that are reported; a longer one is thinned evenly."""
+
+MAX_JOB_TARGETS = 4_000_000
+MAX_JOB_STEPWISE = 100_000
+"""The same of a call that is answered by a job."""
+
+Targets = Annotated[
+    Sequence[Pose] | Array,
+    OnTheWire(Annotated[list[Pose], Field(max_length=MAX_TARGETS, fail_fast=True)], pose_fields),
+    Field(description="Target poses of `tip_frame` in `base_frame`."),
+]
+
+Method = Literal["auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares"]
+
+
+class InverseOptions(ChainOptions):
+    """Options of inverse kinematics."""
+
+    list_fields = frozenset({"task"})
+    object_fields = frozenset({"fixed_joints"})
+
+    method: Method = Field(
+        default="auto",
+        description="`auto`: the closed form where the chain has one, else many starts of damped least squares, the "
+        "first at the seed, the others random. `analytic`: the closed form, or for six joints without one an "
+        "elimination or a continuation; 422 if none is known. The course's methods start at "
+        "the seed alone: `newton` (the pseudo-inverse where J is not square), `gradient`, `gradient_then_newton`, "
+        "`damped_least_squares`.",
+    )
+    solutions: Literal["one", "all"] = Field(
+        default="one",
+        description="`all`: every distinct solution, nearest to the seed first; of a redundant arm a sample of its "
+        "self-motion, no two nearer than 0.2 rad (or m) in every joint.",
+    )
+    position_tolerance: float = Field(
+        default=1e-6, ge=1e-12, le=1.0, description="Allowed distance of a solution from the target's position, [m]."
+    )
+    orientation_tolerance: float = Field(
+        default=1e-6,
+        ge=1e-12,
+        le=1.0,
+        description="Allowed angle between a solution and the target's orientation, [rad].",
+    )
+    task: list[Direction] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=6,
+        description="The directions that count; all six if left out. `x y z` along the base's axes, `rx ry rz` about "
+        "the target's: with two rotations the tip's axis of the third points as the target's does, so that "
+        "`x y z rx ry` is a position and an approach axis.",
+        examples=[["x", "y", "z", "rx", "ry"]],
+    )
+    respect_limits: bool = Field(default=True, description="Whether solutions must be within the joint limits.")
+    max_iterations: int | None = Field(
+        default=None,
+        ge=1,
+        le=1_000_000,
+        description="Budget for each target: with `auto` a start for every 20 (20000 if left out), not used with "
+        "`solutions: all`; else the steps of the one start (if left out 100 with `newton`, 500 with "
+        "`damped_least_squares`, 5000 with the two others).",
+    )
+    time_limit: float | None = Field(
+        default=None,
+        gt=0,
+        le=60,
+        description="Time limit of the whole call, [s]; each result that it cuts short has the `stop_reason` "
+        "`time_limit`. If left out, each target is searched to the end, so that the answer does not depend on the "
+        "machine's load; a call that exceeds the service's time limit returns 504 and can be sent as a job.",
+    )
+    random_seed: int = Field(default=0, ge=0, lt=2**53, description="Random seed of the starts.")
+    max_solutions: int = Field(
+        default=100, ge=1, le=10_000, description="Largest number of solutions of a target with `all`."
+    )
+    windings: bool = Field(
+        default=False,
+        description="With `all`: whether solutions that differ by full turns count, where limits allow them.",
+    )
+    objective: ObjectiveName | None = Field(
+        default=None,
+        description="How to use a redundant arm's freedom: to stay near `posture` (the seed if left out) or the middle "
+        "of the ranges, to keep away from the limits, or to be manipulable (√det JJᵀ). The nearest minimum along the "
+        "self-motion from the solution that was found; without freedom it stays as it is.",
+    )
+    step_size: float | None = Field(
+        default=None, gt=0, le=1e6, description="α of the gradient; if left out, a line search finds it."
+    )
+    damping: float | None = Field(
+        default=None,
+        ge=0,
+        le=1e6,
+        description="λ of `damped_least_squares` in Jᵀ(JJᵀ + λI)⁻¹e; if left out it follows the error.",
+    )
+    switch_error: float = Field(
+        default=1e-2, gt=0, le=1e6, description="‖e‖ at which `gradient_then_newton` changes over, [m and rad]."
+    )
+    elbow_angle: float | None = Field(
+        default=None,
+        description="With `analytic`, of seven joints with a spherical shoulder and wrist: the angle of the elbow "
+        "about the line from shoulder to wrist, from the plane of that line and the first axis, [rad]; if left out "
+        "that of the seed, or another where it does not fit into the limits.",
+    )
+    fixed_joints: dict[str, float] | None = Field(
+        default=None,
+        min_length=1,
+        description="Joints of the chain to hold, and their positions, [rad or m]: the answer is about the remaining "
+        "joints, with `solutions: all` every branch of these. Seeds and postures still list all joints of the chain; "
+        "values given for held joints are ignored. Not with `elbow_angle`.",
+        examples=[{"panda_joint7": 0.6}],
+    )
+    trace: bool = Field(
+        default=False,
+        description="Whether to report each iteration; with `auto` those of the start that counts, and no closed form "
+        f"is used then. At most {MAX_TRACE} configurations are reported per target.",
+    )
+    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")
+
+
+class InverseRequest(InverseOptions):
+    """Inverse kinematics of a batch of targets."""
+
+    targets: Targets
+    seeds: Configurations | None = Field(
+        default=None,
+        description="Where to start, and the configurations that solutions should be near: a list of one configuration "
+        "for all targets, or of one each, not necessarily within the limits; if left out `posture`, or the middle of "
+        "the ranges.",
+    )
+    posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
+
+
+class SolutionInfo(Answer):
+    """A configuration that brings the tip to the target."""
+
+    joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
+    position_error: float = Field(description="Distance to the target in the directions that count, [m].")
+    orientation_error: float = Field(description="Angle to the target likewise, [rad].")
+    method: str = Field(
+        description="What found it: `analytic` (a closed form), `elimination`, `continuation` (all solutions of "
+        "six joints followed to the target), or a method of iteration; `interpreted_least_squares` where the kernels "
+        "of `auto` are still being compiled, in the first minute after an installation."
+    )
+    iterations: int = Field(description="Of the start that led there; 0 where many starts did, as with `all`.")
+    restarts: int = Field(description="How many starts failed before.")
+    branch: dict[str, str | int] | None = Field(
+        description="Its branch where a closed form found it, else null: `shoulder` front or back, `elbow` up or down, "
+        "`wrist` no_flip or flip, as far as the arm has that choice; `arm` counts the roots where they are those of a "
+        "quartic."
+    )
+    free_joints: list[str] | None = Field(
+        default=None,
+        description="Joints that a singularity leaves free: at the seed's positions if the others can follow, "
+        "otherwise elsewhere.",
+    )
+    elbow_angle: float | None = Field(
+        default=None, description="Of an arm with a spherical shoulder and wrist: see the field of the request, [rad]."
+    )
+
+
+class FamilyInfo(Answer):
+    """Infinitely many solutions, joined by a motion of some joints while the others stand still.
+
+    The motion was walked in steps of up to 0.2 rad (or m), as far as limits or a full turn allow, and each of its
+    configurations met the target within 1e-9 m and rad.
+    """
+
+    free_joints: list[str] = Field(description="The joints that move, base to tip.")
+    relation: str | None = Field(
+        description="Which sums of them stay, `q_k` being the k-th of `joint_names`: `q_4 + q_6 = c`; null where no "
+        "sum with small whole factors does."
+    )
+    text: str = Field(description="The relation in words, with the value of each sum [rad or m].")
+    sweep: list[list[float]] = Field(
+        description="Some of its configurations in the order of the motion, [rad or m]; those of all families together "
+        "are at most `max_solutions`."
+    )
+
+
+class NearestInfo(Answer):
+    """The configuration found nearest to a target that is not reached.
+
+    It has the least distance² + angle² found, a metre counting as much as a radian. `auto` goes downhill from
+    the best of its starts, which lie apart; a nearer one may exist.
+    """
+
+    joint_positions: list[float] = Field(description="In the order of `joint_names`, [rad or m].")
+    pose: Pose = Field(description="T_base_tip there.")
+    position_error: float = Field(description="Distance to the target in the directions that count, [m].")
+    orientation_error: float = Field(description="Angle to the target likewise, [rad].")
+
+
+class BlockingJointInfo(Answer):
+    """A joint whose limit prevents the solution."""
+
+    name: str = Field(description="Of the joint.")
+    position: float = Field(description="Position it would need, [rad or m].")
+    lower: float = Field(description="Lower limit, [rad or m].")
+    upper: float = Field(description="Upper limit, [rad or m].")
+    excess: float = Field(description="How far beyond the limit that is, [rad or m].")
+
+
+class IterationInfo(Answer):
+    """One configuration on the way of a method."""
+
+    error: float = Field(description="‖e‖ of the directions that count: distance [m] and rotation vector [rad] mixed.")
+    min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")
+    step_length: float | None = Field(description="‖Δq‖ of the step from here, [rad or m]; null at the last.")
+    method: str | None = Field(description="Method of that step; null at the last.")
+    joint_positions: list[float] = Field(description="The configuration itself, [rad or m].")
+
+
+class InverseResult(Answer):
+    """The result for one target."""
+
+    status: Status = Field(
+        description="`unreachable`: by distance alone, or no start came nearer than `nearest` and nothing leads on "
+        "from there. `outside_limits`: it would be solved without limits. `singular`: the method stopped where the "
+        "Jacobian loses rank. `not_converged`: the budget ran out, or a `time_limit`."
+    )
+    solutions: list[SolutionInfo] = Field(description="Nearest to the seed first; empty unless solved.")
+    reason: str | None = Field(description="Why it is not solved; or, with `all`, why there may be other solutions.")
+    nearest: NearestInfo | None = Field(default=None, description="Of an unsolved target.")
+    blocking_joints: list[BlockingJointInfo] | None = Field(default=None, description="With `outside_limits`.")
+    unserved_directions: list[list[float]] | None = Field(
+        default=None,
+        description="Of an unsolved target: unit twists in the base's axes, linear before angular, that the tip cannot "
+        "follow at `nearest`.",
+    )
+    complete: bool | None = Field(
+        default=None,
+        description="With `all`: whether these are proved to be all solutions. False for the results of a search, and "
+        "next to a singularity, where rounding may lose a solution.",
+    )
+    families: list[FamilyInfo] | None = Field(
+        default=None,
+        description="With `all`, where there are infinitely many solutions: the families that `solutions` samples. "
+        "Empty where none was found; at most 32.",
+    )
+    stop_reason: StopReason | None = Field(
+        default=None,
+        description="If one start was followed: why it stopped (`stagnated`: e lies in ker Jᵀ). "
+        "`time_limit`: the call's time ran out before the target was solved, explained or brought to its objective.",
+    )
+    trace: list[IterationInfo] | None = Field(
+        default=None,
+        description="If requested: every configuration of the iteration; with `auto` from the start that counts, or "
+        "from the seed if none does. Joints that turn freely may leave their limits meanwhile; in the solution they "
+        "are turned back.",
+    )
+    note: str | None = Field(default=None, description="What a long `trace` leaves out.")
+
+
+class InverseAnswer(Answer):
+    """Verdicts, one entry per target, in order."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Frame in which the targets are expressed.")
+    tip_frame: str = Field(description="Frame that should reach them.")
+    task: list[Direction] = Field(description="The directions that count.")
+    closed_form: str | None = Field(
+        description="The geometry behind the closed form used, or the other method that solved six joints; null after "
+        "a search."
+    )
+    results: list[InverseResult]

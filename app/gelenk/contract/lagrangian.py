@@ -1,0 +1,184 @@
+"""The equations of motion of a planar arm on the wire."""
+
+import math
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag, field_validator
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
+from gelenk.contract.kinematics import Configuration
+from gelenk.kinematics.derive.lagrangian.bodies import STANDARD_GRAVITY, Body, Dynamics, Gravity
+from gelenk.model.dh import MAX_JOINTS, MAX_LENGTH
+
+MAX_CONFIGURATIONS = 100
+MAX_MASS = 1e6
+"""Largest mass of a link, [kg]."""
+MAX_INERTIA = 1e9
+"""Largest moment of inertia of a link, [kg m²]."""
+MAX_GRAVITY = 1e3
+"""Largest component of free fall, [m/s²]."""
+
+
+def _kind(value: Any) -> str:
+    return "<list>" if isinstance(value, list) else "<object>" if isinstance(value, dict) else "<number>"
+
+
+Coordinate = Annotated[float, Field(ge=-MAX_LENGTH, le=MAX_LENGTH)]
+Triple = Annotated[list[Coordinate], Field(min_length=3, max_length=3)]
+CenterOfMass = Annotated[
+    Annotated[Coordinate, Tag("<number>")] | Annotated[Triple, Tag("<list>")], Discriminator(_kind)
+]
+
+
+class LinkPayload(Payload):
+    """The mass of a link; what is left out stays a symbol."""
+
+    mass: float | None = Field(default=None, ge=0, le=MAX_MASS, description="m_i, [kg].")
+    center_of_mass: CenterOfMass | None = Field(
+        default=None,
+        description="[x, y, z] in frame i, [m]; or one number along the link, l_ci, [m]: behind a revolute joint from "
+        "its axis along x_i (along the next joint's axis where the link has no length along x and that joint slides), "
+        "behind a prismatic joint from the origin of frame i along its axis.",
+    )
+    inertia: float | None = Field(
+        default=None,
+        ge=0,
+        le=MAX_INERTIA,
+        description="I_i, about the centre of mass, the axis normal to the plane, [kg m²].",
+    )
+
+    def body(self) -> Body:
+        """The core's body."""
+        center = self.center_of_mass
+        point = (center[0], center[1], center[2]) if isinstance(center, list) else center
+        return Body(self.mass, point, self.inertia)
+
+
+class GravityPayload(Payload):
+    """Free fall by its size and direction."""
+
+    magnitude: float = Field(default=STANDARD_GRAVITY, ge=0, le=MAX_GRAVITY, description="g_0, [m/s²].")
+    direction: Triple = Field(description="Direction of free fall in the base; of any length, no unit.")
+
+    @field_validator("direction")
+    @classmethod
+    def _has_a_length(cls, value: list[float]) -> list[float]:
+        if not math.hypot(*value) > 1e-9:
+            raise ValueError("a direction is longer than 1e-9")
+        return value
+
+
+FreeFall = Annotated[list[Annotated[float, Field(ge=-MAX_GRAVITY, le=MAX_GRAVITY)]], Field(min_length=3, max_length=3)]
+
+
+class DynamicsPayload(Payload):
+    """Masses and gravity of a planar arm of up to three joints, for its equations of motion."""
+
+    links: Annotated[
+        list[LinkPayload],
+        Field(
+            max_length=MAX_JOINTS,
+            description="One per row of the table, in order; left out, all masses, centres of mass and inertias are "
+            "symbols.",
+        ),
+    ] = []  # noqa: RUF012
+    gravity: Annotated[
+        Annotated[FreeFall, Tag("<list>")] | Annotated[GravityPayload, Tag("<object>")], Discriminator(_kind)
+    ] = Field(
+        default=[0.0, 0.0, -STANDARD_GRAVITY],
+        description="Acceleration of free fall in the base, [m/s²], or its size and direction. Left out it points "
+        "along -z of the base, so that an arm in the x-y plane of the base is horizontal.",
+    )
+    joint_velocities: Annotated[list[Configuration], Field(max_length=MAX_CONFIGURATIONS)] | None = Field(
+        default=None, description="For C in numbers: one entry per configuration of `joint_positions`, [rad/s or m/s]."
+    )
+
+    def dynamics(self) -> Dynamics:
+        """The core's."""
+        given = self.gravity
+        vector, size = (given, math.hypot(*given)) if isinstance(given, list) else (given.direction, given.magnitude)
+        length = math.hypot(*vector) or 1.0
+        gravity = Gravity(size, (vector[0] / length, vector[1] / length, vector[2] / length))
+        return Dynamics(tuple(link.body() for link in self.links), gravity, self.joint_velocities)
+
+
+class BodyInfo(Answer):
+    """A link, as the Lagrangian sees it; vectors in the axes of frame 0."""
+
+    joint: str = Field(description="The joint that moves the body.")
+    center_of_mass: MatrixInfo = Field(description="p_ci from the origin of frame 0.")
+    velocity: MatrixInfo = Field(description="v_ci, of the centre of mass.")
+    angular_velocity: FormulaInfo = Field(description="ω_i about the normal of the plane.")
+    kinetic_energy: FormulaInfo = Field(description="T_i.")
+    potential_energy: FormulaInfo = Field(description="U_i, zero at the origin of frame 0.")
+
+
+class ChristoffelInfo(FormulaInfo):
+    """A Christoffel symbol of the first kind, c_ijk = c_ikj."""
+
+    i: int = Field(description="Number of the row of C, from 1.")
+    j: int = Field(description="Number of the column, from 1.")
+    k: int = Field(description="Number of the velocity beside it, from j on.")
+
+
+class MotionNumbers(Answer):
+    """The equations of motion at one configuration."""
+
+    joint_positions: list[float] = Field(description="At which the numbers are, [rad or m].")
+    joint_velocities: list[float] | None = Field(description="[rad/s or m/s]; null where none were given.")
+    mass_matrix: Grid = Field(description="M, [kg m², kg m or kg].")
+    coriolis: Grid | None = Field(description="C, [kg m²/s, kg m/s or kg/s]; null without velocities.")
+    coriolis_vector: list[float] | None = Field(description="C q̇, [N m or N]; null without velocities.")
+    gravity_vector: list[float] = Field(description="g, [N m or N].")
+
+
+class EquationsCertificate(Answer):
+    """Equations of motion against Pinocchio, which builds the arm from the table with these masses."""
+
+    samples: int = Field(
+        description="States that were compared; in symbols, also with random values for what has none."
+    )
+    max_mass_matrix_error: float = Field(description="Largest difference of an entry of M, [kg m², kg m or kg].")
+    max_coriolis_error: float = Field(description="Of a Christoffel symbol, [kg m², kg m or kg].")
+    max_gravity_error: float = Field(description="Of an entry of g, [N m or N].")
+    seed: int | None = Field(description="Random seed of the sampling; null where configurations were given.")
+
+
+class DynamicsInfo(Answer):
+    """The equations of motion, M(q) q̈ + C(q, q̇) q̇ + g(q) = τ."""
+
+    gravity: MatrixInfo = Field(description="Acceleration of free fall in the axes of frame 0.")
+    links: list[BodyInfo]
+    mass_matrix: MatrixInfo = Field(description="M(q), symmetric.")
+    christoffel: list[ChristoffelInfo] = Field(description="Those that differ from zero, j ≤ k.")
+    coriolis: MatrixInfo = Field(description="C(q, q̇), with C_ij = Σ_k c_ijk q̇_k.")
+    coriolis_vector: MatrixInfo = Field(description="C q̇.")
+    gravity_vector: MatrixInfo = Field(description="g(q).")
+    skew: MatrixInfo = Field(description="dM/dt - 2C, skew symmetric.")
+    equations_of_motion: list[FormulaInfo] = Field(description="One per joint, each with its `tau` on the right.")
+    numeric: list[MotionNumbers] = Field(
+        description="One entry per configuration; empty where a mass or the like has no value."
+    )
+    certificate: EquationsCertificate
+    numeric_certificate: EquationsCertificate | None = Field(description="Null where there are no numbers.")
+
+
+EXAMPLE_MOTION: dict[str, Any] = {
+    "dh": {
+        "convention": "standard",
+        "joints": [
+            {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+            {"type": "revolute", "a": 0.7, "alpha": 0.0, "d": 0.0, "theta": 0.0},
+        ],
+    },
+    "joint_positions": [[0.3, 0.8]],
+    "dynamics": {
+        "links": [
+            {"mass": 2.0, "center_of_mass": 0.5, "inertia": 0.2},
+            {"mass": 1.2, "center_of_mass": 0.35, "inertia": 0.06},
+        ],
+        "gravity": [0.0, -9.81, 0.0],
+        "joint_velocities": [[0.5, -0.4]],
+    },
+}

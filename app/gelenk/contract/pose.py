@@ -1,0 +1,138 @@
+"""Poses on the wire: one position, one orientation, in the notation that the caller likes."""
+
+from typing import Annotated, Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
+
+from gelenk.contract.common import Payload, as_lists
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidArray, InvalidPose
+from gelenk.model.poses import nearest_rotation, transform, unit_quaternion
+
+PoseFormat: TypeAlias = Literal[
+    "quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation", "matrix"
+]
+ORIENTATIONS = ("quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation")
+
+MAX_MAGNITUDE = 1e6
+"""Largest coordinate, [m], and angle, [rad]: beyond it a double no longer resolves a nanometre."""
+
+_Number = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]
+Vector3 = Annotated[list[_Number], Field(min_length=3, max_length=3)]
+Vector4 = Annotated[list[_Number], Field(min_length=4, max_length=4)]
+Matrix3 = Annotated[list[Vector3], Field(min_length=3, max_length=3)]
+Matrix4 = Annotated[list[Vector4], Field(min_length=4, max_length=4)]
+
+
+class Pose(Payload):
+    """A pose: `position` with exactly one orientation, or `matrix` alone.
+
+    An orientation further than 1e-6 from a rotation is refused, within that it is projected.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"position": [0.3, 0.0, 0.6], "quaternion_xyzw": [0.0, 0.0, 0.0, 1.0]}]}
+    )
+
+    position: Vector3 | None = Field(default=None, description="Origin, [m].")
+    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
+    rpy: Vector3 | None = Field(
+        default=None,
+        description="Roll, pitch, yaw about the fixed axes x, y, z (URDF): R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
+    )
+    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
+    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
+    matrix: Matrix4 | None = Field(default=None, description="Homogeneous transform, row by row; translation in [m].")
+
+    @model_validator(mode="after")
+    def _one_notation(self) -> "Pose":
+        given = [name for name in ORIENTATIONS if getattr(self, name) is not None]
+        if self.matrix is not None:
+            if given or self.position is not None:
+                raise ValueError("`matrix` must be given alone, without a position or another orientation")
+        elif self.position is None:
+            raise ValueError("a pose has a `position`, or a `matrix` alone")
+        elif len(given) != 1:
+            raise ValueError(f"a pose has exactly one orientation of {', '.join(ORIENTATIONS)}; {len(given)} are given")
+        return self
+
+    @model_serializer(mode="wrap")
+    def _given_alone(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return {name: value for name, value in handler(self).items() if value is not None}
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
+        """As `transform`, so that `np.array(answer.poses)` is a batch of shape (N, 4, 4)."""
+        return self.transform().astype(dtype or np.float64)
+
+    def transform(self) -> Array:
+        """T_a_b; shape (4, 4).
+
+        Raises:
+            InvalidPose: The orientation is no rotation, or the last row of the matrix is not 0 0 0 1.
+        """
+        return transform(np.array(self.origin()), self.orientation())
+
+    def origin(self) -> list[float]:
+        """The position, [m]."""
+        if self.matrix is not None:
+            return [row[3] for row in self.matrix[:3]]
+        return self.position or []
+
+    def orientation(self) -> Array:
+        """The rotation; shape (3, 3).
+
+        Raises:
+            InvalidPose: It is no rotation, or the last row of the matrix is not 0 0 0 1.
+        """
+        if self.matrix is not None:
+            if self.matrix[3] != [0.0, 0.0, 0.0, 1.0]:
+                raise InvalidPose("the last row of a homogeneous matrix is 0 0 0 1")
+            return nearest_rotation(np.array(self.matrix)[:3, :3])
+        if self.rotation is not None:
+            return nearest_rotation(np.array(self.rotation))
+        # Compiled: a client, which carries poses and reads none, need not load it.
+        from gelenk.model.notations import (  # noqa: PLC0415
+            rotations_from_quaternions_xyzw,
+            rotations_from_rpy,
+            rotations_from_vectors,
+            rotations_from_zyz,
+        )
+
+        Rs: Array
+        if self.rpy is not None:
+            Rs = rotations_from_rpy(np.array([self.rpy]))
+        elif self.zyz is not None:
+            Rs = rotations_from_zyz(np.array([self.zyz]))
+        elif self.rotation_vector is not None:
+            Rs = rotations_from_vectors(np.array([self.rotation_vector]))
+        else:
+            quaternion = np.array(self.quaternion_xyzw or self.quaternion_wxyz)
+            if self.quaternion_wxyz is not None:
+                quaternion = np.roll(quaternion, -1)
+            Rs = rotations_from_quaternions_xyzw(unit_quaternion(quaternion)[None])
+        rotation: Array = Rs[0]
+        return rotation
+
+
+def pose_fields(given: Any, field: str = "targets") -> Any:
+    """A batch of poses as JSON has it; arrays are of the shapes (N, 7), position and quaternion x y z w, or (N, 4, 4).
+
+    Raises:
+        InvalidArray: The array has another shape.
+    """
+    if not isinstance(given, np.ndarray):
+        return as_lists(given)
+    check_pose_shape(given, field)
+    if given.ndim == 2:
+        return [{"position": row[:3], "quaternion_xyzw": row[3:]} for row in given.tolist()]
+    return [{"matrix": matrix} for matrix in given.tolist()]
+
+
+def check_pose_shape(array: Array, field: str) -> None:
+    """Refuse what cannot be poses; raises as `pose_fields` does."""
+    if array.shape[1:] not in {(7,), (4, 4)}:
+        raise InvalidArray(f"{field} form an array of shape (N, 7) or (N, 4, 4); this one has the shape {array.shape}")

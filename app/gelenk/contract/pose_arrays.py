@@ -1,0 +1,105 @@
+"""Poses on the wire as the core's arrays, and the other way; compiled, so that a client need not load it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from gelenk.contract.pose import MAX_MAGNITUDE, Pose, PoseFormat, check_pose_shape
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField, InvalidPose
+from gelenk.model.notations import (
+    quaternions_xyzw_from_rotations,
+    rotations_from_quaternions_xyzw,
+    rpy_from_rotations,
+    vectors_from_rotations,
+    zyz_from_rotations,
+)
+from gelenk.model.poses import ROTATION_TOLERANCE, Poses
+
+
+def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
+    """A batch of poses as it came: payloads, or an array of (N, 7), position and quaternion x y z w, or (N, 4, 4).
+
+    Raises:
+        InvalidPose: An orientation is no rotation, or the last row of a matrix is not 0 0 0 1.
+        InvalidArray: The array has another shape.
+        InvalidField: A number of the array is not finite, or too large.
+    """
+    if isinstance(given, np.ndarray):
+        return _poses_from_array(given, field)
+    positions, rotations = np.empty((len(given), 3)), np.empty((len(given), 3, 3))
+    for i, pose in enumerate(given):
+        try:
+            positions[i], rotations[i] = pose.origin(), pose.orientation()
+        except InvalidPose as error:
+            raise InvalidPose(error.reason, error.distance, field, i) from None
+    return Poses(positions, rotations)
+
+
+def _poses_from_array(array: Array, field: str) -> Poses:
+    check_pose_shape(array, field)
+    bad = ~(np.abs(array) <= MAX_MAGNITUDE)
+    if bad.any():
+        row = int(np.argwhere(bad)[0][0])
+        raise InvalidField(field, f"entry {row}: numbers must be finite and of magnitude ≤ {MAX_MAGNITUDE:g}")
+    if array.ndim == 2:
+        norms = np.linalg.norm(array[:, 3:], axis=1)
+        _refuse(np.abs(norms - 1.0), "the quaternion's length differs from 1", field)
+        unit = np.ascontiguousarray(array[:, 3:] / norms[:, None])
+        return Poses(np.ascontiguousarray(array[:, :3]), rotations_from_quaternions_xyzw(unit))
+    wrong = (array[:, 3] != [0.0, 0.0, 0.0, 1.0]).any(axis=1)
+    if wrong.any():
+        raise InvalidPose("the last row of a homogeneous matrix is 0 0 0 1", None, field, int(np.argmax(wrong)))
+    Rs = np.ascontiguousarray(array[:, :3, :3])
+    deviations = np.linalg.norm(Rs.transpose(0, 2, 1) @ Rs - np.eye(3), axis=(1, 2))
+    # A reflection is as orthogonal as a rotation.
+    deviations = np.where(np.linalg.det(Rs) > 0.0, 0.5 * deviations, 2.0)
+    _refuse(deviations, "the matrix is not a rotation", field)
+    for _ in range(2):
+        # Newton's step to the nearest rotation [Higham2008, 8.3]: from 1e-6 to 1e-12 and on to rounding.
+        Rs = 0.5 * Rs @ (3.0 * np.eye(3) - Rs.transpose(0, 2, 1) @ Rs)
+    return Poses(np.ascontiguousarray(array[:, :3, 3]), np.ascontiguousarray(Rs))
+
+
+def _refuse(deviations: Array, what: str, field: str) -> None:
+    far = deviations > ROTATION_TOLERANCE
+    if far.any():
+        row = int(np.argmax(far))
+        reason = f"{what}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)"
+        raise InvalidPose(reason, float(deviations[row]), field, row)
+
+
+def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
+    """The orientations of poses in a notation; shape (N, 3), (N, 4), (N, 3, 3), or (N, 4, 4) with the positions."""
+    Rs = poses.rotations
+    match pose_format:
+        case "quaternion_xyzw":
+            return quaternions_xyzw_from_rotations(Rs)
+        case "quaternion_wxyz":
+            return np.roll(quaternions_xyzw_from_rotations(Rs), 1, axis=1)
+        case "rpy":
+            return rpy_from_rotations(Rs)
+        case "zyz":
+            return zyz_from_rotations(Rs)
+        case "rotation_vector":
+            return vectors_from_rotations(Rs)
+        case "rotation":
+            return Rs
+        case "matrix":
+            return poses.matrices()
+
+
+def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
+    """Poses as they travel: each is a valid `Pose`."""
+    values = orientations(poses, pose_format).tolist()
+    if pose_format == "matrix":
+        return [{"matrix": value} for value in values]
+    positions = poses.positions.tolist()
+    return [{"position": position, pose_format: value} for position, value in zip(positions, values, strict=True)]
+
+
+def pose_array(poses: Poses, pose_format: PoseFormat) -> Array:
+    """Poses as one array: (N, 4, 4) for `rotation` and `matrix`, else position and orientation side by side."""
+    if pose_format in {"rotation", "matrix"}:
+        return poses.matrices()
+    return np.hstack((poses.positions, orientations(poses, pose_format)))

@@ -1,0 +1,304 @@
+"""Requests and answers of velocity kinematics: the tip's motion of the joints', and the joints' of the tip's."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
+from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
+from gelenk.contract.singularity import SingularityInfo
+from gelenk.kinematics.ik.words import Direction, ObjectiveName
+from gelenk.kinematics.words import InverseName, InverseStatus
+
+MAX_MAGNITUDE = 1e6
+"""Largest entry of a twist, or of a derivative of one."""
+MAX_REPORTS = 1000
+"""Whole singularity reports in an answer."""
+
+
+def _kind(value: Any) -> str:
+    """A query has words alone, some of them numbers."""
+    return "<word>" if isinstance(value, str) and not value.strip("-+").startswith(tuple("0123456789.")) else "<number>"
+
+
+_Entry = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]
+_Vectors = Annotated[
+    Vectors,
+    OnTheWire(
+        Annotated[
+            list[Annotated[list[_Entry], Field(min_length=1, max_length=6, fail_fast=True)]],
+            Field(max_length=MAX_CONFIGURATIONS, fail_fast=True),
+        ]
+    ),
+]
+Damping = Annotated[
+    Annotated[Annotated[float, Field(ge=0, le=1e6)], Tag("<number>")] | Annotated[Literal["adaptive"], Tag("<word>")],
+    Discriminator(_kind),
+]
+
+_SIX = "Each as many numbers as `task` names directions, in its order, or six, linear before angular."
+
+
+class NullSpace(Payload):
+    """A motion of the joints whose part that leaves the tip at rest, (I - J#J) ξ, is added."""
+
+    joint_velocities: Configurations | None = Field(
+        default=None,
+        description="ξ, with `twists`: a list of one configuration for all entries, or of one each; [rad/s or m/s].",
+    )
+    joint_accelerations: Configurations | None = Field(
+        default=None, description="ξ, with `tip_accelerations`, likewise; [rad/s² or m/s²]."
+    )
+    objective: ObjectiveName | None = Field(
+        default=None,
+        description="With `twists`: ξ is `gain` times the direction in which an objective improves fastest: to come "
+        "nearer to `posture` (the objective is ½‖q - posture‖²) or mid-range (½Σ((q - mid)/range)²), "
+        "to keep away from limits (¼Σ range²/((upper - q)(q - lower)), pushing no harder in the last twentieth of a "
+        "range), or to be more manipulable (the logarithm of √det JJᵀ of the directions that count).",
+    )
+    gain: float = Field(default=1.0, gt=0, le=1000, description="Of the objective's gradient, [1/s].")
+    posture: Configuration | None = Field(default=None, description="For the objective `posture`, [rad or m].")
+
+    @model_validator(mode="after")
+    def _one_motion(self) -> "NullSpace":
+        given = [self.joint_velocities, self.joint_accelerations, self.objective]
+        if sum(motion is not None for motion in given) != 1:
+            raise ValueError("exactly one of `joint_velocities`, `joint_accelerations` and `objective`")
+        if self.objective is None and "gain" in self.model_fields_set:
+            raise ValueError("`gain`: only allowed with an `objective`")
+        if (self.posture is not None) != (self.objective == "posture"):
+            raise ValueError("`posture` and the objective of that name need each other")
+        return self
+
+
+class VelocityOptions(ChainOptions):
+    """Options of velocity kinematics."""
+
+    list_fields = frozenset({"task"})
+
+    reference: Literal["local_world_aligned", "local", "world"] = Field(
+        default="local_world_aligned",
+        description="Of all vectors of the tip. `local_world_aligned`: derivatives of the tip's position, and of its "
+        "angular velocity, along the base's axes (the course's). `local`: the same vectors along the tip's axes. "
+        "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
+        "origin (the spatial twist).",
+    )
+    task: list[Direction] | None = Field(
+        default=None,
+        min_length=1,
+        max_length=6,
+        description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
+        "left out. An arm with fewer joints than directions leaves a residual.",
+        examples=[["x", "y"]],
+    )
+    inverse: InverseName = Field(
+        default="pseudo_inverse",
+        description="`exact`: J⁻¹, of as many joints as directions. `pseudo_inverse`: the smallest joint velocities of "
+        "those with the smallest residual. `damped`: λ q̇ᵀWq̇ + ‖Jq̇ - v‖² is minimal.",
+    )
+    damping: Damping | None = Field(
+        default=None,
+        description="λ of `damped`, q̇ = Jᵀ(JJᵀ + λI)⁻¹v, where others write λ²; no unit of its own, metres and "
+        "radians are mixed. `adaptive`, the default: max(0, σ₀² - σ_min²), σ₀ being `damping_threshold`, and of "
+        "`twists` so much more that no joint exceeds its velocity limit.",
+    )
+    damping_threshold: float | None = Field(
+        default=None,
+        gt=0,
+        le=1e3,
+        description="σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, "
+        "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
+    )
+    rank_tolerance: float = Field(
+        default=1e-10,
+        gt=0,
+        lt=1,
+        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
+        "Jacobian; no unit.",
+    )
+    characteristic_length: float | None = Field(
+        default=None,
+        ge=1e-6,
+        le=1e6,
+        description="Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left "
+        "out, metres and radians are mixed: what the least residual is and what is near to a singularity depends on "
+        "the unit of length.",
+    )
+    jacobian_derivatives: bool = Field(
+        default=False, description="Whether to include J and as many of J̇, J̈, J⃛ as the given rates determine."
+    )
+    singularity_reports: bool = Field(
+        default=False,
+        description="Whether each entry also has the whole report of what is lost, which joints are dependent and "
+        f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of the same rows.",
+    )
+    respect_limits: bool = Field(
+        default=False, description="Whether a configuration beyond the joint limits is an error."
+    )
+
+
+class VelocityRequest(VelocityOptions):
+    """Motion of the tip (`joint_velocities` given), or of the joints (`twists`, `tip_accelerations`, `tip_jerks`)."""
+
+    joint_positions: Configurations
+    joint_velocities: Configurations | None = Field(
+        default=None, description="q̇, one entry per configuration, [rad/s or m/s]."
+    )
+    joint_accelerations: Configurations | None = Field(
+        default=None, description="q̈, beside `joint_velocities`, [rad/s² or m/s²]."
+    )
+    joint_jerks: Configurations | None = Field(
+        default=None, description="Third derivative of q, beside those before it, [rad/s³ or m/s³]."
+    )
+    joint_snaps: Configurations | None = Field(
+        default=None, description="Fourth derivative of q, beside those before it, [rad/s⁴ or m/s⁴]."
+    )
+    twists: _Vectors | None = Field(
+        default=None, description=f"v, to be inverted: one entry per configuration, [m/s, rad/s]. {_SIX}"
+    )
+    tip_accelerations: _Vectors | None = Field(
+        default=None,
+        description="Classical accelerations (p̈; ω̇), to be inverted at given `joint_velocities`: "
+        f"q̈ = J#(r̈ - J̇q̇), [m/s², rad/s²]. {_SIX}",
+    )
+    tip_jerks: _Vectors | None = Field(
+        default=None,
+        description="Jerks, to be inverted at given `joint_velocities` and `joint_accelerations`: "
+        f"J#(jerk - 2J̇q̈ - J̈q̇), [m/s³, rad/s³]. {_SIX}",
+    )
+    weights: Configuration | None = Field(
+        default=None,
+        description="Diagonal of W, one positive number per joint, between 1e-6 and 1e6, no unit: a joint of larger "
+        "weight moves less. The pseudo-inverse is W⁻¹Jᵀ(JW⁻¹Jᵀ)⁻¹.",
+    )
+    null_space: NullSpace | None = Field(
+        default=None, description="How to use a redundant arm's freedom; with `pseudo_inverse` and `damped`."
+    )
+
+
+class ExceededLimit(Answer):
+    """A joint that is faster than its description allows."""
+
+    joint: str = Field(description="Whose limit it is.")
+    velocity: float = Field(description="Of the joint, [rad/s or m/s].")
+    limit: float = Field(description="Of this joint and of those in the chain that mimic it, [rad/s or m/s].")
+    ratio: float = Field(description="Speed over limit, above 1; no unit.")
+
+
+class VelocitySingularity(Answer):
+    """Nearness to a singularity, in the directions that count.
+
+    Everything refers to the matrix that is inverted: angular rows are multiplied by `characteristic_length`, columns
+    divided by √weights.
+    """
+
+    singular: bool = Field(description="Whether the rank is less than at random configurations.")
+    rank: int = Field(description="Singular values that count, see `rank_tolerance`.")
+    structural_rank: int = Field(description="The same at random configurations.")
+    singular_values: list[float] = Field(
+        description="Largest first, [m or rad] per [rad or m]; units are mixed without a length."
+    )
+    condition_number: float | None = Field(
+        description="Largest over smallest singular value; no unit; null where the rank is less than both numbers of "
+        "rows and of columns."
+    )
+    lost_directions: list[list[float]] = Field(
+        description="Unit vectors, in the directions that count, along which the tip cannot move here; linear entries "
+        "are [m/s], angular ones [rad/s]."
+    )
+
+
+class VelocityResult(Answer):
+    """The result at one configuration."""
+
+    status: InverseStatus | None = Field(
+        default=None,
+        description="Of an inversion. `solved`: the residual vanishes. `approximate`: it does not. `singular`: `exact` "
+        "was requested and the Jacobian has no inverse, so there is no answer.",
+    )
+    reason: str | None = Field(default=None, description="Why it is not solved.")
+    residual: list[float] | None = Field(
+        default=None,
+        description="Requested motion minus the tip's motion, v - Jq̇, in the directions that count; [m/s, rad/s], of "
+        "accelerations [m/s², rad/s²], of jerks [m/s³, rad/s³].",
+    )
+    residual_linear: float | None = Field(default=None, description="Its length, linear part, [m/s], [m/s²] or [m/s³].")
+    residual_angular: float | None = Field(
+        default=None, description="Its length, angular part, [rad/s], [rad/s²] or [rad/s³]."
+    )
+    damping: float | None = Field(
+        default=None, description="λ that was used; 0 without damping; metres and radians mixed."
+    )
+    null_space_share: float | None = Field(
+        default=None,
+        description="With `null_space`: fraction of that motion that fits within the velocity limits, which the "
+        "adaptive damping keeps; from 0 to 1, no unit.",
+    )
+    velocity_limits_exceeded: list[ExceededLimit] = Field(
+        description="Joints whose velocity, given or found, exceeds the limit of the description."
+    )
+    singularity: VelocitySingularity
+    singularity_report: SingularityInfo | None = Field(default=None, description="If requested.")
+
+
+class MotionCertificateInfo(Answer):
+    """Differences of the tip's motion from the one computed through Pinocchio.
+
+    The snap is compared with a difference quotient of Pinocchio's jerk, which is itself accurate to about nine digits.
+    """
+
+    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
+    max_twist_error: float = Field(description="Largest difference of an entry, [m/s or rad/s].")
+    max_acceleration_error: float | None = Field(description="The same, [m/s² or rad/s²]; null where there is none.")
+    max_spatial_acceleration_error: float | None = Field(
+        description="The same, [m/s² or rad/s²]; null where there is none."
+    )
+    max_jerk_error: float | None = Field(description="The same, [m/s³ or rad/s³]; null where there is none.")
+    max_snap_error: float | None = Field(description="The same, [m/s⁴ or rad/s⁴]; null where there is none.")
+    seed: int = Field(description="Random seed of the sampling.")
+
+
+_Rows = list[list[float]]
+_Solutions = list[list[float] | None]
+
+
+class VelocityAnswer(Answer):
+    """The requested motion, one entry per configuration, in order; what was not requested is left out."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")
+    reference: Literal["local_world_aligned", "local", "world"] = Field(description="As requested.")
+    task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
+    rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
+    twists: _Rows | None = Field(default=None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
+    accelerations: _Rows | None = Field(
+        default=None, description="Classical: Jq̈ + J̇q̇ = (p̈; ω̇), p the tip's position, [m/s², rad/s²]."
+    )
+    spatial_accelerations: _Rows | None = Field(
+        default=None,
+        description="Pinocchio's: the derivative of the twist's coordinates in the tip's axes, turned to `reference`; "
+        "in `local_world_aligned` (p̈ - ω × ṗ; ω̇), [m/s², rad/s²].",
+    )
+    jerks: _Rows | None = Field(
+        default=None,
+        description="J q⃛ + 2 J̇ q̈ + J̈ q̇: third derivative of the tip's position, second of ω, [m/s³, rad/s³].",
+    )
+    snaps: _Rows | None = Field(
+        default=None,
+        description="J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇: fourth derivative of the tip's position, third of ω, [m/s⁴, rad/s⁴].",
+    )
+    joint_velocities: _Solutions | None = Field(
+        default=None, description="Of `twists`, [rad/s or m/s]; null where `exact` has no answer."
+    )
+    joint_accelerations: _Solutions | None = Field(
+        default=None, description="Of `tip_accelerations`, likewise, [rad/s² or m/s²]."
+    )
+    joint_jerks: _Solutions | None = Field(default=None, description="Of `tip_jerks`, likewise, [rad/s³ or m/s³].")
+    jacobian_derivatives: list[list[Matrix]] | None = Field(
+        default=None,
+        description="If requested: J, J̇, J̈, J⃛ of `local_world_aligned`, 6 rows and n columns each, one fewer than "
+        "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
+    )
+    results: list[VelocityResult]
+    certificate: MotionCertificateInfo
