@@ -244,10 +244,12 @@ def test_a_process_that_has_grown_makes_room_for_a_fresh_one() -> None:
 
 def test_a_process_killed_between_calls_costs_no_call() -> None:
     async def test(crew: Crew) -> None:
-        for pid in crew.pids:
+        killed = list(crew.pids)
+        for pid in killed:
             os.kill(pid, signal.SIGKILL)
-        while not all(gone(pid) for pid in crew.pids):
-            await asyncio.sleep(0.005)
+        async with asyncio.timeout(LONG):
+            while not all(gone(pid) for pid in killed):
+                await asyncio.sleep(0.005)
         assert await crew.run(calls.double, 1, LONG) == 2
 
     with_crew(test)
