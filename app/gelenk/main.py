@@ -4,15 +4,16 @@ import asyncio
 import os
 import sys
 import threading
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
+from functools import partial
 
 from fastapi import FastAPI
 from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
-from gelenk.api import documentation, openapi, problems, studio
+from gelenk.api import dispatch, documentation, openapi, problems, studio
 from gelenk.api.access.directory import Directory
 from gelenk.api.access.door import Check, Door
 from gelenk.api.access.hosts import TrustedHosts, repeated
@@ -23,29 +24,26 @@ from gelenk.api.access.metrics import Metrics
 from gelenk.api.access.origins import Origins
 from gelenk.api.access.tracing import TracedId, exporter_variables, telemetry
 from gelenk.api.bodies import Bodies
-from gelenk.api.compare import compare_route
-from gelenk.api.course_components import component_routes
-from gelenk.api.course_fly_over import fly_over_route
-from gelenk.api.course_mobility import mobility_route
-from gelenk.api.course_orientation import orientation_route
-from gelenk.api.course_spline import spline_route
-from gelenk.api.course_time_law import time_law_route
-from gelenk.api.course_time_scaling import time_scaling_route
-from gelenk.api.derive import derive_route
-from gelenk.api.dh import dh_routes
+from gelenk.api.derive import derive_handler
 from gelenk.api.jobs import jobs_router
+from gelenk.api.long_works import LONG_WORK
 from gelenk.api.operations import Setup
-from gelenk.api.remote import Remote
+from gelenk.api.remote import PARSED_HERE_BYTES, Remote
+from gelenk.api.robot_table import table_route
 from gelenk.api.robots import robots_router, upload_routes
-from gelenk.api.routes import Application, Operation
+from gelenk.api.routes import Application
 from gelenk.api.service import Readiness, service_router
 from gelenk.api.workspace import SampleLimits, workspace_route, workspace_work
+from gelenk.contract.endpoint import RobotEndpoint
+from gelenk.contract.endpoints import ENDPOINTS, ROBOT_ENDPOINTS
 from gelenk.crew.crew import Crew
 from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.shelf import Limits as JobLimits
+from gelenk.jobs.shelf import Shelf
 from gelenk.jobs.workers import Workers
+from gelenk.operations.outcome import Limits
 from gelenk.settings import Settings
 from gelenk.store.library import Quota
 
@@ -72,13 +70,13 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
-    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", most, seconds, quota, settings.job_bytes)
+    limits = Limits(most, seconds, settings.job_bytes)
+    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
     library = setup.library()
     crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
     remote = Remote(crew, setup, library, seconds, settings.client_requests)
     derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
-    operations = setup.operations()
-    runner = _runner(settings, operations)
+    runner = _runner(settings, limits)
     audit = Audit(settings.data_dir / "audit")
     metrics = Metrics(library.catalogue_names, crew, runner.shelf.states)
     readiness = Readiness(crew, settings.data_dir, lambda: runner.failure)
@@ -126,34 +124,29 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     size = settings.max_body_bytes
     app.include_router(robots_router(library, remote))
     app.router.routes.extend(upload_routes(remote, size))
-    app.router.routes.extend(dh_routes(remote, size))
-    app.router.routes.append(compare_route(remote, size))
-    app.router.routes.append(derive_route(crew, derivations, size))
-    app.router.routes.extend(component_routes(remote, size))
-    for course_route in (
-        *(fly_over_route, mobility_route, orientation_route),
-        *(time_law_route, spline_route, time_scaling_route),
-    ):
-        app.router.routes.append(course_route(remote, size))
-    for operation in operations:
-        handler = operation.computation.handler(operation.name, remote, runner)
-        app.operations[operation.name] = handler
-        app.router.routes.append(operation.route(handler, size))
+    app.router.routes.append(table_route(remote, size))
+    special = {"derive_dh": derive_handler(crew, derivations)}
+    for endpoint in ENDPOINTS:
+        handler = special.get(endpoint.name) or dispatch.handler(endpoint, remote, runner, limits)
+        most_body = min(size, PARSED_HERE_BYTES) if endpoint.name in special else size
+        app.router.routes.append(dispatch.route(endpoint, handler, most_body))
+        if isinstance(endpoint, RobotEndpoint):
+            app.operations[endpoint.name] = handler
     samples = SampleLimits(settings.max_job_samples, most)
     app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
-    queries = [operation.computation.options for operation in operations]
-    openapi.describe(app, bool(settings.api_keys), [query for query in queries if query is not None])
+    queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
+    openapi.describe(app, bool(settings.api_keys), queries)
     app.door = _door(app, settings, metrics, audit)
     return app
 
 
-def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
+def _runner(settings: Settings, limits: Limits) -> Runner:
     """What does the jobs."""
-    kept = Limits(
+    kept = JobLimits(
         kept=settings.kept_jobs,
         kept_bytes=settings.kept_job_bytes,
         unfinished=settings.unfinished_jobs,
@@ -161,7 +154,7 @@ def _runner(settings: Settings, operations: Sequence[Operation]) -> Runner:
         kept_seconds=settings.kept_job_days * 24 * 3600.0,
     )
     kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
-    kinds |= {long.kind: long.work for operation in operations if (long := operation.computation.long) is not None}
+    kinds |= {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
     workers = Workers(settings.job_processes)
     shelf = Shelf(settings.data_dir / "jobs", kept)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers

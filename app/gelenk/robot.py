@@ -18,12 +18,10 @@ from typing import Any, Self, TypeAlias, TypeVar, cast
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from gelenk.api import trajectory_request
-from gelenk.api.inverse_request import Bounds, asked, options_of
 from gelenk.contract.common import as_lists
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.ik import InverseRequest
-from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.kinematics.configuration import configurations
 from gelenk.kinematics.forward import ForwardKinematics, forward_kinematics
 from gelenk.kinematics.ik.result import InverseKinematics
@@ -38,6 +36,8 @@ from gelenk.model.description import Description
 from gelenk.model.dh import Convention
 from gelenk.model.errors import InvalidField, UnknownRobot, counted
 from gelenk.model.urdf import read_urdf
+from gelenk.operations import trajectory_request
+from gelenk.operations.ik_request import Bounds, asked, options_of
 from gelenk.places import catalogue
 from gelenk.store.records import describe, load, read_record
 from gelenk.trajectory.plan import plan

@@ -12,7 +12,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.api.payloads import read_json
-from gelenk.contract.dh import FromUrdfRequest
+from gelenk.contract.dh_from_urdf import FromUrdfRequest
 from tests.corpus.dh import GOOD_BODY, REFUSED_DH, REFUSED_JSON, TABLE, RefusedDh
 from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid
 

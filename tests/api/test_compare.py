@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.compare import EXAMPLE_COMPARISON, CompareAnswer
+from gelenk.contract.compare_dh import EXAMPLE_COMPARISON, CompareAnswer
 from tests.oracles import catalogue
 
 FIELDS = {

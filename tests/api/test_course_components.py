@@ -10,15 +10,10 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.common import Answer
-from gelenk.contract.course_components import (
-    EXAMPLE_GEAR,
-    EXAMPLE_MOTOR,
-    EXAMPLE_PWM,
-    DcMotorAnswer,
-    GearAnswer,
-    PwmAnswer,
-)
-from gelenk.contract.course_encoder import EXAMPLE_ENCODER, EncoderAnswer
+from gelenk.contract.dc_motor import EXAMPLE_MOTOR, DcMotorAnswer
+from gelenk.contract.encoder import EXAMPLE_ENCODER, EncoderAnswer
+from gelenk.contract.gear import EXAMPLE_GEAR, GearAnswer
+from gelenk.contract.pulse_width_modulation import EXAMPLE_PWM, PwmAnswer
 
 ANSWERS: dict[str, type[Answer]] = {
     "dc-motor": DcMotorAnswer,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.course_fly_over import EXAMPLE_FLY_OVER, FlyOverAnswer
+from gelenk.contract.fly_over import EXAMPLE_FLY_OVER, FlyOverAnswer
 
 PATH = "/v1/course/fly-over"
 IN_SPACE = {

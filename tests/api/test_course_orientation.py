@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from gelenk.contract.course_orientation import OrientationAnswer
+from gelenk.contract.orientation import OrientationAnswer
 from gelenk.contract.pose import ORIENTATIONS
 
 PATH = "/v1/course/orientation"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.course_time_law import EXAMPLE_TIME_LAW, TimeLawAnswer
+from gelenk.contract.time_law import EXAMPLE_TIME_LAW, TimeLawAnswer
 
 PATH = "/v1/course/time-law"
 LIMITS = {"joint_velocity": 0.8, "joint_acceleration": 1.6}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.course_time_scaling import EXAMPLE_TIME_SCALING, TimeScalingAnswer
+from gelenk.contract.time_scaling import EXAMPLE_TIME_SCALING, TimeScalingAnswer
 
 PATH = "/v1/course/time-scaling"
 LOOSE = {"joint_velocity": 10.0, "joint_acceleration": 100.0}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.course_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer
+from gelenk.contract.planar_workspace import EXAMPLE_WORKSPACE, PlanarWorkspaceAnswer
 
 PATH = "/v1/course/workspace"
 

@@ -13,15 +13,10 @@ import yourdfpy
 from starlette.testclient import TestClient
 
 from gelenk.contract.common import Answer
-from gelenk.contract.dh import (
-    EXAMPLE_TABLE,
-    EXAMPLE_URDF,
-    ConvertAnswer,
-    DhTablePayload,
-    FromUrdfAnswer,
-    ToUrdfAnswer,
-    table_content,
-)
+from gelenk.contract.convert_dh import ConvertAnswer
+from gelenk.contract.dh import EXAMPLE_TABLE, EXAMPLE_URDF, DhTablePayload, table_content
+from gelenk.contract.dh_from_urdf import FromUrdfAnswer
+from gelenk.contract.dh_to_urdf import ToUrdfAnswer
 from gelenk.model.arrays import Array
 from tests.corpus.dh import REFUSED_DH, TABLE, RefusedDh
 from tests.corpus.urdf import ODD, REFUSED, VALID, Odd, Refused, Valid

@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 from starlette.testclient import TestClient
 
-from gelenk.contract.kinematics import ForwardAnswer, JacobianAnswer
+from gelenk.contract.fk import ForwardAnswer
+from gelenk.contract.jacobian import JacobianAnswer
 from gelenk.contract.pose import ORIENTATIONS, Pose
 from gelenk.kinematics import configuration, kernels
 

@@ -17,7 +17,7 @@ from starlette.testclient import TestClient
 from gelenk.api.access.keyring import new_key
 from gelenk.api.access.scopes import Scope
 from gelenk.api.preference import wants_answer_later
-from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.crew.crew import Crew
 from gelenk.kinematics.ik import search, solve
 from gelenk.main import create_app

@@ -21,13 +21,15 @@ from gelenk.api.remote import Remote
 from gelenk.crew.crew import Crew
 from gelenk.jobs.job import Failure
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.shelf import Limits as JobLimits
+from gelenk.jobs.shelf import Shelf
 from gelenk.jobs.workers import Workers
 from gelenk.kinematics.certify import certify_poses
 from gelenk.model import errors
 from gelenk.model.chain import build_chain
 from gelenk.model.poses import Poses
 from gelenk.model.urdf import read_urdf
+from gelenk.operations.outcome import Limits
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, Quota, RobotUpload
@@ -139,7 +141,7 @@ def beyond_the_quota() -> None:
 def on_a_shelf(do: Callable[[Shelf], object]) -> None:
     """Something with jobs of which no more than two may wait."""
     with TemporaryDirectory() as folder:
-        shelf = Shelf(Path(folder), Limits(unfinished=2))
+        shelf = Shelf(Path(folder), JobLimits(unfinished=2))
         try:
             do(shelf)
         finally:
@@ -163,7 +165,7 @@ def by_a_crew(function: Callable[[Any], object], argument: object, seconds: floa
 
 def of_a_client(share: int) -> None:
     request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
-    setup = Setup(CATALOGUE, CATALOGUE / "none", 1, 1.0)
+    setup = Setup(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
     remote = Remote(Crew(1, 1, 1), setup, setup.library(), 1.0, share)
     asyncio.run(remote.resident(request, "somebody"))
 

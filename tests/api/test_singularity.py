@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.singularity import SingularityAnswer
+from gelenk.contract.singularities import SingularityAnswer
 
 NPY = "application/x-npy"
 Q = [0.1, -1.2, 1.4, -0.7, 0.5, 0.3]

@@ -6,10 +6,10 @@ import numpy as np
 import orjson
 import pytest
 
-from gelenk.api.trajectory_limits import Bounds, Layer, bounds_of, limit_notes, own_velocities
-from gelenk.api.trajectory_samples import check_samples, sample_count, sample_times
-from gelenk.contract.trajectory import MotionOptions
+from gelenk.contract.trajectory_request import MotionOptions
 from gelenk.model.errors import InvalidField
+from gelenk.operations.trajectory_limits import Bounds, Layer, bounds_of, limit_notes, own_velocities
+from gelenk.operations.trajectory_samples import check_samples, sample_count, sample_times
 from tests.oracles import catalogue
 from tests.robots import robot, swept
 

@@ -13,7 +13,7 @@ from gelenk.cli import completion
 from gelenk.cli.completion import one_of
 from gelenk.cli.examples import EXAMPLES
 from gelenk.contract.ik import InverseOptions
-from gelenk.contract.kinematics import JacobianOptions
+from gelenk.contract.jacobian import JacobianOptions
 from gelenk.trajectory.words import Law
 from tests.cli.conftest import Shell
 from tests.cli.test_ends import ran

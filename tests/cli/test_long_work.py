@@ -15,7 +15,7 @@ from gelenk.calls.refusals import Refused
 from gelenk.cli.batches import in_calls
 from gelenk.cli.local import InProcess
 from gelenk.client import Client
-from gelenk.contract.kinematics import ForwardAnswer
+from gelenk.contract.fk import ForwardAnswer
 from tests.cli.conftest import Shell
 from tests.test_serve import get
 

@@ -13,11 +13,11 @@ from gelenk.calls.call import Reply
 from gelenk.calls.npy import packed, unpacked
 from gelenk.calls.operations import Operations
 from gelenk.client import Client
+from gelenk.contract.fk import ForwardAnswer, ForwardRequest
 from gelenk.contract.ik import InverseRequest
-from gelenk.contract.kinematics import ForwardAnswer, ForwardRequest
 from gelenk.contract.pose import Pose
 from gelenk.contract.statics import PayloadInfo, StaticsRequest
-from gelenk.contract.trajectory import JointSegment
+from gelenk.contract.trajectory_request import JointSegment
 from gelenk.contract.velocity import NullSpace
 from gelenk.model.errors import InvalidArray, InvalidField
 

@@ -13,8 +13,8 @@ from gelenk.calls.arrays import ArrayOperations, Reached
 from gelenk.calls.call import Call, Sent
 from gelenk.calls.operations import Operations
 from gelenk.client import AsyncClient, Client
+from gelenk.contract.fk import ForwardAnswer
 from gelenk.contract.jobs import JobInfo
-from gelenk.contract.kinematics import ForwardAnswer
 from gelenk.contract.pose import Pose
 from gelenk.model.arrays import Array
 from tests.corpus import zips

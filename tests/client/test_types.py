@@ -18,10 +18,10 @@ from gelenk.calls.arrays import Reached
 from gelenk.calls.jobs import Job
 from gelenk.client import AsyncClient, Client
 from gelenk.contract.ik import InverseAnswer
-from gelenk.contract.kinematics import ForwardAnswer
+from gelenk.contract.fk import ForwardAnswer
 from gelenk.contract.pose import Pose
 from gelenk.contract.statics import PayloadInfo
-from gelenk.contract.trajectory import JointSegment
+from gelenk.contract.trajectory_request import JointSegment
 
 Array = npt.NDArray[np.float64]
 

@@ -6,15 +6,14 @@ from typing import Any
 
 from starlette.responses import Response
 
-from gelenk.api.dh import dh_route
 from gelenk.api.elsewhere import Elsewhere
 from gelenk.api.lagrangian import formula_content, matrix_content, motion_content
 from gelenk.api.payloads import JSON, BoundedRequest, json_response, read_json
 from gelenk.api.places import Places
 from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.remote import PARSED_HERE_BYTES, client_of, while_wanted
-from gelenk.api.routes import DocumentedRoute, in_thread
-from gelenk.contract.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
+from gelenk.api.remote import client_of, while_wanted
+from gelenk.api.routes import Handler, in_thread
+from gelenk.contract.derive import DeriveRequest
 from gelenk.crew.crew import Crew
 from gelenk.kinematics.derive.jacobian import ROW_NAMES
 from gelenk.kinematics.derive.numeric import NumericSolution
@@ -29,27 +28,9 @@ _AT_ONCE = 2
 """Requests that are worked on in threads of this process at a time, while the crew writes their formulas."""
 
 
-def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> DocumentedRoute:
-    """POST /v1/dh/derive."""
+def derive_handler(crew: Crew, executor: Executor) -> Handler:
+    """What answers `ENDPOINT`: a thread of this process, with formulas from workers."""
     places = Places(_AT_ONCE)
-
-    def derive_table(call: DeriveRequest) -> DeriveAnswer:
-        """Writes the worked solution of a table as a lecturer would, in symbols and in numbers.
-
-        Every A_i and T_0_i, the tip's pose, the Jacobian by its columns z × p, the determinant as a product, and the
-        singular configurations; `steps` explains it in words. Formulas are given in LaTeX and plain text; sums of
-        angles about parallel axes appear as c_{23}, and `legend` says what each symbol is. An angle within 1e-5 of a
-        multiple of 90°, 45° or 30° is taken as that angle, and `notes` says so.
-
-        Each formula is checked against the table's numbers at random configurations, and the numbers at the given ones
-        against Pinocchio's. A formula that fails the check is left out, and so are formulas of a large arm that are too
-        long to read: `notes` says which, and the numbers remain.
-
-        With `dynamics` a planar arm of up to three joints also gets its equations of motion by the Lagrangian:
-        energies, mass matrix, Christoffel symbols, Coriolis and gravity terms, compared with Pinocchio at random
-        states. A mass, centre of mass or inertia that is left out stays a symbol.
-        """
-        raise NotImplementedError
 
     async def handle(request: BoundedRequest) -> Response:
         deadline = time.monotonic() + SECONDS
@@ -75,15 +56,7 @@ def derive_route(crew: Crew, executor: Executor, max_body_bytes: int) -> Documen
         finally:
             elsewhere.end()
 
-    return dh_route(
-        "/v1/dh/derive",
-        derive_table,
-        handle,
-        min(max_body_bytes, PARSED_HERE_BYTES),
-        operation_id="derive_dh",
-        summary="Table → worked solution",
-        example=EXAMPLE_ANTHROPOMORPHIC,
-    )
+    return handle
 
 
 def _solved(call: DeriveRequest, elsewhere: Elsewhere, deadline: float) -> WorkedSolution:

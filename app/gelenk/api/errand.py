@@ -3,22 +3,19 @@
 An errand is a function of a module, or a frozen dataclass with a `__call__`, because it travels by name.
 """
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pickle import PickleBuffer
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
+from typing import Protocol, TypeAlias
 
 from starlette.responses import Response
 
-from gelenk.api.payloads import JSON, SVG, json_response, read_json
-from gelenk.api.tally import TALLY, Tally
-from gelenk.contract.common import Payload
+from gelenk.api.payloads import JSON
 from gelenk.crew.wire import pieces_of
+from gelenk.operations.outcome import Limits
+from gelenk.operations.tally import TALLY, Tally
 from gelenk.store.library import Library
-
-if TYPE_CHECKING:
-    from gelenk.api.routes import Computation
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +28,7 @@ class Inquiry:
         query: The query string.
         npy: Whether the body is an array.
         wanted: Media type of the answer.
+        endpoint: Name of the operation, where it is one of the table.
     """
 
     pieces: Sequence[PickleBuffer] = ()
@@ -38,6 +36,7 @@ class Inquiry:
     query: str = ""
     npy: bool = False
     wanted: str = JSON
+    endpoint: str = ""
 
     @property
     def body(self) -> bytes:
@@ -56,11 +55,11 @@ class Desk:
 
     Attributes:
         library: All robots.
-        computations: The operations on a robot, by name.
+        limits: What an answer may take.
     """
 
     library: Library
-    computations: "Mapping[str, Computation[Any]]"
+    limits: Limits
 
 
 class Shop(Hashable, Protocol):
@@ -87,42 +86,3 @@ def answered(order: tuple[Shop, Errand, Inquiry]) -> Reply:
 @lru_cache(maxsize=1)
 def _desk(shop: Shop) -> Desk:
     return shop.desk()
-
-
-@dataclass(frozen=True, slots=True)
-class JsonErrand:
-    """A JSON request in; JSON or a picture out.
-
-    Attributes:
-        model: Of the request.
-        content: What the JSON answer holds.
-        picture: What draws an SVG or a PNG, where these are offered.
-    """
-
-    model: type[Payload]
-    content: Callable[[Any], Any]
-    picture: Callable[[Any, Literal["svg", "png"]], bytes] | None = None
-
-    def __call__(self, _: Desk, inquiry: Inquiry) -> Response:
-        """The answer."""
-        call = read_json(self.model, inquiry.body)
-        if inquiry.wanted == JSON or self.picture is None:
-            return json_response(self.content(call))
-        return Response(self.picture(call, "svg" if inquiry.wanted == SVG else "png"), media_type=inquiry.wanted)
-
-
-@dataclass(frozen=True, slots=True)
-class RobotErrand:
-    """A JSON request in that may name a robot; JSON out.
-
-    Attributes:
-        model: Of the request.
-        content: What the answer holds, of the request and the library.
-    """
-
-    model: type[Payload]
-    content: Callable[[Any, Library], Any]
-
-    def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
-        """The answer."""
-        return json_response(self.content(read_json(self.model, inquiry.body), desk.library))

@@ -1,7 +1,7 @@
 """Inverse kinematics as a job: some targets a part, each answered as if it were the only one."""
 
 from collections.abc import Iterator
-from functools import lru_cache, partial
+from functools import lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import IO, TypeAlias
@@ -9,8 +9,6 @@ from typing import IO, TypeAlias
 import numpy as np
 import orjson
 
-from gelenk.api.inverse_answer import closed_form_of, table, told, told_results, unsolved_headers
-from gelenk.api.inverse_request import Bounds, asked, is_stepwise, options_of
 from gelenk.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from gelenk.api.payloads import JSON, NPY, read_json
 from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
@@ -24,10 +22,11 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
+from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
+from gelenk.operations.ik_request import Bounds, asked, is_stepwise, options_of
+from gelenk.operations.outcome import Limits
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
-
-KIND = "ik"
 
 _CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
 _BOUNDS = Bounds(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
@@ -44,24 +43,14 @@ _Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
 """The robot, the call, the targets as rows of 12, where to start."""
 
 
-def inverse_work(most_bytes: int) -> LongWork[InverseRequest]:
-    """How inverse kinematics are done as a job, the parts of which may take this many bytes."""
-    more = (
-        f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
-        "as many numbers in the answer as there is room for; `time_limit` is not allowed, as each target is searched "
-        "for to the end"
-    )
-    return LongWork(KIND, partial(_request, most_bytes), _work, more)
-
-
-def _request(most_bytes: int, loaded: LoadedRobot, call: InverseRequest) -> dict[str, bytes]:
+def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes]:
     """The files of a checked call; targets and seeds are arrays from here on."""
     if call.time_limit is not None:
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
         )
     chain, targets, seeds = asked(loaded.robot, call, _BOUNDS)
-    _check_room(most_bytes, loaded, call, (chain, targets, seeds))
+    _check_room(limits.job_bytes, loaded, call, (chain, targets, seeds))
     ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
     rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
     rows = np.column_stack((targets.positions, targets.rotations.reshape(-1, 9)))
@@ -109,7 +98,7 @@ def _npy(array: Array) -> bytes:
     return target.getvalue()
 
 
-def _work(folder: Path) -> Work:
+def _work(_: Limits, folder: Path) -> Work:
     """What does the job, by the folder of its request."""
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
@@ -188,3 +177,6 @@ def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]
     np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
     for part in parts:
         target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())
+
+
+WORK = LongWork(_request, _work)

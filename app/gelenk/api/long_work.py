@@ -21,6 +21,7 @@ from gelenk.contract.common import Payload
 from gelenk.jobs.parcel import packed, unpacked
 from gelenk.jobs.robot_files import robot_files
 from gelenk.jobs.runner import Runner, Work
+from gelenk.operations.outcome import Limits
 from gelenk.store.records import LoadedRobot
 
 _Request = TypeVar("_Request", bound=Payload)
@@ -33,24 +34,20 @@ HEADERS = "headers.json"
 
 @dataclass(frozen=True, slots=True)
 class LongWork(Generic[_Request]):
-    """How an operation is done as a job.
+    """How an operation is computed as a job.
 
     Attributes:
-        kind: Of the job.
-        request: Checks a call, and makes of it the files that the job is done from, beside the robot's.
-        work: What does the job, by the folder of these.
-        more: In what the job is allowed more than a call that is answered at once; for the documentation.
+        request: Checks a call, and makes the files of it that the job is computed from, beside the robot's.
+        work: Computes the job in the folder of these files.
     """
 
-    kind: str
-    request: Callable[[LoadedRobot, _Request], dict[str, bytes]]
-    work: Callable[[Path], Work]
-    more: str
+    request: Callable[[LoadedRobot, _Request, Limits], dict[str, bytes]]
+    work: Callable[[Limits, Path], Work]
 
-    def planned(self, loaded: LoadedRobot, call: _Request) -> Response:
-        """All files of the request, in one."""
-        files = {**robot_files(loaded.record.name, loaded.robot, loaded.urdf), **self.request(loaded, call)}
-        return Response(packed(**{name: as_bytes(content) for name, content in files.items()}))
+    def planned(self, robot: LoadedRobot, call: _Request, limits: Limits) -> bytes:
+        """All files of the request, packed into one."""
+        files = {**robot_files(robot.record.name, robot.robot, robot.urdf), **self.request(robot, call, limits)}
+        return packed(**{name: as_bytes(content) for name, content in files.items()})
 
 
 def as_bytes(content: bytes) -> NDArray[np.uint8]:

@@ -96,14 +96,14 @@ def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
     return {NPY: {**content, "x-query": {"$ref": _COMPONENT.format(model=options.__name__)}}}
 
 
-def csv_content(description: str | None) -> dict[str, Any]:
+def csv_content(description: str) -> dict[str, Any]:
     """A table, as a further media type of an answer; none where there is no description of what it holds."""
-    return {} if description is None else {CSV: {"schema": {"type": "string", "description": description}}}
+    return {CSV: {"schema": {"type": "string", "description": description}}} if description else {}
 
 
-def picture_content(description: str | None) -> dict[str, Any]:
+def picture_content(description: str) -> dict[str, Any]:
     """Images, as further media types of an answer; none where there is no description of what they show."""
-    if description is None:
+    if not description:
         return {}
     return {kind: {"schema": {"type": "string", "format": "binary", "description": description}} for kind in (SVG, PNG)}
 

@@ -1,14 +1,10 @@
 """Bodies in, answers out: JSON, strictly; and in which of its shapes an answer is wanted."""
 
-import csv
 import json
-import math
 import re
-from collections.abc import AsyncGenerator, Iterable, Sequence
-from io import StringIO
+from collections.abc import AsyncGenerator, Sequence
 from typing import Any, Self, TypeVar
 
-import numpy as np
 import orjson
 from pydantic import ValidationError
 from starlette.datastructures import QueryParams
@@ -21,6 +17,7 @@ from gelenk.api.problems import InvalidPayload
 from gelenk.contract.common import Payload
 from gelenk.model.arrays import Array
 from gelenk.model.errors import TooLarge, quoted
+from gelenk.operations.rows import csv_head, csv_rows
 
 MAX_MEMBERS = 1_000_000
 """Members of objects in a body: each unknown one would be a validation error of its own."""
@@ -36,8 +33,6 @@ CSV = "text/csv"
 SVG = "image/svg+xml"
 PNG = "image/png"
 
-_PIECE = 4096
-"""Numbers that are encoded in one go, a third of a millisecond: encoding lets no other thread in."""
 _STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
 """A string of JSON, and the colon behind it where it is the name of a member.
 
@@ -45,7 +40,6 @@ One that is cut ends with the bytes: if it were none, each quote in it would be 
 """
 _FIRST = 64 * 1024
 """Bytes of a large body that tell at once whether names come more than once."""
-_LINE_END = "\r\n"
 
 _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
 _ANYTHING = frozenset({b"", b"*/*", b"application/json"})
@@ -181,16 +175,6 @@ def json_response(content: Any, status: int = 200, headers: dict[str, str] | Non
     return Response(body, status, headers, JSON)
 
 
-def json_rows(array: Array) -> orjson.Fragment:
-    """A large array as a part of a JSON answer; others get on while it is encoded."""
-    return json_list(_encoded(array))
-
-
-def json_list(pieces: Iterable[bytes]) -> orjson.Fragment:
-    """Lists that are JSON already, as one list."""
-    return orjson.Fragment(b"[" + b",".join(piece[1:-1] for piece in pieces) + b"]")
-
-
 def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
     """A table as CSV (RFC 4180): a row of names, then numbers that read back to the last bit.
 
@@ -201,27 +185,6 @@ def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) 
     """
     body = csv_head(columns) + b"".join(csv_rows(array))
     return Response(body, headers=headers, media_type=f"{CSV}; header=present")
-
-
-def csv_head(columns: Sequence[str]) -> bytes:
-    """The row of names."""
-    names = StringIO()
-    csv.writer(names, lineterminator=_LINE_END).writerow(columns)
-    # A lone surrogate in a joint's name has no bytes of its own.
-    return names.getvalue().encode(errors="replace")
-
-
-def csv_rows(array: Array) -> Iterable[bytes]:
-    """The other rows, some at a time; array of shape (N, columns)."""
-    end = _LINE_END.encode()
-    return (piece[2:-2].replace(b"],[", end) + end for piece in _encoded(array))
-
-
-def _encoded(array: Array) -> Iterable[bytes]:
-    """The rows of an array as JSON lists, some at a time."""
-    step = max(1, _PIECE // max(1, math.prod(array.shape[1:])))
-    for i in range(0, len(array), step):
-        yield orjson.dumps(np.ascontiguousarray(array[i : i + step]), option=orjson.OPT_SERIALIZE_NUMPY)
 
 
 def read_json(model: type[_Model], body: bytes) -> _Model:

@@ -2,19 +2,17 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Callable, Coroutine
+from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from gelenk.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered, buffers
-from gelenk.api.payloads import JSON, BoundedRequest
-from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.tally import TALLY
+from gelenk.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered
 from gelenk.crew.crew import Crew
-from gelenk.model.errors import InvalidField, ServiceStopping, TooManyRequests
+from gelenk.model.errors import ServiceStopping, TooManyRequests
+from gelenk.operations.tally import TALLY
 from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
@@ -108,34 +106,6 @@ def load(desk: Desk, inquiry: Inquiry) -> Response:
     """Load a robot, to see that it can be."""
     desk.library.get(inquiry.robot)
     return Response()
-
-
-def json_handler(
-    errand: Errand,
-    remote: Remote,
-    offered: tuple[str, ...] = (JSON,),
-    quick: Callable[[bytes], Response | None] = lambda _: None,
-) -> Callable[[BoundedRequest], Coroutine[Any, Any, Response]]:
-    """What answers a JSON request: on the event loop where that is quick, else by an errand.
-
-    Args:
-        errand: What gives any answer.
-        remote: Who runs it.
-        offered: Media types of the answer, the default one first.
-        quick: Gives the default answer to a small body where that takes less than about a millisecond, else None.
-    """
-
-    async def handle(request: BoundedRequest) -> Response:
-        if request.media_type != JSON:
-            raise UnsupportedMediaType(request.media_type, (JSON,))
-        if request.scope["query_string"]:
-            raise InvalidField("query", "this call has its parameters as fields of the body")
-        wanted, pieces = request.preferred(offered), await request.pieces()
-        is_small = request.length <= INLINE_BYTES and not remote.crew.is_starting
-        found = quick(b"".join(pieces)) if wanted == offered[0] and is_small else None
-        return found or await remote.answer(request, errand, Inquiry(buffers(pieces), wanted=wanted))
-
-    return handle
 
 
 async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:

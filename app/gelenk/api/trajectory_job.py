@@ -9,16 +9,16 @@ import numpy as np
 import orjson
 
 from gelenk.api.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
-from gelenk.api.payloads import CSV, JSON, NPY, PNG, SVG, csv_head, csv_rows, read_json
-from gelenk.api.routes import PictureFormat
-from gelenk.api.trajectory_planned import SAMPLED, Bounds, Planned, checked
-from gelenk.api.trajectory_request import shortest_duration
-from gelenk.api.trajectory_samples import MAX_JOB_SAMPLES
-from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.api.payloads import CSV, JSON, NPY, PNG, SVG, read_json
+from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
 from gelenk.jobs.parcel import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
+from gelenk.operations.outcome import Limits, PictureFormat
+from gelenk.operations.rows import csv_head, csv_rows
+from gelenk.operations.trajectory_planned import SAMPLED, Bounds, Planned, checked
+from gelenk.operations.trajectory_request import shortest_duration
 from gelenk.store.folders import read_plain
 from gelenk.store.records import LoadedRobot
 from gelenk.trajectory.plan import plan
@@ -38,21 +38,13 @@ _Plan: TypeAlias = tuple[RobotText, bytes, int]
 """The robot, the call, the numbers that its polynomials may hold."""
 
 
-def trajectory_work(max_answer_numbers: int) -> LongWork[TrajectoryRequest]:
-    """How trajectories are done as a job."""
-    bounds = _bounds(max_answer_numbers)
-
-    def request(loaded: LoadedRobot, call: TrajectoryRequest) -> dict[str, bytes]:
-        chain, question = checked(loaded.robot, call, bounds)
-        if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
-            bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
-        whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
-        return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
-
-    def work(folder: Path) -> Work:
-        return _work((robot_text(folder), read_plain(folder / _CALL), max_answer_numbers))
-
-    return LongWork(KIND, request, work, f"{MAX_JOB_SAMPLES:,} samples")
+def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> dict[str, bytes]:
+    bounds = _bounds(limits.answer_numbers)
+    chain, question = checked(loaded.robot, call, bounds)
+    if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
+        bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
+    whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
+    return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
 
 
 def _bounds(max_answer_numbers: int) -> Bounds:
@@ -60,7 +52,9 @@ def _bounds(max_answer_numbers: int) -> Bounds:
     return Bounds(MAX_JOB_SAMPLES, max_answer_numbers)
 
 
-def _work(job: _Plan) -> Work:
+def _work(limits: Limits, folder: Path) -> Work:
+    job = (robot_text(folder), read_plain(folder / _CALL), limits.answer_numbers)
+
     def work(run: Run) -> Files:
         run.map(_PLAN, planned_part, lambda _: job, 1, (0.0, _PLANNED))
         (head,) = run.parts.of(_PLAN, 1)
@@ -155,3 +149,6 @@ def drawn_part(job: tuple[_Plan, PictureFormat]) -> bytes:
     """A picture of the motion, in a process of its own."""
     plan, kind = job
     return _planned(plan).picture(plan[0].name, kind)
+
+
+WORK = LongWork(_request, _work)

@@ -11,12 +11,13 @@ from gelenk.calls.call import NPY, ROBOT, Awaited, Blocking, Call, Reply, Sent, 
 from gelenk.calls.exchange import encoded, segment
 from gelenk.calls.npy import packed, query_of, unpacked
 from gelenk.contract.dynamics import DynamicsOptions
+from gelenk.contract.fk import ForwardOptions
 from gelenk.contract.ik import InverseOptions
-from gelenk.contract.kinematics import ForwardOptions, JacobianOptions
+from gelenk.contract.jacobian import JacobianOptions
 from gelenk.contract.manipulability import ManipulabilityOptions
-from gelenk.contract.singularity import SingularityOptions
+from gelenk.contract.singularities import SingularityOptions
 from gelenk.contract.statics import StaticsOptions
-from gelenk.contract.trajectory import TrajectoryRequest
+from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.contract.velocity import VelocityOptions
 from gelenk.model.arrays import Array
 

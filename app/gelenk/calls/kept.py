@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from gelenk.calls.call import ROBOT, Call
 from gelenk.calls.exchange import described_by, encoded, posted, reader, segment
 from gelenk.contract.common import Answer, ChainEnds
-from gelenk.contract.dh import FromUrdfAnswer
+from gelenk.contract.dh_from_urdf import FromUrdfAnswer
 from gelenk.contract.health import Health
 from gelenk.contract.jobs import Finished, JobInfo
 from gelenk.contract.robots import NewRobot, RobotInfo, RobotList, RobotReplacement

@@ -3,92 +3,75 @@
 The fields of a call are those of the request in the API's reference, by name; types come from the same models.
 """
 
-from collections.abc import Callable
 from typing import Concatenate, ParamSpec, TypeVar
 
 import numpy as np
-from pydantic import BaseModel
 
 from gelenk.calls import kept
 from gelenk.calls.call import NPY, ROBOT, Call, Sent
 from gelenk.calls.exchange import described_by, posted, reader, segment
 from gelenk.calls.npy import fits_query, packed, query_of
+from gelenk.contract import (
+    compare_dh,
+    convert_dh,
+    dc_motor,
+    derive,
+    dh_from_urdf,
+    dh_to_urdf,
+    dynamics,
+    encoder,
+    fk,
+    fly_over,
+    gear,
+    ik,
+    jacobian,
+    manipulability,
+    mobility,
+    orientation,
+    planar_workspace,
+    pulse_width_modulation,
+    singularities,
+    spline,
+    statics,
+    time_law,
+    time_scaling,
+    trajectory,
+    velocity,
+)
 from gelenk.contract.common import Answer
-from gelenk.contract.compare import CompareAnswer, CompareRequest
-from gelenk.contract.course_components import (
-    DcMotorAnswer,
-    DcMotorRequest,
-    GearAnswer,
-    GearRequest,
-    PwmAnswer,
-    PwmRequest,
-)
-from gelenk.contract.course_encoder import EncoderAnswer, EncoderRequest
-from gelenk.contract.course_fly_over import FlyOverAnswer, FlyOverRequest
-from gelenk.contract.course_mobility import MobilityRequest
-from gelenk.contract.course_mobility_answer import MobilityAnswer
-from gelenk.contract.course_orientation import OrientationAnswer, OrientationRequest
-from gelenk.contract.course_spline import SplineAnswer, SplineRequest
-from gelenk.contract.course_time_law import TimeLawAnswer, TimeLawRequest
-from gelenk.contract.course_time_scaling import TimeScalingAnswer, TimeScalingRequest
-from gelenk.contract.course_workspace import PlanarWorkspaceAnswer, PlanarWorkspaceRequest
-from gelenk.contract.derive import DeriveAnswer, DeriveRequest
-from gelenk.contract.dh import (
-    ConvertAnswer,
-    ConvertRequest,
-    FromUrdfAnswer,
-    FromUrdfRequest,
-    ToUrdfAnswer,
-    ToUrdfRequest,
-)
-from gelenk.contract.dynamics import DynamicsAnswer, DynamicsRequest
-from gelenk.contract.ik import InverseAnswer, InverseRequest
-from gelenk.contract.kinematics import ForwardAnswer, ForwardRequest, JacobianAnswer, JacobianRequest
-from gelenk.contract.manipulability import ManipulabilityAnswer, ManipulabilityRequest
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.pose import pose_fields
 from gelenk.contract.robots import NewRobot, RobotReplacement
-from gelenk.contract.singularity import SingularityAnswer, SingularityRequest
-from gelenk.contract.statics import StaticsAnswer, StaticsRequest
-from gelenk.contract.trajectory import TrajectoryRequest
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
-from gelenk.contract.velocity import VelocityAnswer, VelocityRequest
 from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
 
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
 
-def _operation(
-    name: str, request: Callable[P, BaseModel], answer: type[A], batch: str = ""
-) -> Sent[Concatenate[str, P], A]:
-    """`POST /v1/robots/{robot}/{name}`.
-
-    Args:
-        name: The operation's.
-        request: Its model.
-        answer: Its model.
-        batch: The field that goes as npy where it is an array, and all other fields fit into the query.
-    """
+def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
+    """An operation on a robot; its batch is sent as npy where it is an array and all other fields fit the query."""
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
-        path = f"v1/robots/{segment(robot)}/{name}"
+        path, batch = endpoint.path.format(robot=segment(robot)), endpoint.batch
         array, rest = fields.get(batch), {field: value for field, value in fields.items() if field != batch}
-        if isinstance(array, np.ndarray) and fits_query(rest):
-            return Call("POST", path, reader(answer), query_of(rest), packed(array), NPY)
+        if isinstance(array, np.ndarray) and not endpoint.npy_holds_more and fits_query(rest):
+            return Call("POST", path, reader(endpoint.answer), query_of(rest), packed(array), NPY)
         if isinstance(array, np.ndarray) and batch == "targets":
-            return posted(path, {**rest, batch: pose_fields(array)}, answer)
-        return posted(path, fields, answer)
+            return posted(path, {**rest, batch: pose_fields(array)}, endpoint.answer)
+        return posted(path, fields, endpoint.answer)
 
-    return Sent(described_by(describe, request, answer, ROBOT))
+    return Sent(described_by(describe, endpoint.request, endpoint.answer, ROBOT))
 
 
-def _calculator(path: str, request: Callable[P, BaseModel], answer: type[A]) -> Sent[P, A]:
-    """A call that is about no robot in particular."""
+def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
+    """An operation whose path names no robot."""
 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
-        return posted(f"v1/{path}", fields, answer)
+        return posted(endpoint.path, fields, endpoint.answer)
 
-    return Sent(described_by(describe, request, answer))
+    return Sent(described_by(describe, endpoint.request, endpoint.answer))
 
 
 class Operations:
@@ -105,15 +88,15 @@ class Operations:
     replace_archive = Sent(kept.replace_archive)
     remove_robot = Sent(kept.remove)
 
-    fk = _operation("fk", ForwardRequest, ForwardAnswer, "joint_positions")
-    jacobian = _operation("jacobian", JacobianRequest, JacobianAnswer, "joint_positions")
-    ik = _operation("ik", InverseRequest, InverseAnswer, "targets")
-    velocity = _operation("velocity", VelocityRequest, VelocityAnswer)
-    statics = _operation("statics", StaticsRequest, StaticsAnswer, "joint_positions")
-    dynamics = _operation("dynamics", DynamicsRequest, DynamicsAnswer, "joint_positions")
-    manipulability = _operation("manipulability", ManipulabilityRequest, ManipulabilityAnswer, "joint_positions")
-    singularities = _operation("singularities", SingularityRequest, SingularityAnswer, "joint_positions")
-    trajectory = _operation("trajectory", TrajectoryRequest, TrajectoryAnswer)
+    fk = _operation(fk.ENDPOINT)
+    jacobian = _operation(jacobian.ENDPOINT)
+    ik = _operation(ik.ENDPOINT)
+    velocity = _operation(velocity.ENDPOINT)
+    statics = _operation(statics.ENDPOINT)
+    dynamics = _operation(dynamics.ENDPOINT)
+    manipulability = _operation(manipulability.ENDPOINT)
+    singularities = _operation(singularities.ENDPOINT)
+    trajectory = _operation(trajectory.ENDPOINT)
 
     workspace = Sent(kept.beginning(WorkspaceRequest))
     workspace_result = Sent(kept.result(WorkspaceAnswer))
@@ -127,20 +110,20 @@ class Operations:
     readiness = Sent(kept.readiness)
     metrics = Sent(kept.metrics)
 
-    dh_to_urdf = _calculator("dh/to-urdf", ToUrdfRequest, ToUrdfAnswer)
-    dh_from_urdf = _calculator("dh/from-urdf", FromUrdfRequest, FromUrdfAnswer)
-    convert_dh = _calculator("dh/convert", ConvertRequest, ConvertAnswer)
-    compare_dh = _calculator("dh/compare", CompareRequest, CompareAnswer)
-    derive_dh = _calculator("dh/derive", DeriveRequest, DeriveAnswer)
+    dh_to_urdf = _calculator(dh_to_urdf.ENDPOINT)
+    dh_from_urdf = _calculator(dh_from_urdf.ENDPOINT)
+    convert_dh = _calculator(convert_dh.ENDPOINT)
+    compare_dh = _calculator(compare_dh.ENDPOINT)
+    derive_dh = _calculator(derive.ENDPOINT)
 
-    dc_motor = _calculator("course/dc-motor", DcMotorRequest, DcMotorAnswer)
-    gear = _calculator("course/gear", GearRequest, GearAnswer)
-    pulse_width_modulation = _calculator("course/pwm", PwmRequest, PwmAnswer)
-    encoder = _calculator("course/encoder", EncoderRequest, EncoderAnswer)
-    planar_workspace = _calculator("course/workspace", PlanarWorkspaceRequest, PlanarWorkspaceAnswer)
-    fly_over = _calculator("course/fly-over", FlyOverRequest, FlyOverAnswer)
-    mobility = _calculator("course/mobility", MobilityRequest, MobilityAnswer)
-    orientation = _calculator("course/orientation", OrientationRequest, OrientationAnswer)
-    time_law = _calculator("course/time-law", TimeLawRequest, TimeLawAnswer)
-    spline = _calculator("course/spline", SplineRequest, SplineAnswer)
-    time_scaling = _calculator("course/time-scaling", TimeScalingRequest, TimeScalingAnswer)
+    dc_motor = _calculator(dc_motor.ENDPOINT)
+    gear = _calculator(gear.ENDPOINT)
+    pulse_width_modulation = _calculator(pulse_width_modulation.ENDPOINT)
+    encoder = _calculator(encoder.ENDPOINT)
+    planar_workspace = _calculator(planar_workspace.ENDPOINT)
+    fly_over = _calculator(fly_over.ENDPOINT)
+    mobility = _calculator(mobility.ENDPOINT)
+    orientation = _calculator(orientation.ENDPOINT)
+    time_law = _calculator(time_law.ENDPOINT)
+    spline = _calculator(spline.ENDPOINT)
+    time_scaling = _calculator(time_scaling.ENDPOINT)

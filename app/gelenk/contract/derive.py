@@ -6,6 +6,7 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.dh import DhTablePayload
+from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
 from gelenk.contract.kinematics import Configuration
 from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload
@@ -199,3 +200,30 @@ EXAMPLE_ANTHROPOMORPHIC: dict[str, Any] = {
     },
     "joint_positions": [[0.3, 0.6, -0.8]],
 }
+
+
+ENDPOINT = Endpoint(
+    name="derive_dh",
+    path="v1/dh/derive",
+    tag="DH tables",
+    request=DeriveRequest,
+    answer=DeriveAnswer,
+    summary="Table → worked solution",
+    description="""
+    Writes the worked solution of a table as a lecturer would, in symbols and in numbers.
+
+    Every A_i and T_0_i, the tip's pose, the Jacobian by its columns z × p, the determinant as a product, and the
+    singular configurations; `steps` explains it in words. Formulas are given in LaTeX and plain text; sums of
+    angles about parallel axes appear as c_{23}, and `legend` says what each symbol is. An angle within 1e-5 of a
+    multiple of 90°, 45° or 30° is taken as that angle, and `notes` says so.
+
+    Each formula is checked against the table's numbers at random configurations, and the numbers at the given ones
+    against Pinocchio's. A formula that fails the check is left out, and so are formulas of a large arm that are too
+    long to read: `notes` says which, and the numbers remain.
+
+    With `dynamics` a planar arm of up to three joints also gets its equations of motion by the Lagrangian:
+    energies, mass matrix, Christoffel symbols, Coriolis and gravity terms, compared with Pinocchio at random
+    states. A mass, centre of mass or inertia that is left out stays a symbol.
+    """,
+    example=EXAMPLE_ANTHROPOMORPHIC,
+)

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, Payload, RobotName, Strict
+from gelenk.contract.common import Answer, Payload
 from gelenk.contract.pose import Pose
 from gelenk.model.arrays import Array
 from gelenk.model.description import Mimic
@@ -127,34 +127,6 @@ SnapTolerance = Annotated[
 ]
 
 
-class ToUrdfRequest(Payload):
-    """A table to be written as URDF."""
-
-    name: RobotName
-    dh: DhTablePayload
-
-
-class FromUrdfOptions(ChainOptions):
-    """Which chain of a robot, and what its table should be like."""
-
-    convention: Convention = "standard"
-    snap_tolerance: SnapTolerance = 0.0
-
-
-class FromUrdfRequest(FromUrdfOptions):
-    """A description with the chain to write as a table."""
-
-    urdf: str = Field(description="The URDF as text, xacro expanded.")
-    strict: Strict = False
-
-
-class ConvertRequest(Payload):
-    """A table to be written in a convention."""
-
-    dh: DhTablePayload
-    convention: Convention
-
-
 class TableCertificate(Answer):
     """Difference between the two sides of a conversion, measured through Pinocchio at random configurations.
 
@@ -167,36 +139,6 @@ class TableCertificate(Answer):
     max_position_error: float = Field(description="Largest distance of the two poses, [m].")
     max_orientation_error: float = Field(description="Largest angle between the two poses, [rad].")
     seed: int = Field(description="Random seed of the configurations.")
-
-
-class ToUrdfAnswer(Answer):
-    """The robot that a table describes."""
-
-    urdf: str = Field(description="Links `base`, `frame_0`, `link_1`, …, `tool`; each DH frame is a link `frame_i`.")
-    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
-    certificate: TableCertificate = Field(description="The table's own product against the URDF through Pinocchio.")
-    notes: list[str] = Field(description="What the URDF states and no table can: masses, and limits not given.")
-    warnings: list[str] = Field(description="What the table leaves open, and how it was resolved.")
-
-
-class FromUrdfAnswer(Answer):
-    """The table of a chain."""
-
-    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
-    joint_names: list[str] = Field(description="The variables, those of the chain, base to tip.")
-    base_frame: str = Field(description="Where the chain begins: the base of the table.")
-    tip_frame: str = Field(description="Where it ends: the tool of the table.")
-    certificate: TableCertificate = Field(description="The table's own product against the robot through Pinocchio.")
-    notes: list[str] = Field(description="What was chosen where the convention leaves a choice.")
-    warnings: list[str] = Field(description="Oddities of the description that were accepted.")
-
-
-class ConvertAnswer(Answer):
-    """The same chain by a table of the convention."""
-
-    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
-    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
-    certificate: TableCertificate = Field(description="Both tables, as URDF, through Pinocchio.")
 
 
 EXAMPLE_TABLE: dict[str, Any] = {

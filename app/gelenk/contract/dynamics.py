@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer
+from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configurations, Matrix
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
 
@@ -110,3 +111,37 @@ class DynamicsAnswer(Answer):
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
     certificate: DynamicsCertificateInfo
+
+
+ENDPOINT = RobotEndpoint(
+    name="dynamics",
+    request=DynamicsRequest,
+    answer=DynamicsAnswer,
+    summary="Dynamics: M, C, g, inverse and forward",
+    description="""
+    Mass matrix, Coriolis and gravity terms, energies, inverse and forward dynamics.
+
+    M(q) q̈ + C(q, q̇) q̇ + g(q) + Jᵀγ = τ, which Lagrange's equations make of T = ½ q̇ᵀM q̇ and U: τ are the
+    torques of the motors, γ the wrench that the tip exerts on its surroundings (these act on the tip with -γ; as in
+    `statics` they are at rest in `base_frame`). `joint_accelerations` ask for the torques (recursive Newton-Euler),
+    `torques` for the accelerations (articulated bodies; M⁻¹ where mimic joints follow).
+
+    The robot's root link is fixed. Joints outside the chain are locked at zero, and their links
+    count where the chain's joints carry them. A mimic joint moves with its leader and adds to its inertia. Friction
+    and damping that a description gives are not applied, and rotors have no inertia. A DH table gives no masses:
+    its robot gets the masses of the bodies drawn for it, and `notes` says so.
+
+    Terms come from Pinocchio; `certificate` compares them with sums over the bodies through our own Jacobians.
+    """,
+    batch="joint_positions",
+    options=DynamicsOptions,
+    npy_body="`joint_positions` as an array of shape (N, n).",
+    npy_answer="The requested torques or accelerations as one array of shape (N, n), otherwise the first of "
+    "`terms`: a matrix (N, n, n), torques (N, n), or both energies (N, 2).",
+    example={
+        "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
+        "joint_velocities": [[0.1, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0]],
+        "joint_accelerations": [[0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]],
+        "payload": {"mass": 0.5, "center_of_mass": [0.0, 0.0, 0.05]},
+    },
+)

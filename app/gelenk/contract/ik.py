@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire
+from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.pose import Pose, PoseFormat, pose_fields
 from gelenk.kinematics.ik.words import Direction, ObjectiveName, Status, StopReason
@@ -279,3 +280,42 @@ class InverseAnswer(Answer):
         "a search."
     )
     results: list[InverseResult]
+
+
+ENDPOINT = RobotEndpoint(
+    name="ik",
+    operation_id="inverse_kinematics",
+    request=InverseRequest,
+    answer=InverseAnswer,
+    summary="Inverse kinematics",
+    description="""
+    Configurations that bring the tip to each target, within the joint limits.
+
+    `auto` takes the closed form where the geometry of the chain has one (`analytic` takes nothing else): of all
+    branches within the limits the one that is nearest to the seed. Where there is none it searches from the seed
+    and from a thousand random configurations, and takes the first start that reaches the target; from a seed near
+    the target it stays on the seed's branch. Every solution is recomputed through Pinocchio before it is sent, and
+    its errors are those of that computation. An unsolved target comes with the reason and the nearest configuration
+    found. The same call gives the same answer, unless it has a `time_limit`.
+
+    Closed forms: arms whose last three axes meet in a point, or whose first three do (any three joints besides,
+    turning or sliding); six joints with three parallel axes; positioning arms of two and three joints, with or
+    without turns at their end (planar, SCARA, Cartesian, cylindrical, spherical, anthropomorphic); spherical
+    wrists; seven joints with a spherical shoulder and wrist, by the angle of the elbow. Of six joints of any other
+    geometry `analytic`, and `auto` where all solutions are wanted, eliminates all joints but one, or follows all
+    solutions of another target to this one (continuation).
+    """,
+    batch="targets",
+    options=InverseOptions,
+    npy_body="`targets` as an array of shape (N, 7), position and quaternion x y z w, or (N, 4, 4), matrices.",
+    npy_answer="One configuration per target as an array of shape (N, n): the solution, or the nearest "
+    "configuration found; the header `Gelenk-Unsolved` counts the targets without a solution and "
+    "`Gelenk-Unsolved-Rows` gives the first 200 of them.",
+    example={
+        "targets": [{"position": [0.4, 0.1, 0.5], "rpy": [3.141592653589793, 0.0, 0.0]}],
+        "tip_frame": "panda_link8",
+    },
+    job=f"up to {MAX_JOB_TARGETS:,} targets ({MAX_JOB_STEPWISE:,} of a method in steps, or with `trace`) and "
+    "as many numbers in the answer as there is room for; `time_limit` is not allowed, as each target is searched "
+    "for to the end",
+)

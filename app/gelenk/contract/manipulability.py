@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
+from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations, JacobianCertificateInfo
 from gelenk.kinematics.ik.words import DIRECTIONS, Direction
 
@@ -258,3 +259,44 @@ class ManipulabilityAnswer(Answer):
     )
     results: list[ManipulabilityInfo]
     certificate: EllipsoidCertificateInfo
+
+
+ENDPOINT = RobotEndpoint(
+    name="manipulability",
+    request=ManipulabilityRequest,
+    answer=ManipulabilityAnswer,
+    summary="Manipulability",
+    description="""
+    Velocity and force ellipsoids of the tip at each configuration, and the measures drawn from them.
+
+    Joint velocities of norm one move the tip within the velocity ellipsoid, with semi-axes σ_i of the Jacobian;
+    joint torques of norm one balance the forces within the force ellipsoid. The lecture notes call the two
+    orthogonal: they have the *same* principal axes, and reciprocal semi-axes σ_i and 1/σ_i, so that the tip is
+    strong where it is slow. Translation and rotation are separate, because metres and radians have no common norm,
+    unless a `characteristic_length` is given. Where turning and sliding joints are mixed, the norm of the joint
+    velocities mixes their units.
+
+    Directions in which the chain never moves do not count: a planar arm has an ellipse, and Yoshikawa's measure
+    of two links is l₁ l₂ |sin q₂|. At a singularity a semi-axis of the velocity is 0 and that of the force null:
+    it is unbounded.
+
+    `polytopes` replaces the norm by the limits of each joint. With `Accept: image/svg+xml` or `image/png` one
+    configuration is drawn: the arm and the ellipses of translation at its tip, a planar arm in its plane, any
+    other in three projections; `directions` are arrows there, and `polytopes` outlines, of a translation in a plane
+    alone. Jacobians are recomputed through Pinocchio before anything is sent (a sample of a
+    large batch), and the ellipsoids are put together again and compared with JJᵀ.
+    """,
+    batch="joint_positions",
+    options=ManipulabilityOptions,
+    npy_body="`joint_positions` as an array of shape (N, n).",
+    npy_answer="Semi-axes of the velocity ellipsoids as one array of shape (N, k): those of the translation, "
+    "largest first, then those of the rotation, then those of the combined part; as many of each as the chain has "
+    "at almost every configuration.",
+    picture="The arm at one configuration with the velocity and the force ellipse of its tip's translation; "
+    "the scales are beside it.",
+    example={
+        "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
+        "directions": [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+        "polytopes": True,
+    },
+)

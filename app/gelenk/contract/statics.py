@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
+from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
 from gelenk.kinematics.ik.words import Direction
 
@@ -238,3 +239,39 @@ class StaticsAnswer(Answer):
     subspaces: list[SubspacesInfo] | None = Field(default=None, description="If requested.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
     certificate: StaticsCertificateInfo
+
+
+ENDPOINT = RobotEndpoint(
+    name="statics",
+    request=StaticsRequest,
+    answer=StaticsAnswer,
+    summary="Statics: wrenches and joint torques",
+    description="""
+    Joint torques that hold a wrench at the tip, or the wrench behind joint torques; the subspaces of both.
+
+    τ = Jᵀγ + g(q): the torques that the motors give while the tip exerts γ on its surroundings and the robot is at
+    rest (the surroundings act on the tip with -γ). Without `gravity` that is the course's τ = Jᵀγ, by virtual work:
+    dW = F dx (the notes have dF dx), so τᵀq̇ = γᵀJq̇ for every q̇, which `certificate` checks with twists of
+    Pinocchio's. The surroundings are at rest in `base_frame`: where the chain's joints move the base too, it takes
+    the reaction, as a hand does that presses against another.
+
+    `torques` instead of `wrenches` asks for γ = J⁻ᵀ(τ - g), or for a Jacobian that is singular or not square the
+    nearest wrench, of least norm; `balance` holds the remaining torques and the wrenches that may be added. With
+    neither, `torques` are those of the weight alone, if `gravity` asks for it. A DH table gives no masses: its
+    robot gets the masses of the bodies drawn for it, and `notes` says so.
+
+    `subspaces` (implied by any of the `test_…` vectors): range(J) ⊕ ker(Jᵀ) = Rᵐ and range(Jᵀ) ⊕ ker(J) = Rⁿ. Both
+    sums are direct and orthogonal (the notes write +). They mix metres and radians: `task` selects rows of one
+    unit.
+    """,
+    batch="joint_positions",
+    options=StaticsOptions,
+    npy_body="`joint_positions` as an array of shape (N, n).",
+    npy_answer="Torques as one array of shape (N, n), or wrenches of shape (N, m) if torques were given.",
+    example={
+        "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
+        "wrenches": [[0.0, 0.0, -10.0, 0.0, 0.0, 0.0]],
+        "gravity": True,
+        "payload": {"mass": 0.5, "center_of_mass": [0.0, 0.0, 0.05]},
+    },
+)

@@ -1,289 +1,57 @@
-"""Requests of trajectories."""
+"""The operation `trajectory`."""
 
-from collections.abc import Sequence
-from typing import Annotated, Any, Literal
+from gelenk.contract.endpoint import RobotEndpoint
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
 
-from pydantic import Discriminator, Field, Tag
+ENDPOINT = RobotEndpoint(
+    name="trajectory",
+    request=TrajectoryRequest,
+    answer=TrajectoryAnswer,
+    summary="Trajectory",
+    description="""
+    A motion from rest to rest through segments: joints, lines, circles and splines of the tip.
 
-from gelenk.contract.common import ChainOptions, OnTheWire, Payload
-from gelenk.contract.course_motion import Duration
-from gelenk.contract.kinematics import ByName, ByOrder, Configuration
-from gelenk.contract.pose import ORIENTATIONS, Pose, PoseFormat
-from gelenk.kinematics.ik.words import Direction
-from gelenk.model.arrays import Array
-from gelenk.model.arrays import Configuration as GivenConfiguration
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.words import Law, NearSingularity, OrientationLaw
+    A `joint` segment moves all joints together to a configuration or a pose; `line`, `circle` and `spline` lead the
+    tip along a path in space, which the joints follow within `path_tolerance`, also between samples, on one branch
+    of the inverse kinematics. A spline through configurations moves the joints. The motion stops between two
+    segments, except where a line is blended into the next. Each segment has its own time law and limits, or the
+    trajectory's; limits that neither the request nor the robot's description gives are assumed, and `notes` and
+    `limit_sources` say so.
 
-MAX_SEGMENTS = 100
-MAX_WAYPOINTS = 1000
-"""Of all segments together."""
+    A path that cannot be followed to its end (out of reach, a joint limit, a singularity, a change of branch) is
+    also an answer: the motion as far as it goes, to rest, with `completed_fraction` and `failure`.
 
-_POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
+    Every motion is a list of polynomials. Before it is sent, code independent of the planner checks exact peaks
+    against the limits, jumps where pieces meet, and the tip against its path, also between samples; its poses are
+    recomputed through Pinocchio. `audit` holds the results.
 
-
-def _target_kind(value: Any) -> str:
-    """A joint may be called `position`: of a configuration by name, each value is a number."""
-    if isinstance(value, Pose):  # on the way out
-        return "<pose>"
-    if not isinstance(value, dict):
-        return "<list>"
-    is_pose = any(key in _POSE_FIELDS and not isinstance(part, int | float) for key, part in value.items())
-    return "<pose>" if is_pose else "<object>"
-
-
-def _limit_kind(value: Any) -> str:
-    return "<list>" if isinstance(value, list) else "<object>" if isinstance(value, dict) else "<number>"
-
-
-def _segment_kind(value: Any) -> str:
-    return f"<{value.get('type') if isinstance(value, dict) else getattr(value, 'type', None)}>"
-
-
-_Target = Annotated[
-    Annotated[ByOrder, Tag("<list>")] | Annotated[ByName, Tag("<object>")] | Annotated[Pose, Tag("<pose>")],
-    Discriminator(_target_kind),
-]
-Target = Annotated[GivenConfiguration | Pose, OnTheWire(_Target)]
-"""A configuration, or a pose of the tip."""
-
-_ORIENTATION_THROUGH = (
-    "How the orientation changes: `axis_angle`, a rotation spline of continuous angular acceleration; `zyz`, a natural "
-    "cubic spline of the Euler angles ZYZ; `zyz_other`, the same with the other triple of each pose after the start."
+    With `Accept: text/csv` or `application/x-npy` the samples come as a table, with `image/svg+xml` or `image/png`
+    as profiles of position, velocity, acceleration and jerk.
+    """,
+    npy_answer="The samples as one array of shape (N, 1 + 3n): time, joint positions, velocities, accelerations. "
+    "The headers `Gelenk-Duration` [s], `Gelenk-Completed-Fraction` and `Gelenk-Failure` (`none`, or the reason) "
+    "give the outcome.",
+    picture="Position, velocity, acceleration and jerk of each joint over time, with the limits; the segments "
+    "are marked.",
+    table="A row of names, `time`, `q_…`, `qd_…` and `qdd_…` of each joint, then one row per sample: [s], "
+    "[rad or m], [rad/s or m/s], [rad/s² or m/s²]. The headers are those of the npy answer.",
+    example={
+        "start": [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785],
+        "segments": [
+            {"type": "joint", "target": [0.3, -0.5, 0.1, -2.2, 0.05, 1.8, 0.9]},
+            {
+                "type": "line",
+                "target": {"position": [0.5, 0.2, 0.4], "rpy": [3.141592653589793, 0.0, 0.3]},
+                "blend_radius": 0.05,
+            },
+            {"type": "line", "target": {"position": [0.5, -0.1, 0.4], "rpy": [3.141592653589793, 0.0, 0.0]}},
+        ],
+        "law": "trapezoidal",
+        "tip_frame": "panda_link8",
+        "velocity_scale": 0.5,
+        "acceleration_scale": 0.5,
+        "sample_period": 0.05,
+    },
+    job=f"{MAX_JOB_SAMPLES:,} samples",
 )
-
-_Bound = Annotated[float, Field(ge=1e-6, le=1e6)]
-_Scale = Annotated[float, Field(ge=1e-6, le=1.0)]
-JointValues = Annotated[
-    Annotated[_Bound, Tag("<number>")]
-    | Annotated[list[_Bound], Field(max_length=128, fail_fast=True), Tag("<list>")]
-    | Annotated[dict[str, _Bound], Field(max_length=128), Tag("<object>")],
-    Discriminator(_limit_kind),
-]
-"""A number for all joints, one each, or by name for some: the others keep what they have."""
-
-
-class TrajectoryLimits(Payload):
-    """Limits of the joints and the tip; from 1e-6 to 1e6 each.
-
-    Of the joints one number for all, one number each, base to tip, or an object of numbers by joint name: joints that
-    it leaves out keep their limits.
-    """
-
-    joint_velocity: JointValues | None = Field(
-        default=None,
-        description="|q̇|, [rad/s or m/s]. If left out that of the robot's description; where it has none (or 0, or "
-        "100 and more, which stand for none) 1 rad/s, of a sliding joint 0.25 m/s. A given limit applies even if the "
-        "description's is lower, and `notes` then says so.",
-    )
-    joint_acceleration: JointValues | None = Field(
-        default=None,
-        description="|q̈|, [rad/s² or m/s²]; no robot's description has one. If left out, that with which the limit of "
-        "the velocity is reached in 0.5 s.",
-    )
-    joint_jerk: JointValues | None = Field(
-        default=None,
-        description="|q⃛|, [rad/s³ or m/s³]; no robot's description has one. If left out, that with which the limit of "
-        "the acceleration is reached in 0.1 s. Where a law lets the acceleration jump, the jump does not count.",
-    )
-    tip_velocity: _Bound | None = Field(default=None, description="Speed of the tip, [m/s]; none if left out.")
-    tip_acceleration: _Bound | None = Field(
-        default=None, description="Of the tip, along and across, [m/s²]; none if left out."
-    )
-    tip_angular_velocity: _Bound | None = Field(default=None, description="‖ω‖ of the tip, [rad/s]; none if left out.")
-    tip_angular_acceleration: _Bound | None = Field(
-        default=None, description="‖ω̇‖ of the tip, [rad/s²]; none if left out."
-    )
-
-
-class MotionOptions(Payload):
-    """How fast, by which law; of a segment what is left out is the trajectory's."""
-
-    limits: TrajectoryLimits | None = Field(
-        default=None,
-        description="Limits of the joints and the tip; in a segment, each field left out is taken from the trajectory.",
-    )
-    velocity_scale: _Scale | None = Field(
-        default=None,
-        description="Factor of all velocity limits, the tip's too, from 1e-6 to 1; no unit. 1 if left out.",
-    )
-    acceleration_scale: _Scale | None = Field(
-        default=None, description="Factor of all acceleration limits, the tip's too, and of the jerks; likewise."
-    )
-
-
-class SegmentOptions(MotionOptions):
-    """What every segment may say for itself."""
-
-    law: Law | None = Field(default=None, description="Time law; the trajectory's if left out.")
-    duration: Duration | None = Field(
-        default=None, description="Duration of the segment, [s]; one shorter than its limits allow is refused."
-    )
-
-
-class JointSegment(SegmentOptions):
-    """All joints together to a configuration, the tip wherever that leads it."""
-
-    type: Literal["joint"] = Field(description="All joints together.")
-    target: Target = Field(
-        description="A configuration, one number per joint or by joint name, [rad or m]; or a pose of `tip_frame` in "
-        "`base_frame`, for which the solution nearest to the segment's start is used."
-    )
-
-
-class LineSegment(SegmentOptions):
-    """The tip straight to a pose, from rest to rest unless it is blended."""
-
-    type: Literal["line"] = Field(description="Straight on.")
-    target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
-    blend_radius: float | None = Field(
-        default=None,
-        ge=0,
-        le=1e6,
-        description="Distance from the target at which the motion leaves this line for the next one, along a parabola, "
-        "without a stop, [m]. The next segment must be a line.",
-    )
-    blend_acceleration: _Bound | None = Field(
-        default=None,
-        description="Instead of `blend_radius`, a_max of the course's fly-over, [m/s²]: the tip's acceleration in the "
-        "blend is no more. The radius is v ΔT/2 with ΔT = ‖v K_BC - v K_AB‖/a_max, v the smallest `tip_velocity` of "
-        "the lines that are blended. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the "
-        "joints need it.",
-    )
-    blend_time: Duration | None = Field(
-        default=None,
-        description="Instead of `blend_radius`, ΔT of the course's fly-over, [s]: the radius is v ΔT/2, v the smallest "
-        "`tip_velocity` of the lines that are blended, and the tip's acceleration in the blend at most ‖v K_BC - v "
-        "K_AB‖/ΔT. With `trapezoidal` and `time_optimal` the corner then takes ΔT, or longer if the joints need it.",
-    )
-    orientation: OrientationLaw = Field(
-        default="axis_angle",
-        description="How the orientation changes: about one fixed axis in proportion to the length, or the Euler "
-        "angles `zyz` each linear in the length, with `zyz_other` to the other triple of the same target. Blended "
-        "lines all turn about axes, or all by angles.",
-    )
-
-
-class CircleSegment(SegmentOptions):
-    """The tip along the arc through a pose to another, less than once round."""
-
-    type: Literal["circle"] = Field(description="Along a circle.")
-    via: Pose = Field(
-        description="Pose of `tip_frame` in `base_frame` that the arc passes through, orientation included."
-    )
-    target: Pose = Field(description="Pose at its end.")
-    orientation: OrientationLaw = Field(default="axis_angle", description=_ORIENTATION_THROUGH)
-
-
-class SplineSegment(SegmentOptions):
-    """A cubic spline through configurations, or a smooth path of the tip through poses."""
-
-    type: Literal["spline"] = Field(description="Through points, along a spline.")
-    waypoints: Annotated[
-        Sequence[GivenConfiguration | Pose] | Array,
-        OnTheWire(Annotated[list[_Target], Field(min_length=1, max_length=MAX_WAYPOINTS)]),
-    ] = Field(
-        description="Waypoints after the start, the last one the end: all of them configurations, one number per joint "
-        "or by joint name, [rad or m], or all of them poses of `tip_frame` in `base_frame`.",
-    )
-    times: list[Duration] | None = Field(
-        default=None,
-        max_length=MAX_WAYPOINTS,
-        description="Time of each, after the segment's start, increasing, [s]; if left out, found from the limits.",
-    )
-    boundary: Boundary = Field(
-        default="clamped",
-        description="End conditions: `clamped`, at rest; `natural`, without acceleration; `not_a_knot`; "
-        "`periodic`, the end like the start; `assigned`, at rest and without acceleration.",
-    )
-    blends: bool = Field(
-        default=False,
-        description="Of configurations, with the law `trapezoidal`: joints go on straight lines from one to the next, "
-        "with parabolic blends that pass beside the inner ones (Craig's linear segments with parabolic blends); "
-        "`notes` say how far. No spline then, and no boundary.",
-    )
-    orientation: OrientationLaw = Field(default="axis_angle", description=f"Of poses. {_ORIENTATION_THROUGH}")
-
-
-Segment = Annotated[
-    Annotated[JointSegment, Tag("<joint>")]
-    | Annotated[LineSegment, Tag("<line>")]
-    | Annotated[CircleSegment, Tag("<circle>")]
-    | Annotated[SplineSegment, Tag("<spline>")],
-    Discriminator(
-        _segment_kind,
-        custom_error_type="segment_type",
-        custom_error_message="a segment has a `type`: joint, line, circle or spline",
-    ),
-]
-
-
-class TrajectoryRequest(ChainOptions, MotionOptions):
-    """A motion from rest to rest through segments, one after the other."""
-
-    start: Configuration = Field(
-        description="Configuration in which the motion begins, one number per joint of the chain or by joint name, "
-        "[rad or m]."
-    )
-    segments: Annotated[
-        Sequence[Segment], OnTheWire(Annotated[list[Segment], Field(min_length=1, max_length=MAX_SEGMENTS)])
-    ] = Field(
-        description=f"One after the other, with a stop between two that are not blended; 1 to {MAX_SEGMENTS}, with at "
-        f"most {MAX_WAYPOINTS} waypoints in all.",
-    )
-    law: Law = Field(
-        default="trapezoidal",
-        description="Of time along each segment: polynomials from rest to rest (`cubic`; `quintic`, acceleration zero "
-        "at both ends; `septic`, jerk too), `trapezoidal` velocity, `jerk_limited`, or `time_optimal`: as fast as the "
-        "limits of velocity and acceleration allow at each place.",
-    )
-    law_fallback: bool = Field(
-        default=False,
-        description="Whether another law may replace one that cannot be kept: `time_optimal`, with `near_singularity` "
-        "`slow_down`. Each segment of the answer gives its `law`. Otherwise the call is refused.",
-    )
-    duration: Duration | None = Field(
-        default=None, description="Duration of the whole motion, [s]; one shorter than the limits allow is refused."
-    )
-    sample_period: float = Field(
-        default=0.01,
-        ge=1e-6,
-        le=1e6,
-        description="From one sample to the next, [s]; the last one is exactly at the end.",
-    )
-    path_tolerance: float = Field(
-        default=1e-4,
-        ge=1e-7,
-        le=1.0,
-        description="Allowed distance of the tip from its path, also between samples, [m]. `way_error` of the answer's "
-        "`audit` gives the difference of the peaks from those of the exact path.",
-    )
-    orientation_tolerance: float = Field(default=1e-3, ge=1e-6, le=1.0, description="Allowed angle from it, [rad].")
-    task: list[Direction] | None = Field(
-        default=None,
-        min_length=1,
-        max_length=6,
-        description="The directions in which the path counts, as in `ik`; all six if left out. `x y z` along the "
-        "base's axes, `rx ry rz` about the path's: `x y z rx ry` is a position and an approach axis.",
-        examples=[["x", "y", "z", "rx", "ry"]],
-    )
-    near_singularity: NearSingularity = Field(
-        default="stop",
-        description="What to do on a tip path where `min_singular_value` is not kept: `stop`, the motion ends there; "
-        "`damp`, it continues with damped joints and leaves the path, as each segment reports; `slow_down`, it goes on "
-        "exactly and slows down there as the joints' limits require, with the law `time_optimal`.",
-    )
-    min_singular_value: float = Field(
-        default=0.01,
-        ge=1e-6,
-        le=1e3,
-        description="Smallest singular value of the Jacobian's rows that count below which a configuration is near to "
-        "a singularity, [m or rad] per [rad or m]: units are mixed.",
-    )
-    compare_timing: bool = Field(
-        default=False,
-        description="Whether to give the time-optimal duration of each path beside that of a law scaled uniformly.",
-    )
-    coefficients: bool = Field(default=False, description="Whether to include each segment's polynomials in full.")
-    tip_poses: bool = Field(default=True, description="Whether to include the tip's poses at the samples.")
-    pose_format: PoseFormat = Field(default="quaternion_xyzw", description="Notation of the poses in the answer.")

@@ -5,8 +5,9 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
+from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
-from gelenk.contract.singularity import SingularityInfo
+from gelenk.contract.singularities import SingularityInfo
 from gelenk.kinematics.ik.words import Direction, ObjectiveName
 from gelenk.kinematics.words import InverseName, InverseStatus
 
@@ -302,3 +303,47 @@ class VelocityAnswer(Answer):
     )
     results: list[VelocityResult]
     certificate: MotionCertificateInfo
+
+
+ENDPOINT = RobotEndpoint(
+    name="velocity",
+    request=VelocityRequest,
+    answer=VelocityAnswer,
+    summary="Velocity kinematics",
+    description="""
+    How the tip moves when the joints do, and how the joints must move for the tip.
+
+    **Forward**, `joint_velocities` given: the twist v = J q̇; with `joint_accelerations` the acceleration
+    J q̈ + J̇ q̇, both the classical one (p̈; ω̇) and Pinocchio's spatial one; with `joint_jerks` and `joint_snaps`
+    the jerk J q⃛ + 2 J̇ q̈ + J̈ q̇ and the snap J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇, with exact J̇, J̈, J⃛. The
+    lecture notes have the jerk without the factor 2, which is an error; so is d²s/ds² for d²p/ds² in their p̈ =
+    d²p/ds² ṡ² + dp/ds s̈. They say that the planar arm's 6×2 Jacobian has a rank between 1 and 2: it is 2 always,
+    and the 2×2 block of v_x, v_y loses rank at q₂ = 0 and π, which `"task": ["x", "y"]` shows.
+
+    **Inverse**, `twists` given: q̇ = J⁻¹v, the pseudo-inverse J#v by singular values, or damped least squares
+    min λ‖q̇‖² + ‖Jq̇ - v‖² with fixed λ (the course's λ, elsewhere written λ²) or one that follows the smallest
+    singular value and the velocity limits; joints weighted on request, and a motion (I - J#J) ξ in the null space
+    added. `tip_accelerations` and `tip_jerks` are inverted likewise, less what the given rates already make. Each
+    entry has its residual, the joints that are too fast, and how near the configuration is to a singularity.
+    Where metres and radians are mixed, J#, damping and condition number depend on the unit of length: choose a
+    `task` of one kind, or give a `characteristic_length`.
+
+    The tip's motion is recomputed through Pinocchio before it is sent (a sample of a large batch), of an inversion
+    that which the found rates make.
+    """,
+    batch="joint_positions",
+    options=VelocityOptions,
+    npy_holds_more=True,
+    npy_body="Forward: an array of shape (N, k, n) with 2 ≤ k ≤ 5, of each configuration the joint positions, "
+    "velocities, accelerations, jerks and snaps, as far as k goes.",
+    npy_answer="Forward: twists as an array of shape (N, 6), or with higher derivatives (N, k, 6). Inverse: the "
+    "joint velocities (accelerations, jerks) as an array of shape (N, n), rows without an answer zero; the header "
+    "`Gelenk-Unsolved` counts those and `Gelenk-Unsolved-Rows` gives the first 200 of them.",
+    example={
+        "joint_positions": [[0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785]],
+        "twists": [[0.1, 0.0, -0.05, 0.0, 0.0, 0.2]],
+        "inverse": "damped",
+        "damping": "adaptive",
+        "null_space": {"objective": "mid_range", "gain": 0.5},
+    },
+)

@@ -13,8 +13,8 @@ from gelenk.api.access.exchange import Exchange
 from gelenk.api.access.headers import completed
 from gelenk.api.access.journal import Audit, log_request
 from gelenk.api.access.metrics import Metrics
-from gelenk.api.tally import TALLY
 from gelenk.logs import REQUEST_ID
+from gelenk.operations.tally import TALLY
 
 Check: TypeAlias = Callable[[Exchange], Response | None]
 """Checks a request; returns the refusal, or None to let the request pass."""

@@ -11,7 +11,7 @@ from starlette.types import Scope as AsgiScope
 from gelenk.api.access.directory import Operation
 from gelenk.api.access.scopes import AS_JOBS, Scope
 from gelenk.api.preference import wants_answer_later
-from gelenk.api.tally import Tally
+from gelenk.operations.tally import Tally
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 

@@ -21,8 +21,8 @@ from prometheus_client.multiprocess import MultiProcessCollector, mark_process_d
 from prometheus_client.registry import Collector
 
 from gelenk.api.access.exchange import Exchange
-from gelenk.api.tally import Tally
 from gelenk.crew.crew import Crew
+from gelenk.operations.tally import Tally
 
 FOLDER = "PROMETHEUS_MULTIPROC_DIR"
 MOST_ROBOTS = 128

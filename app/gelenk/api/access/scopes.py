@@ -6,6 +6,8 @@ No scope includes another one: a key for the metrics needs `admin`, and can neit
 from enum import StrEnum
 from typing import Any
 
+from gelenk.contract.endpoints import ROBOT_ENDPOINTS
+
 
 class Scope(StrEnum):
     """What a key permits."""
@@ -21,7 +23,7 @@ OPEN_PATHS = frozenset(
 )
 """Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
 WRITING = frozenset({"add_robot", "replace_robot", "remove_robot", "workspace", "cancel_job"})
-AS_JOBS = frozenset({"inverse_kinematics", "trajectory"})
+AS_JOBS = frozenset(endpoint.operation_id or endpoint.name for endpoint in ROBOT_ENDPOINTS if endpoint.job)
 """What asks, unless a job is to answer it: that is kept, and needs `write`."""
 ADMINISTERING = frozenset({"metrics"})
 QUESTIONS = frozenset({"Kinematics", "DH tables", "Course"})

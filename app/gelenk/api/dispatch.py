@@ -1,0 +1,225 @@
+"""Routes and answers of all operations, made of the table of endpoints.
+
+A request is answered on the event loop where that is fast, else by a worker, or by a job. What is sent to a worker is
+the endpoint's name with the request as it came.
+"""
+
+import asyncio
+import pickle
+from collections.abc import Callable
+from typing import Any, cast
+
+from starlette.datastructures import QueryParams
+from starlette.responses import Response
+
+from gelenk.api.errand import Desk, Inquiry, buffers
+from gelenk.api.long_work import submitted
+from gelenk.api.long_works import LONG_WORK
+from gelenk.api.npy import npy_response, read_npy
+from gelenk.api.openapi import (
+    JOB_BEGUN,
+    PreferHeader,
+    RobotPath,
+    csv_content,
+    json_example,
+    npy_body,
+    npy_content,
+    picture_content,
+    problem_responses,
+)
+from gelenk.api.payloads import (
+    CSV,
+    JSON,
+    NO_ARRAY,
+    NPY,
+    PNG,
+    SVG,
+    BoundedRequest,
+    csv_response,
+    json_response,
+    read_json,
+    read_query,
+)
+from gelenk.api.preference import wants_answer_later
+from gelenk.api.problems import UnsupportedMediaType
+from gelenk.api.remote import INLINE_BYTES, Remote
+from gelenk.api.routes import DocumentedRoute, Handler
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.jobs.runner import Runner
+from gelenk.model.errors import InvalidArray, InvalidField
+from gelenk.operations.operation import Operation, operation
+from gelenk.operations.outcome import Limits, Outcome, PictureFormat
+from gelenk.operations.tally import TALLY, Tally
+from gelenk.store.library import Library
+from gelenk.store.records import LoadedRobot
+
+_PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
+
+
+def answer(desk: Desk, inquiry: Inquiry) -> Response:
+    """The answer to any request, in a worker, however long it takes."""
+    found = operation(inquiry.endpoint)
+    robot, call = _robot_and_call(desk.library, found.endpoint, inquiry)
+    return _answered(found.endpoint, call, found.run(robot, call, desk.limits), inquiry.wanted)
+
+
+def plan_job(desk: Desk, inquiry: Inquiry) -> Response:
+    """The files that a job is computed from, packed into one; the request is checked."""
+    robot, call = _robot_and_call(desk.library, BY_NAME[inquiry.endpoint], inquiry)
+    return Response(LONG_WORK[inquiry.endpoint].planned(cast(LoadedRobot, robot), call, desk.limits))
+
+
+def find(desk: Desk, inquiry: Inquiry) -> Response:
+    """What has to be known about a robot before requests of this kind are fast."""
+    warm_up = operation(inquiry.endpoint).warm_up
+    robot, call = _robot_and_call(desk.library, BY_NAME[inquiry.endpoint], inquiry)
+    return Response(b"" if warm_up is None else pickle.dumps(warm_up.find(cast(LoadedRobot, robot), call)))
+
+
+def handler(endpoint: Endpoint[Any, Any], remote: Remote, runner: Runner, limits: Limits) -> Handler:
+    """What answers the requests of an endpoint.
+
+    Args:
+        endpoint: The endpoint.
+        remote: Sends requests to workers.
+        runner: Runs jobs.
+        limits: What an answer may take.
+    """
+    offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type not in accepted:
+            raise UnsupportedMediaType(request.media_type, accepted)
+        wanted, pieces = request.preferred(offered), await request.pieces()
+        robot, query = request.path_params.get("robot", ""), request.scope["query_string"].decode("latin-1")
+        inquiry = Inquiry(buffers(pieces), robot, query, request.media_type == NPY, wanted, endpoint.name)
+        if isinstance(endpoint, RobotEndpoint) and endpoint.job and wants_answer_later(request.scope["headers"]):
+            planned = await remote.told(request, plan_job, inquiry)
+            return await submitted(runner, endpoint.name, request, planned)
+        if request.length <= INLINE_BYTES and not remote.crew.is_starting:
+            call = _parsed(endpoint, query, b"".join(pieces), inquiry.npy)
+            found = operation(endpoint.name)
+            if wanted not in _PICTURES and not found.is_heavy(call):
+                outcome = await _on_the_loop(found, remote, request, call, limits, inquiry)
+                if outcome is not None:
+                    return _answered(endpoint, call, outcome, wanted)
+        return await remote.answer(request, answer, inquiry)
+
+    return handle
+
+
+async def _on_the_loop(
+    found: Operation, remote: Remote, request: BoundedRequest, call: Any, limits: Limits, inquiry: Inquiry
+) -> Outcome | None:
+    """The outcome where that is fast; what it needs to know of the robot is found out first."""
+    if not isinstance(found.endpoint, RobotEndpoint):
+        return found.run(None, call, limits)
+    robot = await remote.resident(request, inquiry.robot)
+    if found.warm_up is not None and not found.warm_up.is_known(robot, call):
+        content = await remote.told(request, find, inquiry)
+        known = pickle.loads(content)  # noqa: S301 - from a process of ours
+        await asyncio.to_thread(found.warm_up.keep, robot, call, known)
+    return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)
+
+
+def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:
+    """The route of an endpoint: it documents the operation and refuses other methods."""
+
+    def endpoint_of_robot(robot: str, call: Any) -> Any: ...
+
+    def endpoint_or_job(robot: str, call: Any, prefer: str | None = None) -> Any: ...
+
+    def endpoint_alone(call: Any) -> Any: ...
+
+    described: Callable[..., Any] = endpoint_alone
+    types: dict[str, Any] = {"call": endpoint.request, "return": endpoint.answer}
+    statuses, contents = [400, 413, 415, 422], picture_content(endpoint.picture)
+    body, responses, text = json_example(endpoint.example), {}, [endpoint.text]
+    if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
+        statuses.append(404)
+    if isinstance(endpoint, RobotEndpoint):
+        described, types = endpoint_of_robot, {"robot": RobotPath, **types}
+        contents = {**npy_content(endpoint.npy_answer), **csv_content(endpoint.table), **contents}
+        if endpoint.options is not None:
+            body |= npy_body(endpoint.npy_body, endpoint.options)
+        if endpoint.job:
+            described, types = endpoint_or_job, {**types, "prefer": PreferHeader}
+            responses = {**JOB_BEGUN, **problem_responses(507)}
+            text.append(_job_note(endpoint.job))
+    described.__annotations__ = types
+    return DocumentedRoute(
+        f"/{endpoint.path}",
+        described,
+        handle,
+        max_body_bytes,
+        methods=["POST"],
+        operation_id=endpoint.operation_id or endpoint.name,
+        summary=endpoint.summary,
+        description="\n\n".join(text),
+        tags=[endpoint.tag],
+        responses={
+            **({200: {"content": contents}} if contents else {}),
+            **problem_responses(*statuses),
+            **responses,
+        },
+        openapi_extra={"requestBody": {"content": body}},
+    )
+
+
+def _job_note(more: str) -> str:
+    return (
+        "With `Prefer: respond-async` the call is checked and a job computes the same answer: the reply is 202 with "
+        f"the job's address in `Location`. Then there may be {more}."
+    )
+
+
+def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
+    return isinstance(endpoint, RobotEndpoint) and endpoint.options is not None
+
+
+def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
+    """Media types of the answer, the default one first."""
+    arrays = (NPY, *((CSV,) if endpoint.table else ())) if isinstance(endpoint, RobotEndpoint) else ()
+    return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
+
+
+def _robot_and_call(library: Library, endpoint: Endpoint[Any, Any], inquiry: Inquiry) -> tuple[LoadedRobot | None, Any]:
+    """The robot that a path or a request names, and the request."""
+    robot = library.get(inquiry.robot) if inquiry.robot else None
+    call = _parsed(endpoint, inquiry.query, inquiry.body, inquiry.npy)
+    if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
+        robot = library.get(name)
+    return robot, call
+
+
+def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) -> Any:
+    model = cast(Any, endpoint.request)
+    if isinstance(endpoint, RobotEndpoint) and endpoint.options is not None and npy:
+        options = read_query(cast(Any, endpoint.options), QueryParams(query))
+        given = options.model_fields_set | {endpoint.batch}
+        return model.model_construct(given, **{**dict(options), endpoint.batch: read_npy(body)})
+    if query:
+        why = "they are for an npy body; a JSON call has them as fields"
+        raise InvalidField(
+            "query", why if _has_npy_body(endpoint) else "this call has its parameters as fields of the body"
+        )
+    return read_json(model, body)
+
+
+def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted: str) -> Response:
+    """The answer; what the metrics count of it is left behind."""
+    if isinstance(endpoint, RobotEndpoint):
+        batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
+        TALLY.set(Tally(batch) if outcome.solved is None else outcome.solved(batch))
+    if wanted == JSON:
+        return json_response(outcome.content())
+    if wanted in _PICTURES:
+        if outcome.picture is None:
+            raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")
+        return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
+    if outcome.array is None:
+        raise InvalidArray(NO_ARRAY)
+    if wanted == CSV and outcome.columns is not None:
+        return csv_response(outcome.columns, *outcome.array())
+    return npy_response(*outcome.array())

@@ -1,0 +1,51 @@
+"""The table of a robot's chain: GET /v1/robots/{robot}/dh."""
+
+from typing import Annotated
+
+from fastapi import Query
+from starlette.datastructures import QueryParams
+from starlette.responses import Response
+
+from gelenk.api.errand import Desk, Inquiry
+from gelenk.api.openapi import RobotPath, problem_responses
+from gelenk.api.payloads import BoundedRequest, json_response, read_query
+from gelenk.api.remote import Remote
+from gelenk.api.routes import DocumentedRoute
+from gelenk.contract.common import FrameName
+from gelenk.contract.dh import Convention, SnapTolerance
+from gelenk.contract.dh_from_urdf import FromUrdfAnswer, FromUrdfOptions
+from gelenk.operations.dh_from_urdf import table_answer
+
+
+def table_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
+    """The route; no table is made on the event loop."""
+
+    def robot_table(  # type: ignore[empty-body]
+        robot: RobotPath,
+        convention: Annotated[Convention, Query(openapi_examples={"modified": {"value": "modified"}})] = "standard",
+        base_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link0"}})] = None,
+        tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
+        snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
+    ) -> FromUrdfAnswer:
+        """The table of a chain of this robot, as `from-urdf` finds it; the default chain where no frame is named."""
+
+    async def get_table(request: BoundedRequest) -> Response:
+        inquiry = Inquiry(robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1"))
+        return await remote.answer(request, _robot_table, inquiry)
+
+    return DocumentedRoute(
+        "/v1/robots/{robot}/dh",
+        robot_table,
+        get_table,
+        max_body_bytes,
+        methods=["GET"],
+        operation_id="get_robot_dh",
+        summary="A robot's chain as a table",
+        tags=["DH tables"],
+        responses=problem_responses(404, 422),
+    )
+
+
+def _robot_table(desk: Desk, inquiry: Inquiry) -> Response:
+    options, loaded = read_query(FromUrdfOptions, QueryParams(inquiry.query)), desk.library.get(inquiry.robot)
+    return json_response(table_answer(loaded.robot, options, loaded.warnings))

@@ -1,0 +1,36 @@
+"""A table in the other convention: request, answer, operation."""
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.dh import EXAMPLE_TABLE, Convention, DhTablePayload, TableCertificate
+from gelenk.contract.endpoint import Endpoint
+
+
+class ConvertRequest(Payload):
+    """A table to be written in a convention."""
+
+    dh: DhTablePayload
+    convention: Convention
+
+
+class ConvertAnswer(Answer):
+    """The same chain by a table of the convention."""
+
+    dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
+    joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")
+    certificate: TableCertificate = Field(description="Both tables, as URDF, through Pinocchio.")
+
+
+ENDPOINT = Endpoint(
+    name="convert_dh",
+    path="v1/dh/convert",
+    tag="DH tables",
+    request=ConvertRequest,
+    answer=ConvertAnswer,
+    summary="Standard ↔ modified",
+    description="""
+    Writes a table in the other convention, exactly: α and a move by one row, base and tool absorb the rest.
+    """,
+    example={"dh": EXAMPLE_TABLE, "convention": "standard"},
+)

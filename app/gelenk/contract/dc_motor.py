@@ -1,0 +1,187 @@
+"""A DC motor: request, answer, operation."""
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.quantities import (
+    AngularVelocity,
+    Current,
+    Friction,
+    Inductance,
+    Inertia,
+    MachineConstant,
+    Resistance,
+    Steps,
+    Time,
+    Torque,
+    Voltage,
+    Warnings,
+)
+from gelenk.course.dc_motor import Damping, Motor, Regime
+
+MAX_SAMPLES = 10_000
+
+
+class DcMotorRequest(Payload):
+    """A motor with its supply and load."""
+
+    resistance: Resistance = Field(description="R of the winding, [Ω].")
+    inductance: Inductance = Field(description="L of the winding, [H]; 0, or at least 1e-12.")
+    torque_constant: MachineConstant = Field(description="k_t, [N m/A].")
+    back_emf_constant: MachineConstant | None = Field(
+        default=None, description="k_e, [V s/rad]; k_t if left out, which it equals in these units."
+    )
+    viscous_friction: Friction = Field(default=0.0, description="b, [N m s/rad].")
+    inertia: Inertia = Field(description="J of the rotor and what turns with it, [kg m²].")
+    voltage: Voltage = Field(description="V, constant from t = 0 on, [V]; negative turns the other way.")
+    load_torque: Torque = Field(
+        default=0.0, description="τ_L, constant from t = 0 on, [N m]: it keeps its direction, as a hanging load's does."
+    )
+    times: Annotated[list[Time], Field(min_length=1, max_length=MAX_SAMPLES, fail_fast=True)] | None = Field(
+        default=None,
+        description="Times at which to compute the response, from the step on, [s]; no response if left out.",
+    )
+    duration: Annotated[float, Field(ge=1e-12, le=1e9)] | None = Field(
+        default=None,
+        description="Instead of `times`: the last of `samples` times, which are evenly spaced from 0 on, [s].",
+    )
+    samples: Annotated[int, Field(ge=2, le=MAX_SAMPLES)] | None = Field(
+        default=None, description="Number of times that `duration` is sampled at; 101 if left out."
+    )
+    initial_current: Current = Field(
+        default=0.0, description="i(0), [A]; not used without inductance, where the current follows at once."
+    )
+    initial_angular_velocity: AngularVelocity = Field(default=0.0, description="ω(0), [rad/s].")
+
+    def motor(self) -> Motor:
+        """The core's motor."""
+        return Motor(
+            self.resistance,
+            self.inductance,
+            self.torque_constant,
+            self.torque_constant if self.back_emf_constant is None else self.back_emf_constant,
+            self.viscous_friction,
+            self.inertia,
+        )
+
+
+class SteadyStateInfo(Answer):
+    """The motor's steady state."""
+
+    angular_velocity: float = Field(description="ω, [rad/s].")
+    current: float = Field(description="i, [A].")
+    torque: float = Field(description="k_t i, friction included, [N m].")
+    electrical_power: float = Field(description="V i, [W]: negative where it flows to the supply.")
+    shaft_power: float = Field(description="τ_L ω, power delivered to the load, [W]: negative where the load drives.")
+    copper_loss: float = Field(description="R i², [W].")
+    friction_loss: float = Field(description="b ω², [W].")
+    efficiency: float | None = Field(
+        description="Shaft over electrical power where the motor drives, electrical over shaft power where it is a "
+        "generator, in [0, 1]; null where neither is useful, and where `back_emf_constant` is not `torque_constant`: "
+        "the powers do not add up then."
+    )
+    regime: Regime = Field(
+        description="`motoring`; `standstill`; `assisted`: the load helps; `generating`: the load is faster than the "
+        "motor without load, and power flows to the supply; `driven_backwards`: the load is beyond the stall torque; "
+        "`braking`: no voltage, the terminals shorted."
+    )
+
+
+class TorqueSpeedInfo(Answer):
+    """The torque-speed line at this voltage."""
+
+    no_load_angular_velocity: float = Field(description="ω₀ = k_t V / (R b + k_t k_e), [rad/s].")
+    no_load_current: float = Field(description="Current that friction alone needs, [A].")
+    stall_torque: float = Field(description="k_t V / R, [N m].")
+    stall_current: float = Field(description="V / R, [A].")
+    slope: float = Field(description="dω/dτ_L, [rad/s per N m].")
+    most_power: float = Field(description="Largest shaft power, reached at half the stall torque, [W].")
+
+
+class PoleInfo(Answer):
+    """An eigenvalue of the motor's equations."""
+
+    real: float = Field(description="Real part, [1/s].")
+    imaginary: float = Field(description="Imaginary part, [rad/s].")
+
+
+class MotorDynamicsInfo(Answer):
+    """How the motor reaches the steady state."""
+
+    poles: list[PoleInfo] = Field(description="Exact, slowest first; one where L = 0.")
+    damping: Damping = Field(description="What the poles are.")
+    time_constants: list[float] = Field(description="-1 / real part of each pole, exact, [s].")
+    mechanical_time_constant: float = Field(description="τ_m ≈ J R / (R b + k_t k_e), [s]; exact where L = 0.")
+    electrical_time_constant: float = Field(description="τ_e ≈ L / R, [s].")
+
+
+class StepResponseInfo(Answer):
+    """x(t) = x_∞ + e^{A t} (x(0) - x_∞), exact."""
+
+    times: list[float] = Field(description="Since the step, [s].")
+    currents: list[float] = Field(description="i(t), [A].")
+    angular_velocities: list[float] = Field(description="ω(t), [rad/s].")
+
+
+class MotorCertificate(Answer):
+    """Residuals of the two equations in the steady state, and a second computation of the response.
+
+    The exponential of the response is written out; the second one is a Taylor series of A t / 2^k, squared k times.
+    """
+
+    voltage_residual: float = Field(description="V - R i - k_e ω of the steady state, [V].")
+    torque_residual: float = Field(description="k_t i - b ω - τ_L of the steady state, [N m].")
+    samples: int = Field(description="Times of the response that were recomputed, at most 16.")
+    max_current_difference: float | None = Field(description="Largest difference, [A]; null without a response.")
+    max_angular_velocity_difference: float | None = Field(
+        description="Largest difference, [rad/s]; null without a response."
+    )
+
+
+class DcMotorAnswer(Answer):
+    """A motor's behaviour at a voltage and a load."""
+
+    steady_state: SteadyStateInfo
+    torque_speed_line: TorqueSpeedInfo
+    dynamics: MotorDynamicsInfo
+    response: StepResponseInfo | None = Field(description="Null if no times were requested.")
+    steps: Steps
+    warnings: Warnings
+    certificate: MotorCertificate
+
+
+EXAMPLE_MOTOR: dict[str, Any] = {
+    "resistance": 1.2,
+    "inductance": 2e-3,
+    "torque_constant": 0.05,
+    "viscous_friction": 1e-4,
+    "inertia": 2e-4,
+    "voltage": 24.0,
+    "load_torque": 0.1,
+    "times": [0.0, 0.02, 0.1, 0.5],
+}
+
+
+ENDPOINT = Endpoint(
+    name="dc_motor",
+    path="v1/course/dc-motor",
+    tag="Course",
+    request=DcMotorRequest,
+    answer=DcMotorAnswer,
+    summary="DC motor: steady state and step response",
+    description="""
+    A DC motor under a constant voltage and load: v = R i + L i̇ + k_e ω, J ω̇ + b ω = k_t i - τ_L.
+
+    Steady state, no load and stall, powers and efficiency, exact poles beside the usual time constants, and the
+    exact response to the step from any initial state, by the matrix exponential in closed form: real, double or
+    complex poles, first order where L = 0. The load torque keeps its direction: beyond the stall torque it drives
+    the motor backwards, which `regime` names. `back_emf_constant` is `torque_constant` unless given; in SI units
+    they are equal, and two different values produce a warning.
+
+    The lecture describes the motor in words; these are the equations behind it.
+    """,
+    example=EXAMPLE_MOTOR,
+)

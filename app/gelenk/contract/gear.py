@@ -1,0 +1,104 @@
+"""A gear: request, answer, operation."""
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.quantities import (
+    AngularVelocity,
+    Inertia,
+    Ratio,
+    Steps,
+    Torque,
+)
+from gelenk.course.gear import PowerFlow
+
+
+class GearRequest(Payload):
+    """A gear, with at most one speed, one torque, and both inertias or none."""
+
+    ratio: Ratio = Field(description="N = ω_motor / ω_load, no unit; above 1 it reduces the speed.")
+    efficiency: Annotated[float, Field(ge=1e-6, le=1.0)] = Field(
+        default=1.0, description="η, power out over power in when the motor drives, no unit."
+    )
+    motor_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_m, [rad/s].")
+    load_angular_velocity: AngularVelocity | None = Field(default=None, description="ω_L, instead of ω_m, [rad/s].")
+    motor_torque: Torque | None = Field(default=None, description="τ_m, from the motor into the gear, [N m].")
+    load_torque: Torque | None = Field(
+        default=None, description="τ_L, from the gear into the load, instead of τ_m, [N m]."
+    )
+    motor_inertia: Inertia | None = Field(default=None, description="J_m of the rotor, [kg m²].")
+    load_inertia: Inertia | None = Field(default=None, description="J_L of the load, [kg m²].")
+
+
+class GearSideInfo(Answer):
+    """One side of the gear; null where not given."""
+
+    angular_velocity: float | None = Field(description="ω, [rad/s].")
+    torque: float | None = Field(description="τ, from the motor towards the load, [N m].")
+    power: float | None = Field(description="τ ω, [W]: negative where it flows from the load to the motor.")
+
+
+class ReflectedInertiaInfo(Answer):
+    """Rotor and load as one inertia."""
+
+    at_motor: float = Field(description="J_m + J_L / N², [kg m²].")
+    at_load: float = Field(description="N² J_m + J_L, [kg m²].")
+    reflected_load: float = Field(description="J_L / N², [kg m²].")
+    reflected_motor: float = Field(description="N² J_m, [kg m²].")
+    optimal_ratio: float = Field(
+        description="N* = √(J_L / J_m), with which a given motor torque accelerates the load most; no unit."
+    )
+    acceleration_share: float = Field(
+        description="Acceleration with this ratio over that with N*, same torque, no losses; in [0, 1]."
+    )
+
+
+class BackDrivingInfo(Answer):
+    """What happens when the load drives."""
+
+    efficiency: float | None = Field(description="2 - 1/η, no unit; null where the gear locks itself.")
+    self_locking: bool = Field(description="Whether no load can turn the motor: η ≤ 1/2.")
+    note: str = Field(description="An explanation in one sentence.")
+
+
+class GearAnswer(Answer):
+    """Both sides of a gear."""
+
+    motor: GearSideInfo
+    load: GearSideInfo
+    power_loss: float | None = Field(description="What the gear turns into heat, [W]; null where a power is missing.")
+    power_flow: PowerFlow = Field(description="Which side drives; `none` without a torque.")
+    inertia: ReflectedInertiaInfo | None = Field(description="Null without both inertias.")
+    back_driving: BackDrivingInfo
+    steps: Steps
+
+
+EXAMPLE_GEAR: dict[str, Any] = {
+    "ratio": 100.0,
+    "efficiency": 0.8,
+    "motor_torque": 1.0,
+    "motor_angular_velocity": 458.015267176,
+    "motor_inertia": 2e-4,
+    "load_inertia": 3.0,
+}
+
+
+ENDPOINT = Endpoint(
+    name="gear",
+    path="v1/course/gear",
+    tag="Course",
+    request=GearRequest,
+    answer=GearAnswer,
+    summary="Gear: both sides",
+    description="""
+    A gear of ratio N = ω_motor / ω_load and efficiency η, from the motor's side or from the load's.
+
+    Speed ω_L = ω_m / N, torque τ_L = η N τ_m, inertias across the gear by N², the ratio √(J_L / J_m) with which a
+    given motor torque accelerates the load most. Where speed and torque have different signs the load drives:
+    then friction helps to hold it, with the efficiency 2 - 1/η; at η ≤ 1/2 the gear locks itself.
+    """,
+    example=EXAMPLE_GEAR,
+)

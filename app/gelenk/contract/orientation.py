@@ -1,0 +1,267 @@
+"""Requests and answers of the calculator of orientations."""
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
+from gelenk.course.composition import Motion
+from gelenk.course.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidPose
+from gelenk.model.poses import ROTATION_TOLERANCE, transform
+
+MAX_MOTIONS = 64
+MAX_POINTS = 10_000
+
+_NOTATIONS = (*ORIENTATIONS, "axis_angle", "elementary")
+_Angle = Annotated[float, Field(ge=-MAX_MAGNITUDE, le=MAX_MAGNITUDE)]
+
+
+class AxisAnglePayload(Payload):
+    """A rotation about an axis through the origin."""
+
+    axis: Vector3 = Field(description="Its direction; of any length but 0, no unit.")
+    angle: _Angle = Field(description="Counter-clockwise about it, [rad].")
+
+
+class ElementaryPayload(Payload):
+    """Rx, Ry or Rz."""
+
+    axis: Literal["x", "y", "z"] = Field(description="The coordinate axis.")
+    angle: _Angle = Field(description="Counter-clockwise about it, [rad].")
+
+
+class MotionPayload(Payload):
+    """Exactly one orientation, perhaps with a position."""
+
+    quaternion_xyzw: Vector4 | None = Field(default=None, description="Unit quaternion, scalar last.")
+    quaternion_wxyz: Vector4 | None = Field(default=None, description="Unit quaternion, scalar first.")
+    rpy: Vector3 | None = Field(
+        default=None,
+        description="Roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll), [rad].",
+    )
+    zyz: Vector3 | None = Field(default=None, description="Euler angles φ, θ, ψ: R = Rz(φ) Ry(θ) Rz(ψ), [rad].")
+    rotation_vector: Vector3 | None = Field(default=None, description="Axis times angle, [rad].")
+    rotation: Matrix3 | None = Field(default=None, description="Rotation matrix, row by row.")
+    axis_angle: AxisAnglePayload | None = Field(default=None, description="A rotation about any axis.")
+    elementary: ElementaryPayload | None = Field(default=None, description="A rotation about a coordinate axis.")
+    position: Vector3 | None = Field(default=None, description="Of the moved frame's origin, [m]; zero if left out.")
+    project: bool = Field(
+        default=False,
+        description="Whether to project a `rotation` further than 1e-6 from a rotation matrix onto the nearest one "
+        "instead of refusing it.",
+    )
+
+    @model_validator(mode="after")
+    def _one_notation(self) -> "MotionPayload":
+        given = [name for name in _NOTATIONS if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(f"exactly one orientation of {', '.join(_NOTATIONS)}; {len(given)} are given")
+        if self.project and self.rotation is None:
+            raise ValueError("`project` is only allowed with `rotation`: other notations are always rotations")
+        return self
+
+    def read(self, place: str = "") -> tuple[Array, Validation | None]:
+        """T_a_b, shape (4, 4), and how far a `rotation` was from one.
+
+        Args:
+            place: Where in the request it stands, with a slash behind.
+
+        Raises:
+            InvalidPose: It is no rotation.
+            InvalidField: An axis without direction.
+        """
+        validation = None
+        if self.rotation is not None:
+            validation = validated(np.array(self.rotation))
+            R = self._accepted(validation, place)
+        elif self.axis_angle is not None:
+            R = about_axis(unit_axis(self.axis_angle.axis, f"{place}axis_angle/axis"), self.axis_angle.angle)
+        elif self.elementary is not None:
+            R = elementary(self.elementary.axis, self.elementary.angle)
+        else:
+            R = self._as_in_a_pose(place)
+        return transform(np.array(self.position or [0.0, 0.0, 0.0]), R), validation
+
+    def _as_in_a_pose(self, place: str) -> Array:
+        name = next(name for name in ORIENTATIONS if getattr(self, name) is not None)
+        try:
+            return Pose.model_construct(**{name: getattr(self, name)}).orientation()
+        except InvalidPose as error:
+            raise InvalidPose(error.reason, error.distance, place + name) from None
+
+    def _accepted(self, found: Validation, place: str) -> Array:
+        if found.distance <= ROTATION_TOLERANCE:
+            return self._as_in_a_pose(place)
+        if self.project and self._is_zero():
+            raise InvalidPose(
+                "the matrix is zero: no rotation is nearer to it than any other", field=f"{place}rotation"
+            )
+        if self.project:
+            return found.nearest
+        kind = "a reflection" if found.is_reflection else "not a rotation"
+        reason = (
+            f"the matrix is {kind}: ‖RᵀR - I‖ = {found.orthogonality_error:.6g}, det R = {found.determinant:.6g}; "
+            f"allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
+        )
+        raise InvalidPose(reason, found.distance, f"{place}rotation")
+
+    def _is_zero(self) -> bool:
+        return float(np.abs(self.rotation or 0.0).max()) <= DEGENERATE
+
+
+class FurtherPayload(MotionPayload):
+    """A further motion of a composition."""
+
+    about: Literal["moving", "fixed"] = Field(
+        default="moving",
+        description="Axes it is expressed in: those of the frame moved so far (R = R1 R2, from the right), or the "
+        "fixed ones (R = R2 R1, from the left).",
+    )
+
+
+class OrientationRequest(MotionPayload):
+    """An orientation, with optional motions to compose it with and points to move."""
+
+    then: Annotated[list[FurtherPayload], Field(max_length=MAX_MOTIONS)] = Field(
+        default_factory=list, description="Further motions, in order; the answer is about the frame they lead to."
+    )
+    points: Annotated[list[Vector3], Field(max_length=MAX_POINTS, fail_fast=True)] = Field(
+        default_factory=list, description="Points in the frame that all motions lead to, [m]."
+    )
+
+    def motions(self) -> tuple[Array, list[Motion], list[Validation | None]]:
+        """The first transform, the further ones, and how far each matrix was from a rotation."""
+        first, validation = self.read()
+        further, validations = [], [validation]
+        for i, motion in enumerate(self.then):
+            T, validation = motion.read(f"then/{i}/")
+            further.append(Motion(T, motion.about))
+            validations.append(validation)
+        return first, further, validations
+
+
+Triple = Annotated[list[float], Field(min_length=3, max_length=3)]
+Quadruple = Annotated[list[float], Field(min_length=4, max_length=4)]
+Rows = Annotated[list[Triple], Field(min_length=3, max_length=3)]
+
+
+class AxisAngleInfo(Answer):
+    """An axis and an angle, separately."""
+
+    axis: Triple | None = Field(description="Unit axis, no unit; null at angle 0, where there is none.")
+    other_axis: Triple | None = Field(description="At angle π the opposite axis, which does the same; else null.")
+    angle: float = Field(description="In [0, π], [rad].")
+
+
+class DegeneracyInfo(Answer):
+    """A notation that degenerates at this orientation."""
+
+    notation: Literal["zyz", "rpy", "axis_angle"] = Field(description="Which one it is.")
+    case: str = Field(description="What makes it so.")
+    determined: str | None = Field(description="What is still determined; null if nothing is.")
+    value: float | None = Field(description="Of the combination that is determined, in (-π, π], [rad].")
+    chosen: str = Field(description="How the given triple was chosen among all.")
+
+
+class ValidationInfo(Answer):
+    """Distance of a given matrix from a rotation."""
+
+    orthogonality_error: float = Field(description="‖RᵀR - I‖ (Frobenius), no unit.")
+    determinant: float = Field(description="Of the matrix; +1 of a rotation, no unit.")
+    distance: float = Field(description="‖R - nearest rotation‖ (Frobenius), no unit.")
+    is_reflection: bool = Field(description="Whether the determinant is negative.")
+    is_unique: bool = Field(description="Whether one rotation is nearer than all others; not so of a pure reflection.")
+    projected: bool = Field(
+        description="Whether the nearest rotation was taken for a matrix further than 1e-6 from it."
+    )
+
+
+class FrameInfo(Answer):
+    """A frame by its rotation matrix and origin."""
+
+    rotation: Rows = Field(description="R, row by row, no unit.")
+    position: Triple = Field(description="Its origin, [m]: the last column of the homogeneous matrix.")
+
+
+class OrientationCertificate(Answer):
+    """Differences of the answer from the same numbers computed another way."""
+
+    max_rotation_error: float = Field(
+        description="Largest entry by which R differs from what each of the notations, both branches, gives; no unit."
+    )
+    max_inverse_error: float = Field(
+        description="Largest entry of T T⁻¹ - I, relative to the largest coordinate, no unit."
+    )
+    max_point_error: float = Field(
+        description="Largest difference of the points to those moved step by step, relative likewise, no unit."
+    )
+
+
+class OrientationAnswer(Answer):
+    """The orientation in every notation."""
+
+    rotation: Rows = Field(description="R, row by row, no unit.")
+    quaternion_xyzw: Quadruple = Field(
+        description="Scalar last, no unit; its negative is the same. The scalar is ≥ 0; where it is 0 the first other "
+        "part that is not 0 is positive."
+    )
+    quaternion_wxyz: Quadruple = Field(description="The same, scalar first, no unit.")
+    rotation_vector: Triple = Field(description="Axis times angle, [rad].")
+    axis_angle: AxisAngleInfo
+    zyz: Triple = Field(description="φ, θ, ψ with θ in [0, π], [rad].")
+    zyz_solutions: list[Triple] = Field(
+        description="Both branches, the second with θ < 0, [rad]; where it degenerates the chosen one alone."
+    )
+    rpy: Triple = Field(description="Roll, pitch, yaw with pitch in [-π/2, π/2], [rad].")
+    rpy_solutions: list[Triple] = Field(
+        description="Both branches, the second with |pitch| > π/2, [rad]; where it degenerates the chosen one alone."
+    )
+    degenerate: list[DegeneracyInfo] = Field(description="Degeneracies; usually empty.")
+    degenerate_threshold: float = Field(description="Sines and cosines below it count as zero, no unit.")
+    position: Triple = Field(description="Of the frame's origin, [m].")
+    inverse: FrameInfo = Field(description="Rᵀ and -Rᵀp.")
+    points: list[Triple] = Field(description="The given points, written in the frame that stays: R x + p, [m].")
+    frames: list[FrameInfo] = Field(description="The frame after each motion.")
+    validations: list[ValidationInfo | None] = Field(
+        description="Of each motion in order: how far its `rotation` is from one; null for another notation."
+    )
+    warnings: list[str] = Field(description="Near degeneracies, and choices made.")
+    certificate: OrientationCertificate
+
+
+EXAMPLE_ZYZ: dict[str, Any] = {
+    "zyz": [0.3, 0.7, -1.1],
+    "then": [{"elementary": {"axis": "x", "angle": 0.4}, "position": [0.0, 0.0, 0.2], "about": "moving"}],
+    "points": [[1.0, 2.0, 3.0]],
+}
+
+
+ENDPOINT = Endpoint(
+    name="orientation",
+    path="v1/course/orientation",
+    tag="Course",
+    operation_id="convert_orientation",
+    request=OrientationRequest,
+    answer=OrientationAnswer,
+    summary="An orientation in every notation",
+    description="""
+    Takes an orientation in one notation and gives it in all of them, with both branches of ZYZ and RPY.
+
+    Where a triple degenerates, `degenerate` says what is still determined: of ZYZ φ + ψ at θ = 0 and φ - ψ at
+    θ = π (the notes have "only the sum"), of RPY yaw - roll at pitch π/2 and yaw + roll at -π/2. At angle 0 there
+    is no axis, at π there are both.
+
+    A `rotation` further than 1e-6 from a rotation matrix is refused, with ‖RᵀR - I‖, det R and its distance; with
+    `project` the nearest rotation is taken and all this is in the answer.
+
+    `then` composes further motions, R = R1 R2 about the moved axes or R2 R1 about the fixed ones; `position` makes
+    frames of orientations, whose origin is the last column (the notes once say row) of the homogeneous matrix.
+    `inverse` is Rᵀ, -Rᵀp, and `points` are moved along. Every notation is converted back into R as a check.
+    """,
+    example=EXAMPLE_ZYZ,
+)

@@ -1,0 +1,105 @@
+"""Pulse width modulation: request, answer, operation."""
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer, Payload
+from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.quantities import (
+    AngularVelocity,
+    Friction,
+    Inductance,
+    MachineConstant,
+    Resistance,
+    Steps,
+    Torque,
+    Voltage,
+    Warnings,
+)
+
+
+class PwmRequest(Payload):
+    """A supply, switched; exactly one of `duty`, `average_voltage` and `angular_velocity`."""
+
+    supply_voltage: Annotated[float, Field(ge=1e-6, le=1e6)] = Field(description="V_s, [V].")
+    frequency: Annotated[float, Field(ge=1e-6, le=1e12)] = Field(description="f of the pulses, [Hz].")
+    duty: Annotated[float, Field(ge=0.0, le=1.0)] | None = Field(default=None, description="D, no unit.")
+    average_voltage: Voltage | None = Field(
+        default=None, description="Wanted average, [V]; negative needs an H-bridge; no further from 0 than V_s."
+    )
+    angular_velocity: AngularVelocity | None = Field(
+        default=None, description="Wanted speed of a motor, [rad/s]; it needs `resistance` and `torque_constant`."
+    )
+    resistance: Resistance | None = Field(default=None, description="R of the winding, [Ω].")
+    inductance: Inductance | None = Field(default=None, description="L of the winding, [H]; 0, or at least 1e-12.")
+    back_emf: Voltage | None = Field(
+        default=None,
+        description="E of the motor through the period, [V]; 0 if left out. With a wanted speed it is k_e ω: leave it "
+        "out, or give that.",
+    )
+    torque_constant: MachineConstant | None = Field(default=None, description="k_t, for a wanted speed, [N m/A].")
+    back_emf_constant: MachineConstant | None = Field(
+        default=None, description="k_e, for a wanted speed, [V s/rad]; k_t if left out."
+    )
+    viscous_friction: Friction | None = Field(
+        default=None, description="b, for a wanted speed, [N m s/rad]; 0 if left out."
+    )
+    load_torque: Torque | None = Field(default=None, description="τ_L, for a wanted speed, [N m]; 0 if left out.")
+
+
+class RippleInfo(Answer):
+    """The current in the steady state, through R and L against a constant back-EMF."""
+
+    average: float = Field(description="(V_avg - E) / R, [A].")
+    lowest: float = Field(description="Smallest in a period, [A].")
+    highest: float = Field(description="Largest in a period, [A].")
+    ripple: float = Field(description="highest - lowest, [A].")
+    closing_error: float = Field(
+        description="Certificate: how far the current is from where it began after one period of both equations, [A]."
+    )
+
+
+class PwmAnswer(Answer):
+    """What a switched supply gives."""
+
+    duty: float = Field(description="D in [0, 1], no unit.")
+    direction: int = Field(description="1, or -1 if the supply is reversed; no unit.")
+    needs_h_bridge: bool = Field(description="Whether the average is negative.")
+    average_voltage: float = Field(description="±D V_s, [V].")
+    rms_voltage: float = Field(description="√D V_s, [V].")
+    on_time: float = Field(description="D / f, [s].")
+    off_time: float = Field(description="(1 - D) / f, [s].")
+    approximate_ripple: float | None = Field(
+        description="V_s D (1 - D) / (L f), [A]: without resistance. Null without inductance."
+    )
+    current: RippleInfo | None = Field(description="Exact; null without both R and L.")
+    steps: Steps
+    warnings: Warnings
+
+
+EXAMPLE_PWM: dict[str, Any] = {
+    "supply_voltage": 24.0,
+    "frequency": 20_000.0,
+    "duty": 0.35,
+    "resistance": 1.2,
+    "inductance": 2e-3,
+}
+
+
+ENDPOINT = Endpoint(
+    name="pulse_width_modulation",
+    path="v1/course/pwm",
+    tag="Course",
+    request=PwmRequest,
+    answer=PwmAnswer,
+    summary="Pulse width modulation: averages and ripple",
+    description="""
+    A supply switched with a duty D: V_avg = D V_s, V_rms = √D V_s, and the ripple of the current.
+
+    Give `duty`, or a wanted `average_voltage`, or a wanted `angular_velocity` of a motor: the duty is found. A
+    negative average needs an H-bridge, and `direction` is -1. The ripple V_s D (1 - D) / (L f) leaves out the
+    resistance; with R and L the current's extremes are exact, in the steady state, with a constant back-EMF.
+    """,
+    example=EXAMPLE_PWM,
+)

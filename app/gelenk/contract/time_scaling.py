@@ -1,0 +1,122 @@
+"""Uniform time scaling on the wire."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from gelenk.contract.common import Answer
+from gelenk.contract.course_motion import (
+    Coordinates,
+    Duration,
+    MotionAnswer,
+    MotionLimits,
+    SampledRequest,
+    Times,
+    Waypoints,
+)
+from gelenk.contract.endpoint import Endpoint
+from gelenk.contract.quantities import Steps, Warnings
+from gelenk.trajectory.splines import Boundary
+from gelenk.trajectory.time_scaling import Quantity
+
+
+class TimeScalingRequest(SampledRequest):
+    """A motion by a time law (`displacement`, `duration`), or through samples (`times`, `waypoints`); and limits."""
+
+    limits: MotionLimits = Field(description="Limits; at least one of them.")
+    law: Literal["cubic", "quintic", "septic"] = Field(
+        default="cubic", description="From rest to rest; of a motion by `displacement`."
+    )
+    displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
+    duration: Duration | None = Field(default=None, description="T of this motion, [s].")
+    times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")
+    waypoints: Waypoints | None = Field(
+        default=None, description="Positions, one row per time, [rad or m]. Alone, a cubic spline is laid through them."
+    )
+    boundary: Boundary = Field(
+        default="not_a_knot", description="Of that spline; `clamped` and `assigned` are at rest at both ends."
+    )
+    velocities: Waypoints | None = Field(
+        default=None, description="At the waypoints, instead of a spline: cubic pieces, [rad/s or m/s]."
+    )
+    accelerations: Waypoints | None = Field(
+        default=None, description="At the waypoints, beside `velocities`: quintic pieces, [rad/s² or m/s²]."
+    )
+    scaling: Literal["course", "unclipped"] = Field(
+        default="course", description="The k that scales the motion in the answer: `course` never speeds up."
+    )
+    factor: Annotated[float, Field(ge=1e-6, le=1e6)] | None = Field(
+        default=None,
+        description="A custom k for the motion in the answer, no unit; it need not respect the limits.",
+    )
+
+
+class BindingInfo(Answer):
+    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the motion as given."""
+
+    quantity: Quantity = Field(description="Whose limit sets the duration.")
+    ratio: float = Field(description="Peak over limit, no unit.")
+    factor: float = Field(
+        description="The k that this quantity alone requires: the ratio of a velocity, the square root of that of an "
+        "acceleration, the cube root of that of a jerk; no unit."
+    )
+    joint: int = Field(description="Number of the joint, from 1; no unit.")
+    time: float = Field(description="Time of the peak, [s].")
+    peak: float = Field(description="Signed peak, [rad or m per s, s² or s³].")
+    limit: float = Field(description="The limit, in the unit of the peak.")
+
+
+class TimeScalingAnswer(MotionAnswer):
+    """The factor k with which a motion keeps its limits, and the motion scaled by it."""
+
+    course_factor: float = Field(
+        description='k = max{1, k_vel, √k_acc} of the notes, no unit: it only slows down, though the notes say "or '
+        'speed up".'
+    )
+    unclipped_factor: float | None = Field(
+        description="k = max{k_vel, √k_acc}, no unit: with it a limit is just reached, also by speeding up; null where "
+        "nothing moves."
+    )
+    applied_factor: float = Field(description="The k of the motion in this answer, no unit.")
+    k_vel: float | None = Field(description="max{1, …} of the velocity ratios, as in the notes; no unit.")
+    k_acc: float | None = Field(description="max{1, …} of the acceleration ratios, as in the notes; no unit.")
+    bounds: list[BindingInfo] = Field(description="One per limited quantity.")
+    binding: BindingInfo = Field(description="The one that requires the largest k.")
+    original_duration: float = Field(description="T of the motion as given, [s].")
+    steps: Steps
+    warnings: Warnings
+
+
+EXAMPLE_TIME_SCALING: dict[str, Any] = {
+    "displacement": [1.0, -2.0],
+    "duration": 1.0,
+    "law": "cubic",
+    "limits": {"joint_velocity": [1.0, 2.0], "joint_acceleration": [8.0, 8.0]},
+    "samples": 5,
+}
+
+
+ENDPOINT = Endpoint(
+    name="time_scaling",
+    path="v1/course/time-scaling",
+    tag="Course",
+    request=TimeScalingRequest,
+    answer=TimeScalingAnswer,
+    summary="Uniform time scaling to the limits",
+    description="""
+    The factor k that scales the time of a motion so that velocities, accelerations and jerks keep limits.
+
+    T → kT divides velocities by k, accelerations by k², jerks by k³. The notes take k = max{1, k_vel, √k_acc} "to
+    slow down or speed up"; that maximum only slows down. `unclipped_factor` is the same without the 1: some limit
+    is just reached with it, also by speeding up. Peaks are exact, and the answer names the joint that sets k and
+    when.
+
+    The motion is a law over `displacement` and `duration`, or goes through `waypoints` at `times`: as a cubic
+    spline, or with `velocities` (and `accelerations`) as sampled from any motion. The answer holds it scaled, from
+    t = 0 on.
+
+    As a picture of the scaled profiles with `Accept: image/svg+xml` or `image/png`.
+    """,
+    picture="Position, velocity, acceleration and jerk over time, with the limits.",
+    example=EXAMPLE_TIME_SCALING,
+)

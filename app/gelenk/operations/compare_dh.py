@@ -1,0 +1,112 @@
+"""Does a Denavit-Hartenberg table describe a chain of a robot."""
+
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.compare_dh import CompareRequest
+from gelenk.contract.pose import PoseFormat
+from gelenk.contract.pose_arrays import pose_list
+from gelenk.kinematics.compare import Comparison, compare
+from gelenk.kinematics.comparison.alignment import Freedom
+from gelenk.kinematics.comparison.numbers import Difference
+from gelenk.kinematics.comparison.screws import PARAMETERS
+from gelenk.kinematics.comparison.trials import Diagnosis
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+
+def run(robot: LoadedRobot, call: CompareRequest, _: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _compared(robot.robot, call))
+
+
+def is_heavy(_: CompareRequest) -> bool:
+    """It always is: a comparison takes tens of milliseconds, and more where mistakes are looked for."""
+    return True
+
+
+def _compared(robot: Robot, call: CompareRequest) -> dict[str, Any]:
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    tolerances = call.position_tolerance, call.orientation_tolerance
+    comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
+    return _content(chain, call, comparison)
+
+
+def _freedom(call: CompareRequest) -> Freedom:
+    if call.find is None:
+        return Freedom(base=call.dh.base is None, tool=call.dh.tool is None, offsets=False, signs=False)
+    return Freedom(*(name in call.find for name in Freedom._fields))
+
+
+def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict[str, Any]:
+    placement = comparison.placement
+    content: dict[str, Any] = dict.fromkeys(
+        ("base", "tool", "offsets", "signs", "max_position_error", "max_orientation_error")
+    )
+    if placement is not None:
+        content["base"] = _pose(placement.table.base, call.pose_format)
+        content["tool"] = _pose(placement.table.tool, call.pose_format)
+        content["offsets"] = placement.offsets.tolist()
+        content["signs"] = placement.signs.astype(int).tolist()
+        content["max_position_error"] = placement.position_error
+        content["max_orientation_error"] = placement.orientation_error
+    first = comparison.first_difference
+    return {
+        "equivalent": comparison.equivalent,
+        **content,
+        "first_difference": None if first is None else _difference(first),
+        "found": [name for name in Freedom._fields if getattr(comparison.freedom, name)],
+        "held": [name for name in Freedom._fields if not getattr(comparison.freedom, name)],
+        "diagnoses": [_diagnosis(each) for each in comparison.diagnoses],
+        "unverified": [each._asdict() for each in comparison.unverified],
+        "notes": [*_replaced(call), *comparison.notes],
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "samples": comparison.samples,
+        "random_seed": comparison.seed,
+    }
+
+
+def _replaced(call: CompareRequest) -> list[str]:
+    """What `dh` gives and `find` sets aside."""
+    given = [place for place in ("base", "tool") if getattr(call.dh, place) is not None and place in (call.find or ())]
+    return [f"`find` has {place} found: that of `dh` is set aside" for place in given]
+
+
+def _pose(T: Array, pose_format: PoseFormat) -> dict[str, object]:
+    batch = Poses(np.ascontiguousarray(T[None, :3, 3]), np.ascontiguousarray(T[None, :3, :3]))
+    return pose_list(batch, pose_format)[0]
+
+
+def _diagnosis(diagnosis: Diagnosis) -> dict[str, Any]:
+    differences = [_difference(each) for each in diagnosis.differences]
+    mistakes = list(diagnosis.mistakes)
+    return {"mistake": mistakes[0], "mistakes": mistakes, "detail": diagnosis.detail, "differences": differences}
+
+
+def _difference(each: Difference) -> dict[str, Any]:
+    return {
+        "row": each.row,
+        "joint": each.joint,
+        "parameter": each.parameter,
+        "value": each.value,
+        "expected": each.expected,
+        "difference": each.difference,
+        "pointer": _pointer(each),
+    }
+
+
+def _pointer(each: Difference) -> str | None:
+    """JSON pointer into the request, or None."""
+    if each.row is None:
+        return "#/dh" if each.parameter == "joints" else f"#/dh/{each.parameter}"
+    if each.joint is None:
+        return "#/dh/joints"
+    written = each.parameter in {*PARAMETERS, "type", "mimic"}
+    return f"#/dh/joints/{each.row - 1}" + (f"/{each.parameter}" if written else "")

@@ -1,0 +1,30 @@
+"""A table in the other convention."""
+
+from dataclasses import asdict
+from typing import Any
+
+from gelenk.contract.convert_dh import ConvertRequest
+from gelenk.contract.dh import table_content
+from gelenk.kinematics.certify import certify_conversion
+from gelenk.model.convert import converted
+from gelenk.operations.outcome import Outcome
+
+
+def run(call: ConvertRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _convert(call))
+
+
+def is_heavy(_: ConvertRequest) -> bool:
+    """It always is: building a robot takes milliseconds."""
+    return True
+
+
+def _convert(call: ConvertRequest) -> dict[str, Any]:
+    table = call.dh.table()
+    other = converted(table, call.convention)
+    return {
+        "dh": table_content(other),
+        "joint_names": other.variables,
+        "certificate": asdict(certify_conversion(table, other)),
+    }

@@ -1,0 +1,41 @@
+"""The table of a chain of a URDF."""
+
+from dataclasses import asdict
+from typing import Any
+
+from gelenk.contract.dh import table_content
+from gelenk.contract.dh_from_urdf import FromUrdfOptions, FromUrdfRequest
+from gelenk.kinematics.dh_of_chain import dh_of_chain
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import read_urdf
+from gelenk.operations.outcome import Outcome
+
+
+def run(call: FromUrdfRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _from_urdf(call))
+
+
+def is_heavy(_: FromUrdfRequest) -> bool:
+    """It always is: building a robot takes milliseconds."""
+    return True
+
+
+def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
+    description = read_urdf(call.urdf, call.strict)
+    return table_answer(Robot(description), call, description.warnings)
+
+
+def table_answer(robot: Robot, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:
+    """The table of a chain with its certificate, as the answer has it."""
+    chain = robot.chain(options.base_frame, options.tip_frame)
+    table, notes, certificate = dh_of_chain(robot, chain, options.convention, options.snap_tolerance)
+    return {
+        "dh": table_content(table),
+        "joint_names": table.variables,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "certificate": asdict(certificate),
+        "notes": notes,
+        "warnings": warnings,
+    }

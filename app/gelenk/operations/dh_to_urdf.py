@@ -1,0 +1,53 @@
+"""A table as URDF."""
+
+from dataclasses import asdict
+from typing import Any
+
+from gelenk.contract.dh_to_urdf import ToUrdfRequest
+from gelenk.kinematics.certify import certify_table
+from gelenk.model.appearance import INVENTED_MASSES
+from gelenk.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
+from gelenk.model.description import MOVABLE, Description
+from gelenk.model.errors import listed
+from gelenk.model.robot import Robot
+from gelenk.model.urdf import UNLIMITED, read_urdf, write_urdf
+from gelenk.operations.outcome import Outcome
+
+
+def run(call: ToUrdfRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _to_urdf(call))
+
+
+def is_heavy(_: ToUrdfRequest) -> bool:
+    """It always is: building a robot takes milliseconds."""
+    return True
+
+
+def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
+    table = call.dh.table()
+    described = describe_dh(call.name, table)
+    urdf = write_urdf(described)
+    robot = Robot(read_urdf(urdf), (BASE_FRAME, TOOL_FRAME))
+    certificate = certify_table(robot, robot.chain(None, None), table)
+    return {
+        "urdf": urdf,
+        "joint_names": table.variables,
+        "certificate": asdict(certificate),
+        "notes": _notes(described),
+        "warnings": described.warnings,
+    }
+
+
+def _notes(described: Description) -> list[str]:
+    """What a description says that its table did not."""
+    notes = [INVENTED_MASSES]
+    for key in ("velocity", "effort"):
+        names = tuple(
+            joint.name for joint in described.joints if joint.type in MOVABLE and not getattr(joint.limits, key)
+        )
+        if names:
+            notes.append(
+                f"no {key} limit is given for {listed(names)}: URDF wants one, and {UNLIMITED:g} stands for none"
+            )
+    return notes

@@ -1,0 +1,177 @@
+"""Dynamics of a robot."""
+
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.dynamics import DynamicsRequest
+from gelenk.kinematics.bodies import Load
+from gelenk.kinematics.configuration import configurations
+from gelenk.kinematics.dynamics import Dynamics, dynamics
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.kinematics.lagrangian import State
+from gelenk.kinematics.mechanism import mechanism
+from gelenk.kinematics.statics import certify_statics, overloaded_joints, statics
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField
+from gelenk.model.robot import Robot
+from gelenk.operations.chains import check_numbers, positions
+from gelenk.operations.loads import (
+    MECHANISM,
+    chain_of,
+    entries,
+    gravity_of,
+    has_few_bodies,
+    is_quick,
+    load_of,
+    unused_frame,
+    weight_notes,
+    wrench_frame,
+    wrench_rows,
+)
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+_FIELDS = {
+    "mass_matrix": "mass_matrices",
+    "coriolis_matrix": "coriolis_matrices",
+    "coriolis_torques": "coriolis_torques",
+    "gravity_torques": "gravity_torques",
+}
+"""Where the answer has a term."""
+
+
+def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    robot = loaded.robot
+    chain = chain_of(robot, call)
+    _check_options(call)
+    load, gravity = load_of(call.payload), gravity_of(call.gravity)
+    qs = positions(chain, call)
+    _check_size(call, len(qs), len(chain), limits)
+    speeds = _rows(chain, call.joint_velocities, "joint_velocities", len(qs))
+    state = State(qs, np.zeros_like(qs) if speeds is None else speeds, _held(robot, chain, call, qs))
+    gravity = np.zeros(3) if gravity is None else gravity
+    found = dynamics(
+        robot,
+        chain,
+        state,
+        terms=call.terms,
+        gravity=gravity,
+        load=load,
+        accelerations=_rows(chain, call.joint_accelerations, "joint_accelerations", len(qs)),
+        torques=_rows(chain, call.torques, "torques", len(qs)),
+    )
+    array = _array(call, found)
+    return Outcome(
+        lambda: _content(loaded, chain, call, state, gravity, load, found),
+        None if array is None else lambda: (array, {}),
+    )
+
+
+def is_heavy(call: DynamicsRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return not is_quick(call) or call.wrenches is not None
+
+
+def attempt(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome | None:
+    """The same for a few bodies; None for many."""
+    return run(loaded, call, limits) if has_few_bodies(loaded, call) else None
+
+
+WARM_UP = MECHANISM
+
+
+def _check_options(call: DynamicsRequest) -> None:
+    """Refuse combinations of fields that exclude each other.
+
+    Raises:
+        InvalidField: The field, and which other fields it needs or excludes.
+    """
+    if call.joint_accelerations is not None and call.torques is not None:
+        raise InvalidField(
+            "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
+        )
+    if len(set(call.terms)) < len(call.terms):
+        raise InvalidField("terms", "each term at most once")
+    wrench_frame(call)
+    if call.wrenches is None and (field := unused_frame(call)) is not None:
+        raise InvalidField(field, "only allowed with `wrenches`, whose axes or point it gives")
+
+
+def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
+    """One row a configuration, where there are any."""
+    if values is None:
+        return None
+    rows = configurations(chain, values, field)
+    if len(rows) != count:
+        if not count:
+            raise InvalidField("joint_positions", f"there are none, and yet `{field}` are given: one a configuration")
+        raise InvalidField(field, f"{entries(rows, count)}: one each")
+    return rows
+
+
+def _held(robot: Robot, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
+    """Jᵀγ, certified; zero without a wrench."""
+    if call.wrenches is None:
+        return np.zeros_like(qs)
+    wrenches = wrench_rows(call.wrenches, len(qs), DIRECTIONS)
+    still = statics(robot, chain, qs, wrench_frame(call))
+    held = still.wrench_torques(wrenches)
+    certify_statics(still, wrenches, held)
+    return held
+
+
+def _check_size(call: DynamicsRequest, count: int, n: int, limits: Limits) -> None:
+    matrices = len({"mass_matrix", "coriolis_matrix", "coriolis_torques"} & set(call.terms)) + (
+        call.torques is not None
+    )
+    numbers = count * (matrices * n * n + 6 * n + 2 + (12 + 6 * n) * (call.wrenches is not None))
+    check_numbers(numbers, limits)
+
+
+def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
+    """What npy holds of the answer."""
+    if found.torques is not None:
+        return found.torques
+    if found.accelerations is not None or not call.terms:
+        return found.accelerations
+    if call.terms[0] == "energies":
+        return np.column_stack((found.kinetic_energies, found.potential_energies))  # type: ignore[arg-type]
+    array: Array = getattr(found, _FIELDS[call.terms[0]])
+    return array
+
+
+def _content(
+    loaded: LoadedRobot,
+    chain: Chain,
+    call: DynamicsRequest,
+    state: State,
+    gravity: Array,
+    load: Load | None,
+    found: Dynamics,
+) -> dict[str, Any]:
+    robot = loaded.robot
+    notes = weight_notes(loaded, mechanism(robot, chain), load)
+    if not found.is_definite:
+        notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
+    answer: dict[str, Any] = {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "root_frame": robot.description.root,
+        "gravity": gravity,
+    }
+    for field in (*_FIELDS.values(), "kinetic_energies", "potential_energies"):
+        value = getattr(found, field)
+        if value is not None:
+            answer[field] = np.ascontiguousarray(value)
+    if call.wrenches is not None:
+        answer["wrench_torques"] = state.held
+    if found.torques is not None:
+        answer["torques"] = found.torques
+        answer["overloaded_joints"] = overloaded_joints(robot, chain, found.torques)
+    if found.accelerations is not None:
+        answer["joint_accelerations"] = found.accelerations
+    return {**answer, "notes": notes, "certificate": found.certificate}

@@ -1,0 +1,39 @@
+"""Forward kinematics of a robot."""
+
+from typing import Any
+
+from gelenk.contract.fk import ForwardRequest
+from gelenk.contract.pose_arrays import pose_array, pose_list
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.operations.chains import chain_and_positions, check_numbers, head
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+_QUICK = 100
+"""Configurations that take the event loop less than about a millisecond; more go to a worker."""
+
+
+def run(loaded: LoadedRobot, call: ForwardRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    robot = loaded.robot
+    chain, qs = chain_and_positions(robot, call)
+    frames = robot.frames_on(chain) if call.frames == "all" else tuple(dict.fromkeys(call.frames or ()))
+    check_numbers(len(qs) * (1 + len(frames)) * 16, limits)
+    result = forward_kinematics(robot, chain, qs, frames)
+
+    def content() -> dict[str, Any]:
+        answer = head(chain)
+        answer["poses"] = pose_list(result.poses, call.pose_format)
+        if call.frames is not None:
+            lists = {name: pose_list(poses, call.pose_format) for name, poses in result.frames.items()}
+            answer["frames"] = [{name: poses[row] for name, poses in lists.items()} for row in range(len(qs))]
+        answer["certificate"] = result.certificate
+        return answer
+
+    fits = call.frames is None
+    return Outcome(content, (lambda: (pose_array(result.poses, call.pose_format), {})) if fits else None)
+
+
+def is_heavy(call: ForwardRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return call.frames is not None or len(call.joint_positions) > _QUICK

@@ -1,0 +1,124 @@
+"""POST /v1/course/fly-over: a corner passed without a stop."""
+
+from dataclasses import asdict
+from typing import Any, get_args
+
+import numpy as np
+
+from gelenk.contract.fly_over import FlyOverRequest
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.operations.outcome import Outcome, PictureFormat
+from gelenk.trajectory.blended_motion import BlendedMotion, rest_to_rest
+from gelenk.trajectory.fly_over import Blend, Given, blended, corner_of
+from gelenk.trajectory.fly_over_check import checked
+from gelenk.trajectory.fly_over_steps import fly_over_steps, fly_over_warnings
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+
+_QUICK_SAMPLES = 500
+
+
+def run(call: FlyOverRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _fly_over(call), picture=lambda kind: _picture(call, kind))
+
+
+def is_heavy(call: FlyOverRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return (call.samples or 0) > _QUICK_SAMPLES
+
+
+def _planned(call: FlyOverRequest, given: Given, value: float) -> tuple[Blend, BlendedMotion | None]:
+    """The blend, and the whole motion if requested."""
+    A, B, C = _points(call)
+    blend = blended(corner_of(A, B, C, call.speed_before, call.speed_after), given, value)
+    return blend, None if call.rest_acceleration is None else rest_to_rest(blend, call.rest_acceleration)
+
+
+def _picture(call: FlyOverRequest, kind: PictureFormat) -> bytes:
+    # Matplotlib takes a third of a second to load.
+    from gelenk.plots.fly_over import fly_over_picture  # noqa: PLC0415
+
+    blend, whole = _planned(call, *_given(call))
+    checked(blend, None if whole is None else whole.motion)
+    return fly_over_picture(blend, _motion(blend, whole), kind)
+
+
+def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
+    given, value = _given(call)
+    blend, whole = _planned(call, given, value)
+    motion = _motion(blend, whole)
+    return {
+        "given": given,
+        "blend": _blend(blend),
+        "rest_to_rest": None if whole is None else _rest_to_rest(whole),
+        "motion": None if motion is None else asdict(motion),
+        "samples": None if motion is None or call.samples is None else _samples(motion, call.samples),
+        "steps": [asdict(step) for step in fly_over_steps(blend, given, value, whole)],
+        "warnings": fly_over_warnings(blend),
+        "certificate": asdict(checked(blend, None if whole is None else whole.motion)),
+    }
+
+
+def _given(call: FlyOverRequest) -> tuple[Given, float]:
+    """Which quantity determines the blend, and what it is."""
+    names: tuple[Given, ...] = get_args(Given)
+    given = [(name, value) for name in names if (value := getattr(call, name)) is not None]
+    if len(given) != 1:
+        last = given[-1][0] if given else "blend_time"
+        raise InvalidField(last, f"exactly one of {', '.join(names)} is given; here are {len(given)}")
+    return given[0]
+
+
+def _points(call: FlyOverRequest) -> tuple[Array, Array, Array]:
+    for field in ("corner", "end"):
+        count = len(getattr(call, field))
+        if count != len(call.start):
+            raise InvalidField(field, f"has {count} coordinates and `start` {len(call.start)}")
+    return np.array(call.start), np.array(call.corner), np.array(call.end)
+
+
+def _motion(blend: Blend, whole: BlendedMotion | None) -> PiecewisePolynomial | None:
+    """The whole motion, or the blend alone; None where that takes no time."""
+    if whole is not None:
+        return whole.motion
+    return blend.motion if blend.time > 0.0 else None
+
+
+def _blend(blend: Blend) -> dict[str, Any]:
+    corner = blend.corner
+    return {
+        "blend_time": blend.time,
+        "distance_before": blend.distance_before,
+        "distance_after": blend.distance_after,
+        "entry": blend.entry,
+        "exit": blend.exit,
+        "direction_before": corner.direction_before,
+        "direction_after": corner.direction_after,
+        "turn": corner.turn,
+        "angle": corner.angle,
+        "acceleration": blend.acceleration,
+        "acceleration_norm": float(np.linalg.norm(blend.acceleration)),
+        "closest_distance": blend.closest_distance,
+        "closest_time": blend.closest_time,
+        "longest_blend_time": corner.longest_blend_time,
+    }
+
+
+def _rest_to_rest(whole: BlendedMotion) -> dict[str, Any]:
+    return {
+        "phases": [asdict(phase) for phase in whole.phases],
+        "duration": whole.duration,
+        "stopping_duration": whole.stopping_duration,
+        "time_saved": whole.stopping_duration - whole.duration,
+    }
+
+
+def _samples(motion: PiecewisePolynomial, count: int) -> dict[str, Any]:
+    times = np.linspace(motion.breaks[0], motion.breaks[-1], count)
+    return {
+        "times": times,
+        "positions": motion.at(times),
+        "velocities": motion.derivative().at(times),
+        "accelerations": motion.derivative(2).at(times),
+    }

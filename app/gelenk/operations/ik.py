@@ -1,0 +1,98 @@
+"""Inverse kinematics of a robot."""
+
+from collections import Counter
+from typing import Any
+
+from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
+from gelenk.kinematics.ik.closed_form import ClosedForm, closed_form, is_looked_at, look_at
+from gelenk.kinematics.ik.result import InverseKinematics
+from gelenk.kinematics.ik.search import ITERATIONS_PER_START, MAX_ITERATIONS
+from gelenk.kinematics.ik.solve import inverse_kinematics, solve_quickly
+from gelenk.kinematics.ik.verdict import Question
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.compilation import is_awaited
+from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
+from gelenk.operations.ik_request import Bounds, asked, options_of, task_of
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.tally import Tally
+from gelenk.operations.warm_up import WarmUp
+from gelenk.store.records import LoadedRobot
+
+_QUICK_STARTS = 64
+"""Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a thread."""
+_QUICK_TARGETS = 8
+_SHARE_OF_TIME = 0.8
+"""Of the time that a request may take, what a search with a time limit may: what is found is to be sent too."""
+
+
+def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
+    seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
+    options = options_of(chain, call, seconds)
+    return _outcome(chain, call, inverse_kinematics(loaded.robot, chain, targets, seeds, options))
+
+
+def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
+    """The same with a few starts; None where they do not suffice."""
+    chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
+    tolerances = call.position_tolerance, call.orientation_tolerance
+    question = Question(loaded.robot, chain, targets, seeds, task_of(call), tolerances, call.respect_limits)
+    budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
+    starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
+    result = solve_quickly(question, starts, call.random_seed, by_form=call.method == "analytic")
+    return None if result is None else _outcome(chain, call, result)
+
+
+def _bounds(limits: Limits) -> Bounds:
+    return Bounds(MAX_TARGETS, MAX_STEPWISE, limits.answer_numbers)
+
+
+def _chain(loaded: LoadedRobot, call: InverseRequest) -> Chain:
+    return loaded.robot.chain(call.base_frame, call.tip_frame)
+
+
+def _is_looked_at(loaded: LoadedRobot, call: InverseRequest) -> bool:
+    return is_looked_at(_chain(loaded, call), task_of(call))
+
+
+def _closed_form(loaded: LoadedRobot, call: InverseRequest) -> ClosedForm | None:
+    return closed_form(_chain(loaded, call), task_of(call))
+
+
+def _look_at(loaded: LoadedRobot, call: InverseRequest, found: ClosedForm | None) -> None:
+    look_at(_chain(loaded, call), task_of(call), found)
+
+
+def is_heavy(call: InverseRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    one_by_search = (
+        call.method in {"auto", "analytic"}
+        and call.elbow_angle is None
+        and call.fixed_joints is None
+        and call.solutions == "one"
+        and not call.trace
+        and call.objective is None
+    )
+    return is_awaited() or not one_by_search or len(call.targets) > _QUICK_TARGETS
+
+
+WARM_UP = WarmUp(_is_looked_at, _closed_form, _look_at)
+"""The closed form of a chain, which takes some milliseconds to recognise."""
+
+
+def _outcome(chain: Chain, call: InverseRequest, result: InverseKinematics) -> Outcome:
+    fits = call.solutions == "one" and not call.trace
+
+    def content() -> dict[str, Any]:
+        return told(chain, call, closed_form_of(result), told_results(chain, call.pose_format, result))
+
+    def array() -> tuple[Array, dict[str, str]]:
+        return table(chain, result), unsolved_headers(list(result.failures))
+
+    return Outcome(
+        content,
+        array if fits else None,
+        solved=lambda targets: Tally(targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())),
+    )

@@ -1,0 +1,88 @@
+"""The Jacobian of a robot."""
+
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.jacobian import JacobianRequest
+from gelenk.kinematics.configuration import configurations
+from gelenk.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
+from gelenk.model.arrays import Array, Indices
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, counted
+from gelenk.operations.chains import chain_and_positions, check_numbers, head
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+_QUICK = 10
+"""Configurations that take the event loop less than about a millisecond; more go to a worker."""
+
+
+def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    chain, qs = chain_and_positions(loaded.robot, call)
+    n = len(chain)
+    matrices = 1 + len(call.derivatives) + n * bool(call.derivatives)
+    check_numbers(len(qs) * (12 + 6 * n * matrices), limits)
+    velocities = _velocities(chain, call, len(qs))
+    result = jacobians(
+        loaded.robot,
+        chain,
+        qs,
+        reference=call.reference,
+        representation=call.representation,
+        derivatives=bool(call.derivatives),
+    )
+    return Outcome(
+        lambda: _jacobian_content(chain, call, result, velocities),
+        None if call.derivatives else lambda: (result.values, {}),
+    )
+
+
+def is_heavy(call: JacobianRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return bool(call.derivatives) or len(call.joint_positions) > _QUICK
+
+
+def _velocities(chain: Chain, call: JacobianRequest, count: int) -> Array | None:
+    if "time_variation" not in call.derivatives:
+        return None
+    if call.joint_velocities is None:
+        raise InvalidField("joint_velocities", "a time variation needs them, so send the call as JSON")
+    velocities = configurations(chain, call.joint_velocities, "joint_velocities")
+    if len(velocities) != count:
+        raise InvalidField(
+            "joint_velocities", f"{counted(len(velocities), 'entry')} for {counted(count, 'configuration')}"
+        )
+    return velocities
+
+
+def _jacobian_content(
+    chain: Chain, call: JacobianRequest, result: Jacobians, velocities: Array | None
+) -> dict[str, Any]:
+    sigmas = singular_values(result.values)
+    counts = ranks(sigmas, call.rank_tolerance)
+    answer = {
+        **head(chain),
+        "reference": call.reference,
+        "representation": call.representation,
+        "jacobians": np.ascontiguousarray(result.values),
+        "ranks": counts,
+        "singular_values": np.ascontiguousarray(sigmas),
+        "condition_numbers": _condition_numbers(sigmas, counts),
+        "rank_tolerance": call.rank_tolerance,
+    }
+    if velocities is not None:
+        answer["time_variations"] = np.ascontiguousarray(result.time_variations(velocities))
+    if "hessian" in call.derivatives:
+        answer["hessians"] = np.ascontiguousarray(result.hessians)
+    answer["certificate"] = result.certificate
+    return answer
+
+
+def _condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
+    full = sigmas.shape[1]
+    return [
+        float(sigma[0] / sigma[-1]) if full and rank == full else None
+        for sigma, rank in zip(sigmas, counts, strict=True)
+    ]

@@ -1,0 +1,164 @@
+"""What a robot bears as a request says it, for statics and dynamics: gravity, payload, wrenches at a point."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.common import Vectors
+from gelenk.contract.dynamics import DynamicsRequest
+from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
+from gelenk.kinematics.bodies import Load
+from gelenk.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanism, mechanism
+from gelenk.kinematics.wrenches import WrenchFrame
+from gelenk.model.appearance import INVENTED_MASSES
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, UnknownFrame, counted, listed
+from gelenk.model.robot import Robot
+from gelenk.operations.warm_up import WarmUp
+from gelenk.store.records import LoadedRobot
+
+DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a URDF with `inertial` elements"
+
+_QUICK_BODIES = 8
+
+
+def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
+    """The chain that is addressed.
+
+    Raises:
+        UnknownFrame: The robot has not every frame that is named, with its field.
+        UnsupportedJoint: A floating or planar joint lies on the way.
+    """
+    for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
+        name = getattr(call, field)
+        if name is not None and name not in robot.description.joints_below:
+            raise UnknownFrame(name, robot.description.frames, field)
+    return robot.chain(call.base_frame, call.tip_frame)
+
+
+def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
+    return known_mechanism(loaded.robot, chain_of(loaded.robot, call)) is not None
+
+
+def _find(loaded: LoadedRobot, call: WrenchOptions) -> None:
+    """Nothing that travels: that it can be made is all that the crew finds out."""
+    _learn(loaded, call)
+
+
+def _learn(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
+    mechanism(loaded.robot, chain_of(loaded.robot, call))
+
+
+MECHANISM: WarmUp[Any] = WarmUp(_is_known, _find, _learn)
+"""The mechanism of a chain, which takes some milliseconds to make."""
+
+
+def is_quick(call: StaticsRequest | DynamicsRequest) -> bool:
+    """Whether it may take the event loop less than about a millisecond."""
+    return len(call.joint_positions) == 1 and call.payload is None
+
+
+def has_few_bodies(loaded: LoadedRobot, call: WrenchOptions) -> bool:
+    """The same of the mechanism, which must be known."""
+    return len(mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies) <= _QUICK_BODIES
+
+
+def gravity_of(value: bool | Sequence[float]) -> Array | None:
+    """The vector in the root's axes, [m/s²]; None where there is none."""
+    if isinstance(value, bool):
+        return np.array(STANDARD_GRAVITY) if value else None
+    return np.array(value, dtype=float)
+
+
+def load_of(payload: PayloadInfo | None) -> Load | None:
+    """The payload as the core takes it.
+
+    Raises:
+        InvalidField: No body has this inertia.
+    """
+    if payload is None:
+        return None
+    inertia = np.zeros((3, 3))
+    if payload.inertia is not None:
+        ixx, ixy, ixz, iyy, iyz, izz = payload.inertia
+        inertia = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+        moments = np.linalg.eigvalsh(inertia)
+        slack = 1e-9 * np.abs(moments).max()
+        # Each moment is the sum of two of the positive integrals of x², y² and z².
+        if moments[0] + moments[1] < moments[2] - slack or moments[0] < -slack:
+            raise InvalidField(
+                "payload",
+                "no body has this inertia: its principal moments must not be negative, and none larger than the sum "
+                "of the two others",
+            )
+    return Load(payload.mass, np.array(payload.center_of_mass, dtype=float), inertia)
+
+
+def wrench_frame(call: WrenchRequest) -> WrenchFrame:
+    """Axes and point of the wrenches.
+
+    Raises:
+        InvalidField: They contradict each other.
+    """
+    point = None if call.point is None else (call.point[0], call.point[1], call.point[2])
+    frame = WrenchFrame(call.reference, call.expressed_in, point, call.point_frame)
+    frame.check()
+    return frame
+
+
+def unused_frame(call: WrenchRequest) -> str | None:
+    """The first field that changes axes or point, which a call with nothing to be expressed in them has in vain."""
+    if call.reference != "local_world_aligned":
+        return "reference"
+    fields = ("expressed_in", "point", "point_frame")
+    return next((field for field in fields if getattr(call, field) is not None), None)
+
+
+def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Array:
+    """One wrench a configuration; shape (N, m), [N] and [N m].
+
+    Raises:
+        InvalidField: Their number, or that of the components, does not fit.
+    """
+    for i, wrench in enumerate(wrenches):
+        if len(wrench) != len(components):
+            raise InvalidField(
+                "wrenches",
+                f"entry {i} has {counted(len(wrench), 'number')}; there is one for each of {', '.join(components)}",
+            )
+    return one_each(np.array(wrenches, dtype=float).reshape(len(wrenches), len(components)), count, "wrenches")
+
+
+def entries(rows: Array, count: int) -> str:
+    """How many rows there are for how many configurations, in words."""
+    return (
+        f"{len(rows)} {'entry' if len(rows) == 1 else 'entries'} for {count} "
+        f"{'configuration' if count == 1 else 'configurations'}"
+    )
+
+
+def one_each(rows: Array, count: int, field: str) -> Array:
+    """One row for all configurations, or one each, as one each.
+
+    Raises:
+        InvalidField: Neither.
+    """
+    if len(rows) == count:
+        return rows
+    if len(rows) != 1:
+        raise InvalidField(field, f"{entries(rows, count)}: one for all of them or one each")
+    return np.repeat(rows, count, axis=0)
+
+
+def weight_notes(loaded: LoadedRobot, found: Mechanism, load: Load | None) -> list[str]:
+    """What the numbers leave out or are made of, one sentence each."""
+    notes = [DRAWN_MASSES] if loaded.table is not None and found.bodies else []
+    if found.without_mass:
+        notes.append(f"the description gives no mass to {listed(found.without_mass)}, which move: they weigh nothing")
+    if found.bodies and not any(body.mass > 0.0 for body in found.bodies):
+        notes.append("nothing that the chain's joints move has a mass: all terms of inertia and weight are zero")
+    if load is not None and not found.moves_tip:
+        notes.append("the chain's joints do not move the tip against the root, so the payload burdens none of them")
+    return notes

@@ -1,0 +1,116 @@
+"""The calculator of degrees of freedom, of a mechanism or of a robot."""
+
+from dataclasses import asdict
+from typing import Any
+
+from gelenk.contract.mobility_request import MobilityRequest
+from gelenk.course.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
+from gelenk.course.mobility import KindCount, Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
+from gelenk.course.mobility_steps import steps
+from gelenk.course.pairs import FREEDOMS
+from gelenk.course.screws import Posture, posture
+from gelenk.course.spaces import tasks
+from gelenk.model.chain import Chain
+from gelenk.model.robot import Robot
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+
+def run(robot: LoadedRobot | None, call: MobilityRequest, _: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _counted(call) if robot is None else _counted_robot(robot.robot))
+
+
+def is_heavy(call: MobilityRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return call.robot is not None or call.has_geometry()
+
+
+def _counted_robot(robot: Robot) -> dict[str, Any]:
+    found = mechanism_of_tree(robot.description)
+    return _content(tally(found), found, chain=robot.chain(None, None))
+
+
+def _counted(call: MobilityRequest) -> dict[str, Any]:
+    space = call.space or "spatial"
+    if isinstance(call.pairs, list):
+        names, ground = call.link_names()
+        found = mechanism(space, names, ground, call.given_pairs(), call.nodes())
+        stands = posture(found, call.output_link(names), call.rank_tolerance)
+        return {**_content(tally(found), found, stands), "rank_tolerance": stands and call.rank_tolerance}
+    return _content(tally_of_counts(space, call.link_count(), call.counts(), call.node_counts()), None)
+
+
+def _content(
+    counted: Tally, found: Mechanism | None, stands: Posture | None = None, chain: Chain | None = None
+) -> dict[str, Any]:
+    idle = None if found is None else found.idle_spins()
+    left = (counted.mobility if stands is None else stands.mobility) - len(idle or ())
+    return {
+        "mobility": counted.mobility,
+        "verdict": verdict(left),
+        "space": counted.space,
+        "space_freedoms": FREEDOMS[counted.space],
+        "link_count": counted.links,
+        "pair_count": counted.pairs,
+        "constraint_count": counted.constraints,
+        "coupling_count": counted.couplings,
+        "kinds": [_kind(kind) for kind in counted.kinds],
+        "splits": [asdict(split) for split in counted.splits],
+        "mobility_without_split": counted.mobility_without_split,
+        "idle": None if idle is None else [asdict(spin) for spin in idle],
+        "mobility_without_idle": None if idle is None else left,
+        **_graph(found),
+        "posture": None if stands is None else asdict(stands),
+        "rank_tolerance": None,
+        "spaces": None if chain is None else _spaces(chain),
+        "warnings": warnings(counted, found, stands),
+        "steps": [asdict(step) for step in steps(counted, found, stands)],
+    }
+
+
+def _spaces(chain: Chain) -> dict[str, Any]:
+    """Joint space and task spaces, by their dimensions."""
+    return {
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "configuration_dimension": len(chain),
+        "tasks": [asdict(one) for one in tasks(len(chain))],
+    }
+
+
+def _kind(kind: KindCount) -> dict[str, Any]:
+    return {"type": kind.kind, "order": kind.order, "count": kind.count, "constraints": kind.constraints}
+
+
+_GRAPH = ("ground", "chain", "loop_count", "components", "bridges", "pairs", "mobility_by_loops")
+
+
+def _graph(found: Mechanism | None) -> dict[str, Any]:
+    """What takes more than counts to tell."""
+    if found is None:
+        return dict.fromkeys(_GRAPH)
+    graph, names = found.topology, found.links
+    return {
+        "ground": names[found.ground],
+        "chain": graph.chain,
+        "loop_count": graph.loops,
+        "components": [[names[link] for link in part] for part in graph.components],
+        "bridges": [found.pairs[i].name for i in graph.bridges],
+        "pairs": [_pair(pair, names) for pair in found.pairs],
+        "mobility_by_loops": certify_mobility(found),
+    }
+
+
+def _pair(pair: Pair, links: tuple[str, ...]) -> dict[str, Any]:
+    return {
+        "name": pair.name,
+        "link_a": links[pair.links[0]],
+        "link_b": links[pair.links[1]],
+        "type": pair.kind,
+        "order": pair.order,
+        "constraints": pair.constraints,
+        "freedoms": pair.freedoms,
+        "joint": pair.joint,
+        "added": pair.added,
+    }

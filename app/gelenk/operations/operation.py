@@ -1,0 +1,52 @@
+"""The functions of an operation, found by the name of its endpoint."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import ENDPOINTS
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.warm_up import WarmUp
+from gelenk.store.records import LoadedRobot
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """An endpoint with the functions of its module; see `gelenk.operations`."""
+
+    endpoint: Endpoint[Any, Any]
+    _run: Callable[..., Outcome]
+    is_heavy: Callable[[Any], bool]
+    attempt: Callable[[LoadedRobot, Any, Limits], Outcome | None] | None
+    warm_up: WarmUp[Any] | None
+
+    def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
+        """The outcome; raises what the operation raises.
+
+        Args:
+            robot: The robot that the path or the request names; None where there is none.
+            request: An instance of the endpoint's request.
+            limits: What the answer may take.
+        """
+        if isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field:
+            return self._run(robot, request, limits)
+        return self._run(request)
+
+
+@cache
+def operation(name: str) -> Operation:
+    """The operation of an endpoint; raises KeyError where there is none."""
+    endpoint = _BY_NAME[name]
+    module = import_module(f"gelenk.operations.{name}")
+    is_heavy = getattr(module, "is_heavy", _never)
+    return Operation(endpoint, module.run, is_heavy, getattr(module, "attempt", None), getattr(module, "WARM_UP", None))
+
+
+def _never(_: object) -> bool:
+    return False
+
+
+_BY_NAME = {endpoint.name: endpoint for endpoint in ENDPOINTS}

@@ -1,0 +1,118 @@
+"""POST /v1/course/orientation: an orientation in every notation."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.orientation import OrientationRequest
+from gelenk.course.composition import composed
+from gelenk.course.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
+from gelenk.course.rotations import DEGENERATE, Validation
+from gelenk.model.arrays import Array
+from gelenk.model.poses import ROTATION_TOLERANCE
+from gelenk.operations.outcome import Outcome
+
+_INLINE_MOTIONS = 8
+
+
+def run(call: OrientationRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return Outcome(lambda: _compute(call))
+
+
+def is_heavy(call: OrientationRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return len(call.then) > _INLINE_MOTIONS
+
+
+def _compute(call: OrientationRequest) -> dict[str, Any]:
+    first, further, validations = call.motions()
+    path = composed(first, further, np.array(call.points, dtype=float).reshape(-1, 3))
+    T = path.transforms[-1]
+    found = notations(np.ascontiguousarray(T[:3, :3]))
+    return {
+        **_notations(found),
+        "position": T[:3, 3].tolist(),
+        "inverse": _frame(path.inverse),
+        "points": path.points.tolist(),
+        "frames": [_frame(one) for one in path.transforms],
+        "validations": [None if one is None else _validation(one) for one in validations],
+        "warnings": [*_projections(validations), *_nearly(found)],
+        "certificate": {
+            "max_rotation_error": found.error,
+            "max_inverse_error": path.inverse_error,
+            "max_point_error": path.point_error,
+        },
+    }
+
+
+def _notations(found: Notations) -> dict[str, Any]:
+    x, y, z, w = found.quaternion_xyzw
+    return {
+        "rotation": found.rotation.tolist(),
+        "quaternion_xyzw": (x, y, z, w),
+        "quaternion_wxyz": (w, x, y, z),
+        "rotation_vector": found.rotation_vector,
+        "axis_angle": _axis_angle(found.axis_angle),
+        "zyz": found.zyz.solutions[0],
+        "zyz_solutions": found.zyz.solutions,
+        "rpy": found.rpy.solutions[0],
+        "rpy_solutions": found.rpy.solutions,
+        "degenerate": [
+            {
+                "notation": one.notation,
+                "case": one.case,
+                "determined": one.determined,
+                "value": one.value,
+                "chosen": one.chosen,
+            }
+            for one in found.degeneracies
+        ],
+        "degenerate_threshold": DEGENERATE,
+    }
+
+
+def _axis_angle(turn: AxisAngle) -> dict[str, Any]:
+    axes = turn.axes
+    return {
+        "axis": axes[0] if axes else None,
+        "other_axis": axes[1] if len(axes) == 2 else None,
+        "angle": turn.angle,
+    }
+
+
+def _frame(T: Array) -> dict[str, Any]:
+    return {"rotation": T[:3, :3].tolist(), "position": T[:3, 3].tolist()}
+
+
+def _validation(found: Validation) -> dict[str, Any]:
+    return {
+        "orthogonality_error": found.orthogonality_error,
+        "determinant": found.determinant,
+        "distance": found.distance,
+        "is_reflection": found.is_reflection,
+        "is_unique": found.is_unique,
+        "projected": found.distance > ROTATION_TOLERANCE,
+    }
+
+
+def _projections(validations: Sequence[Validation | None]) -> list[str]:
+    return [
+        f"Motion {number}: no rotation is nearer to this matrix than all others; one of the nearest was taken."
+        for number, found in enumerate(validations, start=1)
+        if found is not None and not found.is_unique
+    ]
+
+
+def _nearly(found: Notations) -> list[str]:
+    """Triples that are determined, and yet badly."""
+    return [
+        f"{name} is nearly degenerate, {sine} = {triple.conditioning:.3g}: an error of R grows by the inverse of that "
+        f"in {outer}, while their {kept} stays accurate."
+        for name, sine, triple, outer, kept in (
+            ("ZYZ", "sin θ", found.zyz, "φ and ψ", "sum (θ near 0) or difference (θ near π)"),
+            ("RPY", "cos pitch", found.rpy, "roll and yaw", "difference (pitch near π/2) or sum (near -π/2)"),
+        )
+        if triple.degeneracy is None and triple.conditioning < NEARLY_DEGENERATE
+    ]

@@ -1,0 +1,240 @@
+"""Singularities of a robot: at configurations and along a path."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.singularities import (
+    MAX_NEAREST,
+    MAX_PATH,
+    MAX_PLACES,
+    MAX_REPORTS,
+    SingularityRequest,
+)
+from gelenk.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from gelenk.kinematics.certify_singularity import certify_reports
+from gelenk.kinematics.ik.task import Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.kinematics.jacobian import singular_values
+from gelenk.kinematics.kernels import chain_jacobians
+from gelenk.kinematics.singularity import SingularityReport, singularity_report
+from gelenk.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity_path import Place, places_along
+from gelenk.kinematics.task_space import TaskSpace, slides, structure
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, TooLarge, counted
+from gelenk.model.robot import Robot
+from gelenk.operations.chains import chain_and_positions, check_numbers
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.store.records import LoadedRobot
+
+_QUICK_REPORTS = 1
+"""Reports that take the event loop about half a millisecond; more go to a thread."""
+_ENTRY = 120
+"""Numbers in a report beside those of its joints, at most."""
+
+
+def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    chain, qs = chain_and_positions(loaded.robot, call)
+    space = _space(call)
+    _check_size(call, len(qs), len(chain), limits)
+    certificate = _certificate(loaded.robot, chain, qs)
+    fits = not (call.nearest or call.path)
+    return Outcome(
+        lambda: _content(loaded.robot, chain, call, qs, certificate),
+        (lambda: (singular_values(space.jacobians(chain, qs)), {})) if fits else None,
+    )
+
+
+def is_heavy(call: SingularityRequest) -> bool:
+    """Whether it takes the event loop more than about a millisecond."""
+    return call.nearest or call.path or len(call.joint_positions) > _QUICK_REPORTS
+
+
+def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
+    """A report as `SingularityInfo` has it."""
+    defect = report.defect
+    lost = zip(report.twists.T.tolist(), report.wrenches.T.tolist(), strict=True)
+    return {
+        "singular": defect > 0,
+        "rank": report.rank,
+        "structural_rank": report.structural_rank,
+        "rank_tolerance": report.tolerance,
+        "singular_values": report.sigmas.tolist(),
+        "smallest_singular_value": report.smallest,
+        "lost_directions": [
+            {"twist": twist, "wrench": wrench, "lost_here": k < defect} for k, (twist, wrench) in enumerate(lost)
+        ],
+        "internal_motions": [
+            {"joint_velocities": motion, "only_here": k < defect}
+            for k, motion in enumerate(report.internal_motions.T.tolist())
+        ],
+        "dependent_joints": _names(chain, report.joints),
+        "kinds": report.kinds,
+        "exit": _exit(chain, report),
+    }
+
+
+def _exit(chain: Chain, report: SingularityReport) -> dict[str, Any] | None:
+    if report.exit is None:
+        return None
+    joint = chain.joint_names[int(np.argmax(np.abs(report.exit)))]
+    return {"joint": joint, "direction": report.exit.tolist(), "rate": report.exit_rate}
+
+
+def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
+    return [chain.joint_names[j] for j in joints]
+
+
+def _space(call: SingularityRequest) -> TaskSpace:
+    directions = DIRECTIONS if call.task is None else tuple(call.task)
+    if len(set(directions)) < len(directions):
+        raise InvalidField("task", "each direction at most once")
+    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
+
+
+def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limits) -> None:
+    if count > MAX_REPORTS:
+        raise TooLarge("configurations with singularity reports", count, MAX_REPORTS)
+    if call.path and count > MAX_PATH:
+        raise TooLarge("configurations of a path", count, MAX_PATH)
+    most = max(1, MAX_NEAREST * 49 // max(joints, 7) ** 2)
+    if call.nearest and count > most:
+        raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
+    numbers = count * (_ENTRY + joints * (joints + 4)) * (1 + call.path)
+    check_numbers(numbers, limits)
+
+
+def _certificate(robot: Robot, chain: Chain, qs: Array) -> JacobianCertificate:
+    return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2])
+
+
+def _content(
+    robot: Robot, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
+) -> dict[str, Any]:
+    space = _space(call)
+    reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
+    products = [certify_reports(robot, chain, space, qs, reports)]
+    entries = [singularity_info(chain, report) for report in reports]
+    answer: dict[str, Any] = {
+        "joint_names": chain.joint_names,
+        "base_frame": chain.base_frame,
+        "tip_frame": chain.tip_frame,
+        "reference": space.reference,
+        "task": space.task.directions,
+        "rank_tolerance": call.rank_tolerance,
+        "characteristic_length": call.characteristic_length,
+        "units_mixed": _units_are_mixed(chain, space),
+        "singularities": entries,
+    }
+    if call.nearest:
+        search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
+        found = [nearest_singularity(chain, q, space, search) for q in qs]
+        certificate = _with_more(robot, chain, certificate, [nearest.q for nearest in found if nearest is not None])
+        for entry, q, nearest in zip(entries, qs, found, strict=True):
+            entry.update(_nearest(chain, space, search, q, nearest))
+    if call.path:
+        places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
+        told = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
+        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in told]
+        certificate = _with_more(robot, chain, certificate, [place.q for place in told[:MAX_SAMPLES]])
+        products += [
+            certify_reports(robot, chain, space, place.q[None], [report])
+            for place, report in zip(told[:MAX_SAMPLES], reports, strict=False)
+        ]
+        answer["path"] = {
+            "places": list(_places(chain, len(qs), told, reports)),
+            "omitted": len(places) - len(told),
+        }
+    answer["certificate"] = {
+        "samples": certificate.samples,
+        "max_error": certificate.max_error,
+        "max_time_variation_error": certificate.max_time_variation_error,
+        "seed": certificate.seed,
+        "max_internal_motion": max(product.max_internal_motion for product in products),
+        "max_lost_direction": max(product.max_lost_direction for product in products),
+    }
+    return answer
+
+
+def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
+    rows = 0 < space.turns < len(space) and space.characteristic_length is None
+    return rows or len(set(slides(chain).tolist())) > 1
+
+
+def _with_more(robot: Robot, chain: Chain, certificate: JacobianCertificate, rows: list[Array]) -> JacobianCertificate:
+    """The certificate, with further configurations recomputed too."""
+    for first in range(0, len(rows), MAX_SAMPLES):
+        part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
+        certificate = replace(
+            certificate,
+            samples=certificate.samples + part.samples,
+            max_error=max(certificate.max_error, part.max_error),
+        )
+    return certificate
+
+
+def _nearest(
+    chain: Chain, space: TaskSpace, search: Search, q: Array, nearest: NearestSingularity | None
+) -> dict[str, Any]:
+    if nearest is None:
+        return {"nearest": None, "nearest_reason": _why_none(chain, space, search)}
+    report = singularity_report(chain, nearest.q, search.tolerance, space)
+    within = bool(((chain.lower <= nearest.q) & (nearest.q <= chain.upper)).all())
+    return {
+        "nearest": {
+            "distance": nearest.distance,
+            "joint_positions": nearest.q.tolist(),
+            "displacement": (nearest.q - q).tolist(),
+            "joints": _names(chain, nearest.joints),
+            "within_limits": within,
+            "smallest_singular_value": nearest.sigma,
+            "kinds": report.kinds,
+            "dependent_joints": _names(chain, report.joints),
+        }
+    }
+
+
+def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
+    """Why no singular configuration was found, and what to ask for where the task is too large to lose anything."""
+    rank = structure(chain, space.task, space.reference).rank
+    if rank == 0:
+        return "nothing can be lost: the tip has none of these directions at any configuration"
+    if not can_lose(chain, space):
+        return "nothing can be lost: of these directions the tip has the same at every configuration"
+    where = " within the joint limits" if search.respect_limits else ""
+    reason = f"no singular configuration was found within a radius of {search.radius:.6g}{where}"
+    if rank == len(space):
+        return reason
+    reason += (
+        f": of {counted(len(space), 'direction')} the tip has {rank} at most, and it keeps as many wherever was looked"
+    )
+    fewer = _positions_that_move(chain, space)
+    return reason if fewer is None else f"{reason}; what it loses of the position shows with `task` {fewer}"
+
+
+def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
+    """The linear directions of a task along which the tip moves; None where they are the task, or depend."""
+    names = [direction for direction in space.task.directions if direction in {"x", "y", "z"}]
+    moving = tuple(name for name in names if structure(chain, Task((name,)), space.reference).rank)
+    if not moving or len(moving) == len(space) or structure(chain, Task(moving), space.reference).rank < len(moving):
+        return None
+    return " ".join(moving)
+
+
+def _places(
+    chain: Chain, count: int, places: list[Place], reports: list[SingularityReport]
+) -> Iterator[dict[str, Any]]:
+    for place, report in zip(places, reports, strict=True):
+        segment = min(int(place.start), max(count - 2, 0))
+        yield {
+            "segment": segment,
+            "fraction": place.start - segment,
+            "end": place.end,
+            "joint_positions": place.q.tolist(),
+            "report": singularity_info(chain, report),
+        }

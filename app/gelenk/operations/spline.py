@@ -1,0 +1,108 @@
+"""POST /v1/course/spline: cubic splines through knots."""
+
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.spline import SplineRequest
+from gelenk.model.arrays import Array
+from gelenk.operations.course_motion import (
+    PeaksByOrder,
+    Planned,
+    is_heavy_motion,
+    limit_warnings,
+    limits_of,
+    motion_outcome,
+    row,
+    table,
+    told_steps,
+    unused,
+)
+from gelenk.operations.outcome import Outcome
+from gelenk.trajectory.formulas import SHOWN_JOINTS
+from gelenk.trajectory.spline_steps import spline_steps
+from gelenk.trajectory.splines import Ends, Spline, cubic_spline
+from gelenk.trajectory.time_law_steps import peak_step
+
+_SHOWN_UNKNOWNS = 32
+_VELOCITIES = ("start_velocity", "end_velocity")
+_ACCELERATIONS = ("start_acceleration", "end_acceleration")
+
+
+def run(call: SplineRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return motion_outcome(call, _plan)
+
+
+is_heavy = is_heavy_motion
+
+
+def _plan(call: SplineRequest) -> Planned:
+    if call.boundary not in {"clamped", "assigned"}:
+        unused(call, _VELOCITIES, f"is not allowed with `boundary` {call.boundary}")
+    if call.boundary != "assigned":
+        unused(call, (*_ACCELERATIONS, "fictitious_times"), "is only allowed with `boundary` assigned")
+    times = np.array(call.times)
+    knots = table(call.waypoints, "waypoints", len(times))
+    joints = knots.shape[1]
+    ends = Ends(*(row(getattr(call, name), joints, name) for name in (*_VELOCITIES, *_ACCELERATIONS)))
+    between = None if call.fictitious_times is None else (call.fictitious_times[0], call.fictitious_times[1])
+    found = cubic_spline(times, knots, call.boundary, ends, between)
+    limits = limits_of(call, joints)
+
+    def told(peaks: PeaksByOrder) -> dict[str, Any]:
+        warnings = limit_warnings(peaks, limits)
+        if joints > SHOWN_JOINTS:
+            warnings.append(f"The worked solution shows {SHOWN_JOINTS} of {joints} joints; A is the same for all.")
+        return {
+            "boundary": call.boundary,
+            "system": _system(found),
+            "knots": _knots(found),
+            "steps": told_steps((*spline_steps(found, call.boundary), peak_step(peaks[1], peaks[2]))),
+            "warnings": warnings,
+        }
+
+    starts, finals = _end_rates(call, ends, joints)
+    return Planned(
+        found.motion, limits, times, knots, starts, finals, 2, f"Cubic spline, {call.boundary.replace('_', ' ')}", told
+    )
+
+
+def _end_rates(call: SplineRequest, ends: Ends, joints: int) -> tuple[Array, Array]:
+    """The derivatives that the boundary gives, at the start and at the end."""
+    if call.boundary == "clamped":
+        return ends.start_velocity[None], ends.end_velocity[None]
+    if call.boundary == "assigned":
+        return (
+            np.array([ends.start_velocity, ends.start_acceleration]),
+            np.array([ends.end_velocity, ends.end_acceleration]),
+        )
+    return np.empty((0, joints)), np.empty((0, joints))
+
+
+def _system(found: Spline) -> dict[str, Any] | None:
+    A = found.matrix
+    if A is None:
+        return None
+    return {
+        "matrix": A.dense().tolist() if len(A) <= _SHOWN_UNKNOWNS else None,
+        "lower": A.lower,
+        "diagonal": A.diagonal,
+        "upper": A.upper,
+        "right_side": found.right_side.tolist(),
+        "unknowns": [i + 1 for i in found.unknowns],
+    }
+
+
+def _knots(found: Spline) -> list[dict[str, Any]]:
+    accelerations = found.motion.derivative(2).at(found.times)
+    return [
+        {
+            "time": float(found.times[i]),
+            "positions": found.knots[i].tolist(),
+            "velocities": found.velocities[i].tolist(),
+            "accelerations": accelerations[i].tolist(),
+            "fictitious": i in found.fictitious,
+        }
+        for i in range(len(found.times))
+    ]

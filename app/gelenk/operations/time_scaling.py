@@ -1,0 +1,128 @@
+"""POST /v1/course/time-scaling: by which factor of time a motion keeps its limits."""
+
+from typing import Any
+
+import numpy as np
+
+from gelenk.contract.time_scaling import TimeScalingRequest
+from gelenk.model.arrays import Array
+from gelenk.model.errors import InvalidField
+from gelenk.operations.course_motion import (
+    PeaksByOrder,
+    Planned,
+    is_heavy_motion,
+    limit_warnings,
+    limits_of,
+    motion_outcome,
+    needed,
+    table,
+    told_steps,
+    unused,
+)
+from gelenk.operations.outcome import Outcome
+from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.trajectory.splines import cubic_spline, through_samples
+from gelenk.trajectory.time_laws import between
+from gelenk.trajectory.time_scaling import Bound, Limits, Scaling, uniform_scaling
+from gelenk.trajectory.time_scaling_steps import scaling_steps
+
+_ORDERS = {"cubic": 2, "quintic": 3, "septic": 4}
+_AT_REST = 1e-9
+
+
+def run(call: TimeScalingRequest) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    return motion_outcome(call, _plan)
+
+
+is_heavy = is_heavy_motion
+
+
+def _plan(call: TimeScalingRequest) -> Planned:
+    motion, times, knots, continuity = _motion(call)
+    limits = limits_of(call, knots.shape[1])
+    if limits.velocity is None and limits.acceleration is None and limits.jerk is None:
+        raise InvalidField("limits", "at least one of joint_velocity, joint_acceleration and joint_jerk is needed")
+    scaling = uniform_scaling(motion, limits)
+    factor = _factor(call, scaling)
+    # From 0 on: a clock that is far ahead has no digits left for a motion that has become short.
+    scaled = PiecewisePolynomial(motion.breaks - motion.breaks[0], motion.coefficients).scaled(factor)
+
+    def told(peaks: PeaksByOrder) -> dict[str, Any]:
+        ratios = {bound.quantity: bound.ratio for bound in scaling.bounds}
+        return {
+            "course_factor": scaling.course_factor,
+            "unclipped_factor": scaling.factor,
+            "applied_factor": factor,
+            "k_vel": max(1.0, ratios["velocity"]) if "velocity" in ratios else None,
+            "k_acc": max(1.0, ratios["acceleration"]) if "acceleration" in ratios else None,
+            "bounds": [_bound(bound) for bound in scaling.bounds],
+            "binding": _bound(scaling.binding),
+            "original_duration": motion.duration,
+            "steps": told_steps(scaling_steps(scaling, motion.duration)),
+            "warnings": _warnings(motion, scaling, peaks, limits),
+        }
+
+    rest = np.zeros((_ORDERS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
+    when = factor * (times - times[0])
+    when[-1] = scaled.breaks[-1]
+    return Planned(scaled, limits, when, knots, rest, rest, continuity, f"Scaled by k = {factor:.6g}", told)
+
+
+def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:
+    """The motion as it came, its knots with their times, and up to which derivative it is continuous."""
+    if call.waypoints is None:
+        unused(call, ("times", "velocities", "accelerations", "boundary"), "needs `waypoints`, which are missing")
+        needed(call, ("displacement", "duration"), "for a motion by a law; or give `times` and `waypoints`")
+        ends = np.zeros((_ORDERS[call.law], len(call.displacement or ())))
+        ends[0] = call.displacement
+        motion = between(np.zeros_like(ends), ends, call.duration or 1.0)
+        return motion, motion.breaks, np.array([np.zeros_like(ends[0]), ends[0]]), len(ends) - 1
+    unused(call, ("displacement", "duration", "law"), "give it instead of `waypoints`, not with them")
+    needed(call, ("times",), "beside `waypoints`")
+    times = np.array(call.times)
+    knots = table(call.waypoints, "waypoints", len(times))
+    if call.velocities is None:
+        unused(call, ("accelerations",), "needs `velocities`, which are missing")
+        return cubic_spline(times, knots, call.boundary).motion, times, knots, 2
+    unused(call, ("boundary",), "is that of a spline, and with `velocities` there is none")
+    velocities = table(call.velocities, "velocities", len(times), knots.shape[1])
+    if call.accelerations is None:
+        return through_samples(times, knots, velocities), times, knots, 1
+    accelerations = table(call.accelerations, "accelerations", len(times), knots.shape[1])
+    return through_samples(times, knots, velocities, accelerations), times, knots, 2
+
+
+def _factor(call: TimeScalingRequest, scaling: Scaling) -> float:
+    if call.factor is not None:
+        unused(call, ("scaling",), "chooses a k, and `factor` gives one: leave one of the two out")
+        return call.factor
+    if call.scaling == "course":
+        return scaling.course_factor
+    if scaling.factor is None:
+        raise InvalidField("scaling", "nothing moves: no k lets it just reach a limit")
+    return scaling.factor
+
+
+def _bound(bound: Bound) -> dict[str, Any]:
+    return {
+        "quantity": bound.quantity,
+        "ratio": bound.ratio,
+        "factor": bound.factor,
+        "joint": bound.joint + 1,
+        "time": bound.time,
+        "peak": bound.peak,
+        "limit": bound.limit,
+    }
+
+
+def _warnings(motion: PiecewisePolynomial, scaling: Scaling, peaks: PeaksByOrder, limits: Limits) -> list[str]:
+    found = limit_warnings(peaks, limits)
+    if scaling.factor is None:
+        found.append("Nothing moves: any time will do.")
+        return found
+    velocities = np.abs(motion.derivative().at(motion.breaks[[0, -1]])).max(axis=0)
+    largest = np.abs(motion.derivative().at(motion.breaks)).max(axis=0)
+    if np.any(velocities > _AT_REST * np.maximum(largest, scaling.factor)):
+        found.append("The motion does not begin and end at rest: its end velocities are divided by k too.")
+    return found

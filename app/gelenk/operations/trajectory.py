@@ -1,0 +1,28 @@
+"""Trajectories of a robot: planned, judged, sampled; as JSON, CSV, npy or a picture."""
+
+from typing import Any
+
+from gelenk.contract.trajectory_request import MAX_SAMPLES, TrajectoryRequest
+from gelenk.model.arrays import Array
+from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.trajectory_planned import Bounds, Planned
+from gelenk.store.records import LoadedRobot
+
+
+def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome:
+    """Answer a request; the endpoint says with what."""
+    planned = Planned.of(loaded.robot, call, Bounds(MAX_SAMPLES, limits.answer_numbers))
+
+    def content() -> dict[str, Any]:
+        times = planned.times()
+        return planned.told(planned.told_samples(times), planned.certificate(times))
+
+    def array() -> tuple[Array, dict[str, str]]:
+        return planned.table(planned.times()), planned.headers
+
+    return Outcome(content, array, lambda kind: planned.picture(loaded.record.name, kind), planned.columns)
+
+
+def is_heavy(_: TrajectoryRequest) -> bool:
+    """It always is: a motion takes milliseconds."""
+    return True

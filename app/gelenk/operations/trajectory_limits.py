@@ -1,0 +1,164 @@
+"""What joints and tip may do on a segment: as the request has it, else as the robot's description, else assumed.
+
+A URDF has velocities at most. What it lacks is assumed and said: accelerations that reach the velocity limit in half a
+second and jerks that reach the acceleration limit in a tenth of one, which is what industrial arms of a few kilograms
+do.
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.contract.trajectory_answer import LimitSource
+from gelenk.contract.trajectory_request import JointValues, MotionOptions, TrajectoryLimits
+from gelenk.model.arrays import Array, Flags
+from gelenk.model.chain import Chain
+from gelenk.model.errors import UnknownJoint, WrongJointCount, listed
+from gelenk.model.robot import Robot
+from gelenk.trajectory.audit_demands import TipLimits
+from gelenk.trajectory.problem import MotionLimits
+
+QUANTITIES = ("joint_velocity", "joint_acceleration", "joint_jerk")
+TURNING = 1.0
+"""Velocity of a joint that has no limit, [rad/s]."""
+SLIDING = 0.25
+"""Of a sliding one, [m/s]: the reduced speed of ISO 10218."""
+PLACEHOLDER = 100.0
+"""A limit that says that there is none, [rad/s or m/s]: robots' files have 100, 1000, 10000 and 1e16 for that."""
+ACCELERATION_RATE = 2.0
+JERK_RATE = 10.0
+"""An assumed limit over that of the derivative before it, [1/s]."""
+
+_ASSUMED = {
+    "joint_velocity": "the robot's description has no velocity limit of {}: "
+    f"{TURNING:g} rad/s is assumed, of a sliding joint {SLIDING:g} m/s",
+    "joint_acceleration": "the acceleration limits of {} are assumed: "
+    f"they reach the velocity limit in {1.0 / ACCELERATION_RATE:g} s",
+    "joint_jerk": f"the jerk limits of {{}} are assumed: they reach the acceleration limit in {1.0 / JERK_RATE:g} s",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """What one place of a request says of limits, and the prefix of its fields in refusals."""
+
+    options: MotionOptions
+    prefix: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """Limits and where they are from.
+
+    Attributes:
+        limits: Scales applied.
+        sources: By quantity, one per joint.
+    """
+
+    limits: MotionLimits
+    sources: dict[str, tuple[LimitSource, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class OwnVelocities:
+    """What the robot's description says, or is assumed where it says nothing; shape (n,) each, [rad/s or m/s]."""
+
+    values: Array
+    known: Flags
+
+
+def own_velocities(robot: Robot, chain: Chain) -> OwnVelocities:
+    """Velocity limits of a chain's variables."""
+    joints = [robot.description.joint[name] for name in chain.joint_names]
+    given = np.array([joint.limits.velocity or 0.0 for joint in joints], dtype=float)
+    known = (given > 0.0) & (given < PLACEHOLDER)
+    otherwise = np.array([SLIDING if joint.type == "prismatic" else TURNING for joint in joints], dtype=float)
+    return OwnVelocities(np.where(known, given, otherwise), known)
+
+
+def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> Bounds:
+    """The limits in force.
+
+    Args:
+        chain: Whose joints they are of.
+        own: The robot's.
+        layers: What is said of them, the last word last.
+
+    Raises:
+        WrongJointCount: A list has not one number per joint.
+        UnknownJoint: A name is not a joint of the chain.
+    """
+    values, told = own.values, np.where(own.known, "robot", "assumed")
+    rows, sources = [], []
+    for quantity, rate in zip(QUANTITIES, (None, ACCELERATION_RATE, JERK_RATE), strict=True):
+        if rate is not None:
+            values, told = values * rate, np.full(len(chain), "assumed", dtype=told.dtype)
+        for layer in layers:
+            given = None if layer.options.limits is None else getattr(layer.options.limits, quantity)
+            if given is not None:
+                found = _row(chain, given, f"{layer.prefix}limits.{quantity}")
+                counts = np.isfinite(found)
+                values, told = np.where(counts, found, values), np.where(counts, "request", told)
+        rows.append(values)
+        sources.append(tuple(told.tolist()))
+    faster, harder = _scale(layers, "velocity_scale"), _scale(layers, "acceleration_scale")
+    limits = MotionLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, _tip(layers, faster, harder))
+    return Bounds(limits, dict(zip(QUANTITIES, sources, strict=True)))
+
+
+def _row(chain: Chain, given: JointValues, field: str) -> Array:
+    """One number per joint, NaN where a name is left out; shape (n,)."""
+    if isinstance(given, Mapping):
+        for name in given:
+            if name not in chain.joint_names:
+                raise UnknownJoint(name, chain.joint_names, None, field)
+        return np.array([given.get(name, math.nan) for name in chain.joint_names])
+    if isinstance(given, Sequence):
+        if len(given) != len(chain):
+            raise WrongJointCount(len(given), chain.joint_names, None, field)
+        return np.array(given, dtype=float)
+    return np.full(len(chain), given)
+
+
+def _scale(layers: Sequence[Layer], name: str) -> float:
+    """The last word on a scale."""
+    given = (getattr(layer.options, name) for layer in reversed(layers))
+    return float(next((scale for scale in given if scale is not None), 1.0))
+
+
+def _tip(layers: Sequence[Layer], faster: float, harder: float) -> TipLimits:
+    def of(name: str) -> float:
+        limits: Iterable[TrajectoryLimits | None] = (layer.options.limits for layer in reversed(layers))
+        given = (getattr(one, name) for one in limits if one is not None)
+        return float(next((value for value in given if value is not None), math.inf))
+
+    return TipLimits(
+        of("tip_velocity") * faster,
+        of("tip_angular_velocity") * faster,
+        of("tip_acceleration") * harder,
+        of("tip_angular_acceleration") * harder,
+    )
+
+
+def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[Bounds]) -> list[str]:
+    """What was assumed on any of the segments, and which limits are beyond the robot's own."""
+    notes = []
+    for quantity, words in _ASSUMED.items():
+        assumed = [any(bounds.sources[quantity][j] == "assumed" for bounds in used) for j in range(len(chain))]
+        if any(assumed):
+            notes.append(words.format(_names(chain, assumed)))
+    beyond = [
+        bool(own.known[j]) and any(bounds.limits.velocity[j] > own.values[j] for bounds in used)
+        for j in range(len(chain))
+    ]
+    if any(beyond):
+        notes.append(f"the velocity limits of {_names(chain, beyond)} are higher than the robot's own, as requested")
+    return notes
+
+
+def _names(chain: Chain, chosen: Sequence[bool]) -> str:
+    if all(chosen):
+        return "all joints"
+    return listed(tuple(name for name, one in zip(chain.joint_names, chosen, strict=True) if one))

@@ -1,0 +1,215 @@
+"""A planned trajectory and its answer: as a whole, or some of its samples."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import orjson
+
+from gelenk.contract.trajectory_request import TrajectoryRequest
+from gelenk.kinematics.certify import Certificate
+from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.kernels import chain_poses
+from gelenk.model.arrays import Array
+from gelenk.model.chain import Chain
+from gelenk.model.errors import TooLarge
+from gelenk.model.poses import Poses
+from gelenk.model.robot import Robot
+from gelenk.operations.outcome import PictureFormat
+from gelenk.operations.rows import json_rows
+from gelenk.operations.trajectory_answer import (
+    columns,
+    samples,
+    table,
+    told_audit,
+    told_failure,
+    told_limits,
+    told_poses,
+    told_segments,
+)
+from gelenk.operations.trajectory_limits import limit_notes
+from gelenk.operations.trajectory_request import Asked, asked, shortest_duration
+from gelenk.operations.trajectory_samples import check_samples, sample_times
+from gelenk.trajectory.plan import plan
+from gelenk.trajectory.problem import Trajectory
+
+_NUMBERS_A_POSE = 16
+_LONGER, _LONG_SECONDS = 100.0, 60.0
+"""Hardly any motion lasts more than this many times its least duration, and more than this many seconds."""
+_MOST_NAME = 16
+"""Characters of a robot's name in a title, which has room for 48."""
+SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
+"""Fields of the answer that have an entry for each sample."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """The limits of one call.
+
+    Attributes:
+        samples: Of the motion.
+        numbers: In the samples, or in the polynomials.
+    """
+
+    samples: int
+    numbers: int
+
+    def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
+        """Refuse more samples than these.
+
+        Args:
+            call: Says how often.
+            chain: Of the motion.
+            duration: Of the motion, or what it lasts at least, [s].
+
+        Raises:
+            InvalidField: There are more; it says what period there may be.
+        """
+        check_samples(duration, call.sample_period, self._most(call, chain))
+
+    def may_be_exceeded(self, call: TrajectoryRequest, chain: Chain, shortest: float) -> bool:
+        """Whether a motion that lasts at least this, [s], may last so long that it has more samples than these."""
+        return _LONGER * shortest + _LONG_SECONDS > (self._most(call, chain) - 1) * call.sample_period
+
+    def _most(self, call: TrajectoryRequest, chain: Chain) -> int:
+        numbers = 1 + 3 * len(chain) + _NUMBERS_A_POSE * call.tip_poses
+        return min(self.samples, max(2, self.numbers // numbers))
+
+
+def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chain, Asked]:
+    """The chain and the core's input of a call, checked as far as possible before planning.
+
+    Raises:
+        InvalidInput: The field, and what is wrong with it.
+    """
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    question = asked(robot, chain, call)
+    bounds.check(call, chain, shortest_duration(question.problem))
+    return chain, question
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A trajectory that is planned.
+
+    Attributes:
+        robot: The robot.
+        chain: Base and tip.
+        call: As requested.
+        question: What the core was asked.
+        found: What came of it.
+        bounds: Limits of the answer's size.
+    """
+
+    robot: Robot
+    chain: Chain
+    call: TrajectoryRequest
+    question: Asked
+    found: Trajectory
+    bounds: Bounds
+
+    @classmethod
+    def of(cls, robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> "Planned":
+        """Plan a trajectory.
+
+        Raises:
+            InvalidInput: The field, and what is wrong with it.
+            AuditFailed: The motion is not what it should be.
+        """
+        chain, question = checked(robot, call, bounds)
+        return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
+
+    @property
+    def columns(self) -> list[str]:
+        """What the table's columns are called."""
+        return columns(self.chain)
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What says beside a table what came of the motion."""
+        found = self.found
+        return {
+            "Gelenk-Duration": repr(found.motion.duration),
+            "Gelenk-Completed-Fraction": repr(found.completed_fraction),
+            "Gelenk-Failure": "none" if found.failure is None else found.failure.reason,
+        }
+
+    def times(self) -> Array:
+        """When the motion is sampled; shape (N,), [s].
+
+        Raises:
+            InvalidField: So often that there are too many samples.
+        """
+        self.bounds.check(self.call, self.chain, self.found.motion.duration)
+        return sample_times(self.found.motion.duration, self.call.sample_period)
+
+    def table(self, times: Array) -> Array:
+        """Time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
+        return table(self.found.motion, times)
+
+    def told_samples(self, times: Array) -> dict[str, orjson.Fragment]:
+        """Of each field in `SAMPLED` that is wanted the entries at some times, as JSON."""
+        rows = [times, *samples(self.found.motion, times)]
+        told = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
+        if self.call.tip_poses:
+            poses = Poses(*chain_poses(self.chain.flat, self.found.motion.at(times)))
+            told["tip_poses"] = told_poses(poses, self.call.pose_format)
+        return told
+
+    def certificate(self, times: Array) -> Certificate | None:
+        """Differences of the tip's poses at these times from Pinocchio's, if they are sent.
+
+        Raises:
+            CertificationFailed: Too far.
+        """
+        if not self.call.tip_poses:
+            return None
+        return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
+
+    def told(self, sampled: Mapping[str, orjson.Fragment], certificate: Certificate | None) -> dict[str, Any]:
+        """The whole answer.
+
+        Raises:
+            TooLarge: The requested polynomials hold too many numbers.
+        """
+        found, bounds = self.found, self.question.bounds
+        if self.call.coefficients and found.motion.coefficients.size > self.bounds.numbers:
+            raise TooLarge("numbers in the answer", found.motion.coefficients.size, self.bounds.numbers)
+        answer: dict[str, Any] = {
+            "joint_names": self.chain.joint_names,
+            "base_frame": self.chain.base_frame,
+            "tip_frame": self.chain.tip_frame,
+            "duration": found.motion.duration,
+            "completed_fraction": found.completed_fraction,
+            "failure": told_failure(found),
+            **{name: sampled.get(name) for name in SAMPLED},
+            "segments": told_segments(found, self.question.segment_bounds, coefficients=self.call.coefficients),
+            "audit": told_audit(found.audit),
+            "limits": told_limits(bounds.limits),
+            "limit_sources": bounds.sources,
+            "notes": limit_notes(self.chain, self.question.own, self.question.segment_bounds),
+            "certificate": certificate,
+        }
+        return answer | ({"timing": found.timing} if self.call.compare_timing else {})
+
+    def picture(self, name: str, kind: PictureFormat) -> bytes:
+        """Position, velocity, acceleration and jerk over time, under the name of the robot."""
+        # Matplotlib takes a third of a second to load.
+        from gelenk.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
+
+        chain, found = self.chain, self.found
+        spans = []
+        for report in found.segments:
+            limits = self.question.segment_bounds[report.index].limits
+            label = f"{report.index} {report.type}"
+            spans.append(
+                Span(label, report.start_time, report.end_time, (limits.velocity, limits.acceleration, limits.jerk))
+            )
+        slides = [self.robot.description.joint[name].type == "prismatic" for name in chain.joint_names]
+        unit = "m" if slides and all(slides) else "(rad or m)" if any(slides) else "rad"
+        units = [unit, *(f"{unit}/{per}" for per in ("s", "s²", "s³"))]
+        title = f"{name if len(name) <= _MOST_NAME else name[: _MOST_NAME - 1] + '…'}: {found.motion.duration:.4g} s"
+        if found.failure is not None:
+            title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
+        lines = Lines(chain.joint_names, units, (None, None, None), spans=spans)
+        return profiles_picture(title, found.motion, lines, kind)

@@ -1,0 +1,241 @@
+"""Converts a trajectory request for the core, checking every number against the chain."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.contract.pose import Pose
+from gelenk.contract.pose_arrays import poses_from
+from gelenk.contract.trajectory_request import (
+    MAX_WAYPOINTS,
+    CircleSegment,
+    JointSegment,
+    LineSegment,
+    Segment,
+    SplineSegment,
+    TrajectoryRequest,
+)
+from gelenk.kinematics.configuration import check_limits, configurations, one_configuration
+from gelenk.kinematics.ik.task import FULL_POSE, Task
+from gelenk.kinematics.ik.words import DIRECTIONS
+from gelenk.model.arrays import Array, Configuration
+from gelenk.model.chain import Chain
+from gelenk.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
+from gelenk.model.robot import Robot
+from gelenk.operations.trajectory_limits import Bounds, Layer, OwnVelocities, bounds_of, own_velocities
+from gelenk.trajectory.problem import Following, Problem
+from gelenk.trajectory.problem import Segment as Part
+from gelenk.trajectory.words import Law
+
+_SHORTEST = 1e-6
+"""From one waypoint to the next, [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The problem for the core, and the source of its limits.
+
+    Attributes:
+        problem: For the core.
+        own: Velocity limits of the robot.
+        bounds: Of the trajectory.
+        segment_bounds: Of each segment.
+    """
+
+    problem: Problem
+    own: OwnVelocities
+    bounds: Bounds
+    segment_bounds: tuple[Bounds, ...]
+
+
+def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
+    """What the core is asked.
+
+    Raises:
+        InvalidInput: The field, and what is wrong with it.
+    """
+    waypoints = sum(len(segment.waypoints) for segment in call.segments if isinstance(segment, SplineSegment))
+    if waypoints > MAX_WAYPOINTS:
+        raise InvalidField("segments", f"all together have {waypoints} waypoints; at most {MAX_WAYPOINTS} are allowed")
+    own, whole = own_velocities(robot, chain), Layer(call)
+    layers = [(whole, Layer(segment, f"segments.{i}.")) for i, segment in enumerate(call.segments)]
+    bounds = tuple(bounds_of(chain, own, pair) for pair in layers)
+    problem = Problem(
+        _within(chain, call.start, "start"),
+        tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments))),
+        _following(call),
+        call.duration,
+        call.compare_timing,
+    )
+    return Asked(problem, own, bounds_of(chain, own, (whole,)), bounds)
+
+
+def shortest_duration(problem: Problem) -> float:
+    """Least duration of a trajectory that its request implies, [s]."""
+    if problem.duration is not None:
+        return problem.duration
+    known = (part.duration if part.times is None else float(part.times[-1]) for part in problem.segments)
+    return sum(duration for duration in known if duration is not None)
+
+
+def _following(call: TrajectoryRequest) -> Following:
+    return Following(
+        _task(call), call.path_tolerance, call.orientation_tolerance, call.min_singular_value, call.near_singularity
+    )
+
+
+def _task(call: TrajectoryRequest) -> Task:
+    if call.task is None:
+        return FULL_POSE
+    if len(set(call.task)) < len(call.task):
+        raise InvalidField("task", "each direction at most once")
+    return Task(tuple(direction for direction in DIRECTIONS if direction in call.task))
+
+
+def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) -> Part:
+    segment, place = call.segments[index], f"segments.{index}"
+    stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
+    part = Part(
+        segment.type,
+        _law(call, index),
+        bounds.limits,
+        segment.duration,
+        stated_jerk=np.where(stated, bounds.limits.jerk, np.inf) if stated.any() else None,
+    )
+    match segment:
+        case JointSegment():
+            target = segment.target
+            if isinstance(target, Pose):
+                return replace(part, pose=_matrix(target, f"{place}.target"))
+            return replace(part, configuration=_within(chain, target, f"{place}.target"))
+        case LineSegment():
+            _check_blend(call.segments, index)
+            return replace(
+                part,
+                pose=_matrix(segment.target, f"{place}.target"),
+                blend_radius=segment.blend_radius or 0.0,
+                blend_acceleration=segment.blend_acceleration,
+                blend_time=segment.blend_time,
+                orientation=segment.orientation,
+            )
+        case CircleSegment():
+            via, end = _matrix(segment.via, f"{place}.via"), _matrix(segment.target, f"{place}.target")
+            return replace(part, via=via, pose=end, orientation=segment.orientation)
+        case SplineSegment():
+            _check_blends(segment, part, place)
+            return _spline(chain, segment, replace(part, boundary=segment.boundary, blends=segment.blends), place)
+
+
+def _law(call: TrajectoryRequest, index: int) -> Law:
+    """The law of a segment; a path of the tip that slows down only where the joints require it has only one.
+
+    Raises:
+        InvalidField: The request names another law and does not allow replacing it.
+    """
+    segment = call.segments[index]
+    law = segment.law or call.law
+    if law == "time_optimal" or call.near_singularity != "slow_down" or not _is_way(segment):
+        return law
+    if (segment.law or "law" in call.model_fields_set) and not call.law_fallback:
+        raise InvalidField(
+            f"segments.{index}.law" if segment.law else "law",
+            f"`{law}` has one shape along the whole path, and `near_singularity` `slow_down` is slow only where the "
+            "joints must be: ask for `time_optimal`, or allow another law with `law_fallback`",
+        )
+    return "time_optimal"
+
+
+def _is_way(segment: Segment) -> bool:
+    """Whether the tip follows a path without given times."""
+    if isinstance(segment, SplineSegment):
+        return segment.times is None and isinstance(segment.waypoints[0], Pose)
+    return not isinstance(segment, JointSegment)
+
+
+def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:
+    """Refuse parabolic blends of anything but joints with trapezoids of velocity."""
+    if not segment.blends:
+        return
+    if any(isinstance(one, Pose) for one in segment.waypoints):
+        raise InvalidField(f"{place}.blends", "are of configurations; for poses take lines with a `blend_radius`")
+    if part.law != "trapezoidal":
+        raise InvalidField(f"{place}.blends", f"are only allowed with the law `trapezoidal`; this one is `{part.law}`")
+    if "boundary" in segment.model_fields_set:
+        raise InvalidField(f"{place}.boundary", "is of a spline, and with `blends` there is none")
+
+
+def _spline(chain: Chain, segment: SplineSegment, part: Part, place: str) -> Part:
+    waypoints, field = segment.waypoints, f"{place}.waypoints"
+    times = None if segment.times is None else _times(segment, place)
+    poses = [one for one in waypoints if isinstance(one, Pose)]
+    if not poses:
+        if "orientation" in segment.model_fields_set:
+            raise InvalidField(f"{place}.orientation", "is of poses, and these waypoints are configurations")
+        rows = configurations(chain, [one for one in waypoints if not isinstance(one, Pose)], field)
+        try:
+            check_limits(chain, rows)
+        except OutsideLimits as error:
+            raise replace(error, field=field) from None
+        return replace(part, configurations=rows, times=times)
+    if len(poses) < len(waypoints):
+        is_pose = [isinstance(one, Pose) for one in waypoints]
+        raise InvalidField(
+            field,
+            f"entry {is_pose.index(True)} is a pose and entry {is_pose.index(False)} a configuration: all are of one "
+            "kind, so divide them among two segments",
+        )
+    return replace(part, poses=poses_from(poses, field), times=times, orientation=segment.orientation)
+
+
+def _times(segment: SplineSegment, place: str) -> Array:
+    times, field = np.array(segment.times), f"{place}.times"
+    if len(times) != len(segment.waypoints):
+        raise InvalidField(
+            field, f"has {counted(len(times), 'entry')} for {counted(len(segment.waypoints), 'waypoint')}"
+        )
+    if segment.duration is not None:
+        raise InvalidField(f"{place}.duration", "is not allowed beside `times`, which determine it")
+    late = np.diff(times) >= _SHORTEST
+    if not late.all():
+        i = int(np.argmin(late))
+        raise InvalidField(
+            field,
+            f"entry {i + 1}, {times[i + 1]:.10g} s, is not after entry {i}, {times[i]:.10g} s: each is later than the "
+            f"one before by at least {_SHORTEST:g} s",
+        )
+    return times
+
+
+def _check_blend(segments: Sequence[Segment], index: int) -> None:
+    """Refuse a blend that leads to no line, or one that is said in two ways."""
+    line, place = segments[index], f"segments.{index}"
+    names = [name for name in ("blend_radius", "blend_acceleration", "blend_time") if getattr(line, name)]
+    if not names:
+        return
+    if len(names) > 1:
+        raise InvalidField(f"{place}.{names[1]}", f"is not allowed beside `{names[0]}`: give a blend in one way")
+    if index + 1 == len(segments):
+        raise InvalidField(f"{place}.{names[0]}", "the last segment ends at rest: there is no line to blend into")
+    if not isinstance(segments[index + 1], LineSegment):
+        kind = segments[index + 1].type
+        raise InvalidField(f"{place}.{names[0]}", f"the next segment is of type {kind}: a line is blended into a line")
+
+
+def _within(chain: Chain, value: Configuration, field: str) -> Array:
+    """A configuration within its limits; shape (n,)."""
+    rows = one_configuration(chain, value, field)
+    try:
+        check_limits(chain, rows)
+    except OutsideLimits as error:
+        raise replace(error, index=None, field=field) from None
+    configuration: Array = rows[0]
+    return configuration
+
+
+def _matrix(pose: Pose, field: str) -> Array:
+    """T_base_tip; shape (4, 4)."""
+    try:
+        return pose.transform()
+    except InvalidPose as error:
+        raise replace(error, field=field) from None

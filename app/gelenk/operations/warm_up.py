@@ -1,0 +1,25 @@
+"""What is found out once about a robot, so that the event loop can answer requests of a kind by itself from then on."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from gelenk.contract.common import Payload
+from gelenk.store.records import LoadedRobot
+
+_Request = TypeVar("_Request", bound=Payload)
+
+
+@dataclass(frozen=True, slots=True)
+class WarmUp(Generic[_Request]):
+    """Something to find out about a robot.
+
+    Attributes:
+        is_known: Whether this process knows it.
+        find: Finds it, in another process, because that may take long or fail; the result must be picklable.
+        keep: Keeps it in this process, in a thread.
+    """
+
+    is_known: Callable[[LoadedRobot, _Request], bool]
+    find: Callable[[LoadedRobot, _Request], object]
+    keep: Callable[[LoadedRobot, _Request, Any], object]
