@@ -124,7 +124,6 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
     size = settings.max_body_bytes
     app.include_router(robots_router(library, remote))
     app.router.routes.extend(upload_routes(remote, size))
-    app.router.routes.append(table_route(remote, size))
     special = {"derive_dh": derive_handler(crew, derivations)}
     for endpoint in ENDPOINTS:
         handler = special.get(endpoint.name) or dispatch.handler(endpoint, remote, runner, limits)
@@ -132,6 +131,7 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
         app.router.routes.append(dispatch.route(endpoint, handler, most_body))
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = handler
+    app.router.routes.append(table_route(remote, size))
     samples = SampleLimits(settings.max_job_samples, most)
     app.router.routes.append(workspace_route(runner, remote, samples, size))
     app.include_router(jobs_router(runner))
