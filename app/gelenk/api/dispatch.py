@@ -87,37 +87,41 @@ def handler(endpoint: Endpoint[Any, Any], remote: Remote, runner: Runner, limits
         limits: What an answer may take.
     """
     offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
+    can_be_job = isinstance(endpoint, RobotEndpoint) and bool(endpoint.job)
 
     async def handle(request: BoundedRequest) -> Response:
         if request.media_type not in accepted:
             raise UnsupportedMediaType(request.media_type, accepted)
         wanted, pieces = request.preferred(offered), await request.pieces()
-        robot, query = request.path_params.get("robot", ""), request.scope["query_string"].decode("latin-1")
-        inquiry = Inquiry(buffers(pieces), robot, query, request.media_type == NPY, wanted, endpoint.name)
-        if isinstance(endpoint, RobotEndpoint) and endpoint.job and wants_answer_later(request.scope["headers"]):
-            planned = await remote.told(request, plan_job, inquiry)
+        query, is_npy = request.scope["query_string"].decode("latin-1"), request.media_type == NPY
+
+        def inquiry() -> Inquiry:
+            robot = request.path_params.get("robot", "")
+            return Inquiry(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
+
+        if can_be_job and wants_answer_later(request.scope["headers"]):
+            planned = await remote.told(request, plan_job, inquiry())
             return await submitted(runner, endpoint.name, request, planned)
         if request.length <= INLINE_BYTES and not remote.crew.is_starting:
-            call = _parsed(endpoint, query, b"".join(pieces), inquiry.npy)
-            found = operation(endpoint.name)
+            call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
                 outcome = await _on_the_loop(found, remote, request, call, limits, inquiry)
                 if outcome is not None:
                     return _answered(endpoint, call, outcome, wanted)
-        return await remote.answer(request, answer, inquiry)
+        return await remote.answer(request, answer, inquiry())
 
     return handle
 
 
 async def _on_the_loop(
-    found: Operation, remote: Remote, request: BoundedRequest, call: Any, limits: Limits, inquiry: Inquiry
+    found: Operation, remote: Remote, request: BoundedRequest, call: Any, limits: Limits, inquiry: Callable[[], Inquiry]
 ) -> Outcome | None:
     """The outcome where that is fast; what it needs to know of the robot is found out first."""
     if not isinstance(found.endpoint, RobotEndpoint):
         return found.run(None, call, limits)
-    robot = await remote.resident(request, inquiry.robot)
+    robot = await remote.resident(request, request.path_params["robot"])
     if found.warm_up is not None and not found.warm_up.is_known(robot, call):
-        content = await remote.told(request, find, inquiry)
+        content = await remote.told(request, find, inquiry())
         known = pickle.loads(content)  # noqa: S301 - from a process of ours
         await asyncio.to_thread(found.warm_up.keep, robot, call, known)
     return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)
