@@ -103,10 +103,10 @@ def main() -> None:
 
 
 def _listening(host: str, port: int) -> socket.socket:
-    """A socket that listens already: of two services that are started at once, one is told now and not when it serves.
+    """A listening socket: of two services started at once, one fails now and not when it serves.
 
     Raises:
-        SystemExit: Another program listens there, or nobody can.
+        SystemExit: Another program listens there, or listening is impossible.
     """
     family, both = (socket.AF_INET6, socket.has_dualstack_ipv6()) if ":" in host else (socket.AF_INET, False)
     try:
@@ -122,7 +122,7 @@ def _listening(host: str, port: int) -> socket.socket:
 def metrics_folder(workers: int) -> Iterator[None]:
     """Where several worker processes keep what each has counted, as long as the service runs.
 
-    What services left that were killed goes first: nobody holds its lock any more.
+    Leftovers of killed services are removed first: their locks are free.
     """
     if workers == 1:
         yield

@@ -21,9 +21,9 @@ from gelenk.processes import copies
 from gelenk.processes.copies import Copy
 
 LISTENERS = 8
-"""Connections that are let in in one turn of an event loop, each in less than a tenth of a millisecond."""
+"""Connections accepted in one turn of an event loop, each in less than a tenth of a millisecond."""
 LEAVING_SECONDS = 0.5
-"""How long clients are still let in after SIGTERM, and told in each answer that their connection ends, [s]."""
+"""How long requests are still accepted after SIGTERM; each answer says that its connection closes, [s]."""
 STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
 """How a worker ends that could not begin to serve."""
@@ -43,11 +43,11 @@ logger = logging.getLogger("gelenk")
 
 
 class Supervisor:
-    """Whoever starts the workers, and watches over them.
+    """Starts the workers, and watches over them.
 
     Args:
         config: What each of them serves, and how; `workers` is how many there are.
-        listener: Where requests come in; it queues them while nobody takes them.
+        listener: Where requests come in; it queues them until a worker accepts them.
     """
 
     def __init__(self, config: uvicorn.Config, listener: socket.socket) -> None:
@@ -253,7 +253,7 @@ def several(listener: socket.socket) -> list[socket.socket]:
     """One listening socket as several, all on one queue of connections.
 
     The event loop takes one connection a turn from each. From a single one it would take a thousand turns until the
-    last of a thousand that have come at once is let in, and in each turn those before it are being answered.
+    last of a thousand that have come at once is accepted, and in each turn those before it are being answered.
     """
     # All of them, in all workers, share one mode: a copy in another one would make those block that serve already.
     listener.setblocking(False)
@@ -261,7 +261,7 @@ def several(listener: socket.socket) -> list[socket.socket]:
 
 
 def waiting(listener: socket.socket) -> Iterator[socket.socket]:
-    """The connections that nobody has taken yet, of a listening socket that does not block."""
+    """The pending connections of a non-blocking listening socket."""
     with contextlib.suppress(OSError):
         while True:
             yield listener.accept()[0]

@@ -1,6 +1,6 @@
 """The calls of the service as data: what `gelenk.client` sends.
 
-- `operations`: what the service can be asked, described once for both clients, of it `kept` what the service keeps.
+- `operations`: the operations as methods of both clients; `kept`: those on stored robots and jobs.
 - `arrays`: the same of large batches; `jobs`: the same as jobs.
 - `call`: a call, and how a description becomes a method; `exchange`: its JSON; `npy`: its arrays.
 - `patience`: when a call is sent again; `reading`: what has come back, an answer or an exception.

@@ -56,7 +56,7 @@ class Call(Generic[T]):
         files: The form's files.
         accept: Media type that the answer is wanted in.
         is_later: Whether it is to be answered by a job.
-        is_repeatable: Whether it may be sent again when nobody knows whether it was done: it leaves nothing behind, or
+        is_repeatable: Whether it may be sent again when it is not known whether it was done: it stores nothing, or
             the same thing as before.
     """
 

@@ -1,4 +1,4 @@
-"""Jobs: what the service does while nobody waits for it, as objects that know what comes out."""
+"""Jobs, which the service runs in the background, as objects that know their results."""
 
 import functools
 import inspect
@@ -55,7 +55,7 @@ class _Told:
 
 
 class Job(_Told, Generic[A]):
-    """A job that was begun. Iterate over it to see how far it is; ask it for its result.
+    """A job of the service. Iterate over it to see its progress; `result` waits for its result.
 
     As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
 

@@ -16,7 +16,7 @@ def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
     """What has come back, read.
 
     Args:
-        call: What was asked.
+        call: The call that was sent.
         response: All of it.
         url: Of the service.
 

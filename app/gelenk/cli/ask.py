@@ -21,7 +21,7 @@ _BY_FILES = {"add_archive", "replace_archive"}
 
 @cache
 def operations() -> "dict[str, Sent[Any, Any]]":
-    """By name, all that can be asked; loaded when asked for, because it takes seconds."""
+    """All operations by name; loaded on demand, because that takes seconds."""
     from gelenk.calls.call import Sent  # noqa: PLC0415
     from gelenk.calls.operations import Operations  # noqa: PLC0415
 

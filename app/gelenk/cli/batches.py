@@ -24,7 +24,7 @@ _EACH = frozenset(
     {"poses", "frames", "results", "jacobians", "ranks", "singular_values", "condition_numbers"}
     | {"time_variations", "hessians"}
 )
-"""Fields of an answer with an entry a row; what else there is, each call tells the same of, but for the certificate."""
+"""Fields of an answer with one entry a row; all others are the same in each call, except the certificate."""
 _INDEX = re.compile(r"\b(configuration|entry) (\d+)\b|(?<=#/)(joint_positions|targets|seeds)/(\d+)")
 
 
@@ -40,11 +40,11 @@ def in_calls(
         ask: The operation; takes the fields of a request by name.
         body: These fields.
         rows: The name of the field with the rows.
-        progress: Is told how far the batch is, 0 to 1.
+        progress: Called with the finished share of the batch, 0 to 1.
         first: Rows of the first call; the others have as many as are answered in a third of a second.
 
     Raises:
-        Refused: Something is wrong with a row, which is told by its place in the whole batch.
+        Refused: Something is wrong with a row; it is named by its place in the whole batch.
     """
     given = body.get(rows)
     if not isinstance(given, list) or len(given) <= first or "time_limit" in body:  # a limit is the whole batch's

@@ -23,7 +23,7 @@ WORKSPACES = ("cloud", "grid", "dexterity")
 
 _CATALOGUE = Path(os.environ.get("GELENK_CATALOGUE_DIR") or catalogue())
 _PATIENCE = 2.0
-"""[s]; who has pressed a key waits."""
+"""[s]; the user waits for the completion."""
 _LINK = re.compile(r"<link\s[^>]*?name\s*=\s*[\"']([^\"']+)")
 
 

@@ -1,4 +1,4 @@
-"""Commands about jobs that a service does while nobody waits for them."""
+"""Commands about jobs that a service runs in the background."""
 
 from enum import StrEnum
 from typing import Annotated

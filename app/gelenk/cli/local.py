@@ -23,7 +23,7 @@ _Result = TypeVar("_Result")
 
 
 class _Alone(Crew):
-    """No processes: what they would do is done here, in a thread. Who waits is who asked, and may stop it."""
+    """No processes: their work is done here, in a thread, and Ctrl-C stops it."""
 
     def __init__(self) -> None:
         super().__init__(0, sys.maxsize, 0)

@@ -93,7 +93,7 @@ class Output:
                 self._show(rows)
 
     def tell(self, answer: "BaseModel") -> None:
-        """An answer that has no rows: JSON, unless another format is asked for."""
+        """An answer that has no rows: JSON, unless another format is requested."""
         content = answer.model_dump(mode="json", exclude_unset=True)
         rows = Rows(("field", "value"), list(content.items()))
         Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)

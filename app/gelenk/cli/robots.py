@@ -64,7 +64,7 @@ def add(
     tip: TipOption = None,
     replace: Annotated[bool, typer.Option("--replace", help="Replace the uploaded robot of that name.")] = False,
 ) -> None:
-    """Add a robot to the service; without --server it is looked at and forgotten again."""
+    """Add a robot to the service; without --server it is only checked."""
     if not is_file(file):
         raise InvalidField("file", f"there is no file {str(file)!r} that a robot can be in")
     if (base is None) != (tip is None):

@@ -24,7 +24,7 @@ ORIENTATIONS = {
 """Names of columns by notation."""
 AXES = ("x", "y", "z")
 _ANSWERED = {"targets": "poses"}
-"""What an answer calls that which can be asked about next."""
+"""Fields of an answer that the next command takes as input."""
 _PI = re.compile(r"([+-]?)(?:(\d+(?:\.\d*)?)\s*\*?\s*)?pi(?:\s*/\s*(\d+(?:\.\d*)?))?")
 
 

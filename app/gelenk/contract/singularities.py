@@ -12,7 +12,7 @@ from gelenk.kinematics.ik.words import Direction
 from gelenk.kinematics.words import SingularityKind
 
 MAX_REPORTS = 2000
-"""Configurations of a call whose whole report is asked for, as JSON."""
+"""Most configurations of a call with whole reports, as JSON."""
 MAX_PATH = 1000
 """Configurations of a path."""
 MAX_PLACES = 500

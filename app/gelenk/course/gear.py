@@ -39,7 +39,7 @@ class Gear:
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None where not told.
+    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None where not known.
 
     Torques are those that the motor gives to the gear and the gear to the load.
     """
@@ -93,7 +93,7 @@ def sides(
 
 
 def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
-    """Which side drives; where a speed or a torque is not told or zero, the motor, if it pushes at all."""
+    """Which side drives; where a speed or a torque is unknown or zero, the motor, if it pushes at all."""
     if not torque:
         return "none"
     return "load_to_motor" if velocity and (velocity < 0.0) != (torque < 0.0) else "motor_to_load"
@@ -151,7 +151,7 @@ def back_driving_note(gear: Gear) -> str:
 
 
 def gear_steps(gear: Gear, found: Sides, inertia: Inertias | None) -> tuple[Step, ...]:
-    """The worked solution of what was asked."""
+    """The worked solution."""
     N, eta = tex(gear.ratio), tex(gear.efficiency)
     steps = []
     if found.motor_velocity is not None and found.load_velocity is not None:

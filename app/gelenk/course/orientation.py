@@ -5,7 +5,7 @@
   θ < 0, out.
 - RPY, R = Rz(yaw) Ry(pitch) Rx(roll): (r, p, y) and (r + π, π - p, y + π) are the same. At pitch = π/2 only yaw - roll
   is determined, at -π/2 only yaw + roll.
-- Axis and angle: at 0 there is no axis, at π it is determined but for its sign.
+- Axis and angle: at 0 there is no axis, at π it is determined except for its sign.
 - Quaternions: q and -q are the same; the one with scalar part ≥ 0 is chosen, and where that is 0 the one whose first
   other part that is not 0 is positive.
 
@@ -30,7 +30,7 @@ from gelenk.model.notations import (
 )
 
 NEARLY_DEGENERATE = 1e-6
-"""A sine or cosine below which the two outer angles are told apart with less than ten digits."""
+"""A sine or cosine below which the two outer angles are distinguished with less than ten digits."""
 _RECOMPUTED = 1e-12
 
 

@@ -1,7 +1,7 @@
 """Quadrature: the counts and the direction in a sequence of samples of channels A and B.
 
 Forward, A leads B: 00 → 10 → 11 → 01 → 00, written as AB. Between two samples one channel may change. Where both do, a
-sample was missed: the shaft has moved by two quarters of a line, and nobody knows in which direction.
+sample was missed: the shaft has moved by two quarters of a line, in an unknown direction.
 """
 
 import re

@@ -19,13 +19,13 @@ from gelenk.model.arrays import Array
 from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge, quoted
 
 MAX_LINKS = 64
-"""More are not looked at: the decomposition takes the cube of the links."""
+"""Most links: the time of the decomposition grows with their cube."""
 
 _PLANE = [0, 1, 5]
 """Of a twist in the plane: v_x, v_y and ω_z."""
 _DIRECTIONS = 1e-9
 _NOISE = 1e-13
-"""Singular values of no more than this, relative to the largest, are rounding whatever tolerance is asked for."""
+"""Singular values of no more than this, relative to the largest, are rounding whatever tolerance is requested."""
 _ROUNDING = 1e-11
 _NEEDS: dict[str, tuple[str, ...]] = {
     "revolute": ("point", "axis"),
@@ -58,7 +58,7 @@ class Posture:
     Attributes:
         mobility: λ(n - 1) - r.
         redundant: Σc - r, constraints that others imply.
-        output: Freedoms of the link that was asked for.
+        output: Freedoms of the requested link.
         smallest_counted: Smallest singular value of the equations that counts for r; None where r = 0.
         largest_neglected: Largest one that does not; None where all count.
         residual: Largest part of a relative velocity, of the motions that are left, that a pair does not allow.

@@ -2,7 +2,7 @@
 
 Ray's head says for a minute that a machine is there which is not, and sends parts to one that hangs. So it is said here
 where a part goes, and only where something was computed lately: whatever comes back is proof, and a machine of which
-nothing comes is asked to compute a probe, which takes no processor from a part.
+nothing comes gets a probe to compute, which takes no processor from a part.
 """
 
 import hashlib
@@ -30,7 +30,7 @@ SIZE = -1
 _QUIET_SECONDS, _PROBE_SECONDS = 5.0, 12.0
 """After how long without news a machine is probed; and how long that may take, which may be to start a process, [s]."""
 _LIST_SECONDS, _TELL_SECONDS = 5.0, 1.0
-"""How often the machines are listed, and looked at, [s]."""
+"""How often the machines are listed and checked, [s]."""
 
 _ENVIRONMENT = {
     "RAY_USAGE_STATS_ENABLED": "0",
@@ -63,7 +63,7 @@ class _Machine:
 
     @property
     def is_lost(self) -> bool:
-        """Whether nothing came back for so long that its parts are better begun elsewhere."""
+        """Whether it has been silent for so long that its parts should start elsewhere."""
         return time.monotonic() > self.heard + _QUIET_SECONDS + _PROBE_SECONDS
 
     def hear(self) -> None:
@@ -226,7 +226,7 @@ class _Dispatcher:
         return reference
 
     def _ended(self, number: int, reference: Any, error: BaseException | None, result: Any) -> None:
-        """Tell what came of a part, unless its process or machine is to blame: then it is begun again."""
+        """Report the result of a part; if its process or machine failed, start it again."""
         part, lost = self._parts.get(number), self._ray.exceptions
         if part is None or part.reference is not reference:
             return

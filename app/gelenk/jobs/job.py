@@ -58,16 +58,16 @@ class Job:
         kind: What it computes.
         digest: Of the request, which tells whether another one of the same name is the same.
         owner: Which process of the service does it.
-        created: When it was asked for, [s] since 1970.
+        created: When it was submitted, [s] since 1970.
         state: Where it is.
         progress: From 0 to 1.
-        started: When it was begun, [s] since 1970.
+        started: When it was started, [s] since 1970.
         finished: When it came to a final state, likewise.
         failure: Why it failed, where it did.
-        attempts: How often it was begun without getting further than the time before.
+        attempts: How often it was started without getting further than the time before.
         robot_digest: SHA-256 of the description of the robot that it is about.
         number: Its place among all jobs in the order in which they came: clocks are set, also back.
-        client: The client that requested it; empty where clients are not told apart.
+        client: The client that requested it; empty where clients are not distinguished.
     """
 
     id: str

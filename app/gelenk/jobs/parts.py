@@ -1,6 +1,6 @@
 """The finished parts of a job, beside its request in its folder: what it need not do again after a restart.
 
-A part is one file, in whose name stands what was asked for: a process that still computes one of a job that was removed
+A part is one file, whose name has a digest of the request: a process that still computes one of a job that was removed
 leaves it to no other job of that name. It has a digest before its content, written beside and renamed: a kill at any
 moment leaves all of it or nothing. It is not synced, which would cost more than many a part; where the machine itself
 has lost one, or a half of it, the digest tells, and the part is computed again.

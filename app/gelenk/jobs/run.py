@@ -41,7 +41,7 @@ class Executor(Protocol):
         """Be ready for parts, if that is possible now."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Have a part done; see `Workers.submit`. One that is cancelled is not begun, or is ended."""
+        """Compute a part; see `Workers.submit`. A cancelled part is not started, or is ended."""
 
     def close(self) -> None:
         """End whatever is under way; later parts are refused."""
@@ -52,9 +52,9 @@ class Run:
     """A job while it is done: hands out its parts, and says how far they are.
 
     Attributes:
-        job: As it was when it was begun.
+        job: As it was when it was started.
         order: What its parts have in common.
-        executor: Who does them.
+        executor: Computes them.
         workers: The processes of this machine.
         shelf: Where the job is kept.
         parts: Those that are finished.
@@ -173,6 +173,6 @@ class Run:
             raise OutOfTime
 
     def _news(self) -> dict[str, Any]:
-        """What has changed since the job was begun; once it gets further, the times before do not count."""
+        """What has changed since the job was started; once it gets further, the times before do not count."""
         further = {"attempts": 1} if self._is_further else {}
         return {"progress": max(self._progress, self.job.progress), **further}

@@ -27,13 +27,13 @@ from gelenk.processes.turns import Turns
 
 _RENDERING_SECONDS = 60.0
 _LOOK_SECONDS = 0.5
-"""How often is looked whether a job that waits for clients who have left may begin, [s]."""
+"""How often to check whether a job may start that waited for clients who have left, [s]."""
 _GOODBYE_SECONDS = 2.0
 """How long the jobs' threads are waited for at the end, [s]."""
 _LOOK_FOR_LEFT = 5.0
 """How often the jobs of processes that are gone are looked for, [s]."""
 _ATTEMPTS = 3
-"""How often a job is begun without getting further: one that brings the service down does so no more than that."""
+"""How often a job is started without progress: one that brings the service down does so at most this often."""
 
 logger = logging.getLogger("gelenk")
 
@@ -52,9 +52,9 @@ class Runner:
         kinds: What does a job, by its kind.
         workers: Processes of this machine, which put results together and draw pictures of them.
         running: How many jobs are done at a time; see `Turns` for when there are more.
-        seconds: How long a job may take from when it is begun.
-        executor: Who computes their parts; the processes of this machine if left out.
-        is_local: Whether these do so too where nobody else does; jobs wait otherwise.
+        seconds: How long a job may take from when it is started.
+        executor: Computes their parts; the processes of this machine if left out.
+        is_local: Whether these compute if the executor is lost; jobs wait otherwise.
     """
 
     def __init__(
@@ -293,7 +293,7 @@ class Runner:
                 self.shelf.clear(job)
 
     def _postpone(self, job: Job, reason: Unavailable) -> None:
-        """Put a job back: nobody computes what is left of it."""
+        """Put a job back into the queue: its remaining parts cannot be computed now."""
         logger.warning("job %s %s: %s", job.id, "continues here" if self._is_local else "waits", reason)
         self._leave(job)
         if self._is_local:

@@ -1,7 +1,7 @@
 """Jobs as folders, which every process of the service reads and writes.
 
 What stands in a folder's `job.json` is the truth: a process that cancels a job writes so there, and the one that does
-it finds that out at its next step. Beside it stands what was asked for, and what is finished of it. Each process of the
+it finds that out at its next step. Beside it are the request and the finished parts. Each process of the
 service holds a locked file as long as it lives; a job whose process is gone waits until another one takes it up.
 """
 
@@ -30,7 +30,7 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _OWNERS = ".owners"
 _REQUEST = "request"
 _SURE_SECONDS = 24 * 3600.0
-"""How long a job must have seemed to be too old, by a clock that nobody sets, before it is removed for that, [s]."""
+"""How long a job must have seemed to be too old, by a clock that cannot be set, before it is removed for that, [s]."""
 _AT_REST = 60.0
 """How long a job must be over before others than the process that did it put its folder in order, [s]."""
 _PAUSE = 5
@@ -92,12 +92,12 @@ class Shelf:
     ) -> tuple[Job, bool]:
         """A new job, or the existing one with the same name and request.
 
-        One that was given up because its service ended again and again begins anew.
+        One that was given up because its service kept ending starts afresh.
 
         Args:
             kind: What it computes.
             digest: Of the request.
-            request: What is asked for: files of the job's folder, from which it can be done at any time.
+            request: Files of the job's folder, from which it can be done at any time.
             job_id: Its name; one is made up if left out.
             client: The client that requests it.
 
@@ -180,7 +180,7 @@ class Shelf:
         return self._as_it_is(job)
 
     def begin(self, job: Job) -> Job:
-        """Count that a job is begun, on disk before this returns; a finished one stays as it is.
+        """Count that a job is started, on disk before this returns; a finished one stays as it is.
 
         Raises:
             UnknownJob: It was removed meanwhile, or is another process's.
@@ -221,7 +221,7 @@ class Shelf:
         return job
 
     def write(self, job_id: str, name: str, content: Callable[[IO[bytes]], object]) -> None:
-        """Write a result; on disk when this returns, and read by nobody before the job says that it has succeeded.
+        """Write a result; on disk when this returns, and not read before the job has the state `succeeded`.
 
         Raises:
             UnknownJob: The job was removed meanwhile.

@@ -27,7 +27,7 @@ _IDLE = 300.0
 _NICENESS = 10
 """Requests whose client waits go first, before the crew too."""
 ATTEMPTS = 3
-"""How often a part is begun whose process dies, which may be no fault of it."""
+"""How often a part is started whose process dies, which may not be the part's fault."""
 DIED = f"its process died {ATTEMPTS} times, the limit; possibly out of memory"
 
 
@@ -190,7 +190,7 @@ class _Seat(threading.Thread):
 
         Args:
             order: The job.
-            unwanted: Since when it has been seen to be cancelled; None before a part is begun.
+            unwanted: Since when it has been seen to be cancelled; None before a part is started.
         """
         late = time.monotonic() > order.until
         cancelled = order.cancelled.is_set() and (unwanted is None or time.monotonic() > unwanted + _GRACE)

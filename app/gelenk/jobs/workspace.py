@@ -53,7 +53,7 @@ class Question:
         name: The robot's.
         description: The robot.
         chain: Base and tip.
-        wish: What is asked of it.
+        wish: The requested options.
         plan: How the samples are computed.
         asked: The orientations of a dexterity map.
         excluded: Why the chain can take all of these in no region; see `dexterity.excluded`.
@@ -82,7 +82,7 @@ def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, coun
         name: The robot's.
         robot: The robot.
         chain: Base and tip.
-        wish: What is asked.
+        wish: The requested options.
         over: Of a dexterity map, which orientations.
         count: How many of them.
 
@@ -267,7 +267,7 @@ class _Arm:
         lower: Bounds of the variables; shape (n,), [rad or m].
         upper: Likewise.
         sampling: The configurations that have come to the voxels.
-        orientations: What is asked for.
+        orientations: The requested set.
     """
 
     description: Description

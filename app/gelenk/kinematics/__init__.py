@@ -21,6 +21,6 @@
 - `compare`: does a DH table describe a chain, and if not, where is it wrong; `comparison` holds its parts.
 - `derive`: the worked solution of a DH table, in symbols and in numbers.
 - `certify`: the same numbers through Pinocchio, and how far the two are apart.
-- `warm`: all of it once, so that nobody waits for a compiler.
+- `warm`: all of it once, so that no request waits for a compiler.
 - `configuration`: configurations as callers give them → one array in the chain's order.
 """

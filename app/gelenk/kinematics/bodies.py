@@ -159,7 +159,7 @@ class Motions:
         inertias: About these; shape (N, B, 3, 3), [kg m²].
         linear: J_v of the centres; shape (N, B, 3, n).
         angular: J_ω; shape (N, B, 3, n).
-        speeds: q̇; shape (N, n), where rates were asked for.
+        speeds: q̇; shape (N, n), where rates were requested.
         linear_rates: J̇_v at q̇; shape (N, B, 3, n).
         angular_rates: J̇_ω at q̇; shape (N, B, 3, n).
     """

@@ -57,7 +57,7 @@ class JacobianCertificate:
     Attributes:
         samples: Configurations that were recomputed through Pinocchio.
         max_error: Largest difference of an entry of the geometric Jacobian, [m, rad per rad or m].
-        max_time_variation_error: The same of J̇, where derivatives were asked for.
+        max_time_variation_error: The same of J̇, where derivatives were requested.
         seed: Of the choice of samples.
     """
 

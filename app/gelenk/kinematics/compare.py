@@ -275,7 +275,7 @@ def _plain_notes(table: DhTable, placement: Placement, freedom: Freedom) -> list
 
 
 def _notes(on: Subject, unverified: tuple[Unverified, ...]) -> list[str]:
-    """Parameters that cannot be told apart."""
+    """Parameters that cannot be distinguished."""
     notes = []
     if unverified:
         by = {each.absorbed_by for each in unverified}

@@ -1,4 +1,4 @@
-"""How many of a set of orientations a chain can take at a position, asked of inverse kinematics.
+"""How many of a set of orientations a chain can take at a position, by inverse kinematics.
 
 The set is spread evenly and always the same: over all rotations, over all directions of the tip's z axis, or over the
 turns about the one axis that a planar arm or a SCARA has.
@@ -32,7 +32,7 @@ _ITERATIONS = 1280
 
 @dataclass(frozen=True, slots=True)
 class Orientations:
-    """Which orientations are asked for.
+    """The requested orientations.
 
     Attributes:
         spread: Over what they are spread; `fixed` where the tip never turns.
@@ -46,9 +46,9 @@ class Orientations:
 
 
 def orientations(chain: Chain, motion: Motion, over: Over, count: int) -> Orientations:
-    """Orientations for a chain, as many as are asked for; one where the tip never turns.
+    """As many orientations for a chain as requested; one where the tip never turns.
 
-    Of a chain that turns about one direction only, these turns of the tip; else what is asked for.
+    Of a chain that turns about one direction only, these turns of the tip; else the requested set.
     """
     axes, rank = motion.turning
     own = chain_poses(chain.flat, mid_range(chain)[None])[1]
@@ -120,7 +120,7 @@ def shares(robot: Robot, chain: Chain, positions: Array, seeds: Array, asked: Or
         chain: The chain.
         positions: Of the tip, in the base; shape (M, 3), [m].
         seeds: For each a configuration to begin from; shape (M, n), [rad or m].
-        asked: The orientations.
+        asked: The requested orientations.
 
     Returns:
         Shape (M,), from 0 to 1.

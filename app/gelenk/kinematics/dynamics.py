@@ -25,7 +25,7 @@ TERMS: tuple[Term, ...] = ("mass_matrix", "coriolis_matrix", "coriolis_torques",
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Dynamics:
-    """What was asked for at N configurations; None where it was not.
+    """The requested terms at N configurations; None for others.
 
     Attributes:
         mass_matrices: M; shape (N, n, n).
@@ -110,7 +110,7 @@ class _Computation:
         self.found, self.state, self.by = found, state, by
 
     def terms(self, terms: Collection[Term]) -> dict[str, Array]:
-        """The terms that are asked for, by the names of `Dynamics`."""
+        """The requested terms, by the names of `Dynamics`."""
         n, by = len(self.found.chain), self.by
         found: dict[str, Array] = {}
         if "mass_matrix" in terms:

@@ -19,7 +19,7 @@ class ForwardKinematics:
 
     Attributes:
         poses: T_base_tip, N of them.
-        frames: T_base_frame of each frame that was asked for, N of them each.
+        frames: T_base_frame of each requested frame, N of them each.
         certificate: How far Pinocchio's are from all of these.
     """
 

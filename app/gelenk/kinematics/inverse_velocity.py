@@ -44,7 +44,7 @@ class InverseMotion:
 
     Attributes:
         inversion: Solutions, with what became of each equation.
-        residuals: What was asked for less what the tip does, of the directions that count; shape (N, k), [m/s, rad/s],
+        residuals: Requested motion minus the tip's, in the directions that count; shape (N, k), [m/s, rad/s],
             or by s² or s³; through Pinocchio.
         motion: What the tip does, in the chosen reference.
     """

@@ -32,7 +32,7 @@ class Jacobians:
     Attributes:
         poses: T_base_tip.
         values: J; shape (N, 6, n), [m or rad per rad or m].
-        hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n), where asked for.
+        hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n), if requested.
         certificate: How far Pinocchio's geometric Jacobian and its time variation are from these.
     """
 

@@ -32,7 +32,7 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class DynamicsCertificate:
-    """How good an answer is: Pinocchio's numbers against sums over the bodies; None where not asked for.
+    """How good an answer is: Pinocchio's numbers against sums over the bodies; None where not requested.
 
     Attributes:
         samples: Configurations that were recomputed.

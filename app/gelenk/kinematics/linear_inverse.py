@@ -188,7 +188,7 @@ def invert(
 
 
 def _dampings(parts: Decomposition, rule: Rule) -> Array:
-    """λ of each configuration before velocity limits are looked at; shape (N,)."""
+    """λ of each configuration before velocity limits count; shape (N,)."""
     count = len(parts.sigmas)
     if rule.inverse != "damped" or parts.sigmas.shape[1] == 0:
         return np.zeros(count)

@@ -80,7 +80,7 @@ class Ellipsoids:
         sigmas: Semi-axes of the velocity ellipsoids, largest first, exactly 0 where they vanish; shape (N, d).
         axes: Principal axes of both ellipsoids as unit columns in `space.rows`; shape (N, k, d).
         gradients: Of Yoshikawa's measure by each variable, NaN where the measure vanishes and has a kink; shape
-            (N, n), where asked for.
+            (N, n), if requested.
     """
 
     space: Space

@@ -76,7 +76,7 @@ def singularity_report(
     """What is lost at a configuration.
 
     Where a redundant arm is singular, the directions and motions that it loses or gains there are those that it regains
-    or gives up fastest when it moves on; the others are told apart from them as what it lacks or has everywhere.
+    or gives up fastest when it moves on; the others are what it lacks or has everywhere.
 
     Args:
         chain: Base and tip.

@@ -40,7 +40,7 @@ class NearestSingularity:
         q: The configuration; shape (n,), [rad or m].
         distance: Norm of the joint motion that leads there, [rad and m].
         joints: Indices of the joints that move.
-        sigma: The smallest singular value there, zero but for rounding.
+        sigma: The smallest singular value there, zero up to rounding.
     """
 
     q: Array

@@ -2,7 +2,7 @@
 
 The determinant of an arm that can be solved in closed form is a product, and each factor vanishes for a reason of its
 own: two axes of the wrist fall on one line; the wrist, the elbow and the shoulder are in line; the wrist stands where
-the first joint cannot move it out of the plane of the arm. Which arms these are is told from their axes at random
+the first joint cannot move it out of the plane of the arm. Such arms are recognised by their axes at random
 configurations; other arms have no such names, or some of their singularities have none.
 """
 
@@ -88,7 +88,7 @@ def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float
 
 @lru_cache(maxsize=1024)
 def _factors(chain: Chain, task: Task, reference: Reference) -> Factors | None:
-    """How the singularities of a chain are told apart; None where they are not."""
+    """How the singularities of a chain are distinguished; None where they are not."""
     flat = chain.flat
     own = len(flat.joints) == len(chain) and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
     if not own or len(chain) == 0:

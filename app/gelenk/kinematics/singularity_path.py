@@ -1,6 +1,6 @@
 """Where a path of configurations passes singular ones, or comes near to them.
 
-The path leads straight from each configuration to the next in the joints. It is looked at in steps of a few
+The path leads straight from each configuration to the next in the joints. It is examined in steps of a few
 hundredths of a radian; each minimum of the smallest singular value is then followed to its bottom, by sections and, as
 the value has a kink where it is zero, by Gauss-Newton steps on the block of the Jacobian that vanishes there.
 """
@@ -140,7 +140,7 @@ class _Line:
 
 
 def _stations(qs: Array) -> Array:
-    """Where the path is looked at, its configurations among them; shape (k,)."""
+    """Where the path is examined, its configurations among them; shape (k,)."""
     strides = np.abs(np.diff(qs, axis=0)).max(axis=1, initial=0.0)
     counts = np.clip(np.ceil(strides / _STEP), 1, _MOST_STATIONS).astype(int)
     parts = [i + np.arange(count) / count for i, count in enumerate(counts)]

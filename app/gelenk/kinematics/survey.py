@@ -162,7 +162,7 @@ class Survey:
         return Measures(least, total / self._count, most, position, q[0])
 
     def _certificate(self, robot: Robot, chain: Chain) -> SurveyCertificate:
-        """Samples spread over all of them, computed anew and compared with what was counted, and with Pinocchio's."""
+        """Samples spread over all of them, recomputed and compared with what was counted, and with Pinocchio's."""
         plan, total = self._plan, self._plan.sampling.count
         numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
         qs = plan.sampling.chosen(numbers)

@@ -1,7 +1,7 @@
 """The space in which a task moves the tip: the rows of the Jacobian that count, and what a chain can do in them.
 
 A direction can be missing because the arm never has it (a planar arm, or fewer joints than directions) or because it
-is lost at one configuration. The two are told apart by the structure of the chain: what it can do at random
+is lost at one configuration. The two are distinguished by the structure of the chain: what it can do at random
 configurations, which are almost surely regular.
 """
 

@@ -35,7 +35,7 @@ class TipMotion:
 
     Attributes:
         poses: T_base_tip.
-        derivatives: Twist, acceleration, jerk, snap, as many as were asked for, each of shape (N, 6), [m/sᵏ, rad/sᵏ].
+        derivatives: Twist, acceleration, jerk, snap, as many as were requested, each of shape (N, 6), [m/sᵏ, rad/sᵏ].
         spatial_accelerations: Where there is an acceleration; shape (N, 6), [m/s², rad/s²].
         jacobians: J, J̇, J̈, J⃛ of `local_world_aligned`, one fewer than derivatives, and at least J; (k, N, 6, n).
         certificate: How far Pinocchio's are from these.

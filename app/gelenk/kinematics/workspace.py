@@ -1,7 +1,7 @@
 """The workspace of any chain, by samples of its joint space within the limits.
 
 A `Plan` holds all that a part of the samples is computed from, so that parts may go to any number of processes. What
-of the tip's positions is asked for, a cloud or cells of a grid, is gathered part by part; `Survey` puts the parts
+of the tip's positions is requested, a cloud or cells of a grid, is gathered part by part; `Survey` puts the parts
 together.
 """
 
@@ -26,7 +26,7 @@ PART = 65_536
 """Samples that are computed at once: some hundredths of a second."""
 
 _CELLS = {"cloud": 40, "grid": 40, "dexterity": 14}
-"""Cells along the longest side where nobody says how large they are."""
+"""Cells along the longest side, unless their size is given."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class Plane:
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """What is asked of a workspace.
+    """The request for a workspace.
 
     Attributes:
         kind: What the result is an array of.
@@ -147,10 +147,10 @@ def plan(chain: Chain, wish: Wish) -> tuple[Plan, Motion]:
 
 
 def _grid(motion: Motion, wish: Wish) -> Grid:
-    """Cells in space, or in the plane that is asked for or that the tip keeps to.
+    """Cells in space, or in the plane that is requested or that the tip stays in.
 
     Raises:
-        InvalidField: So many along an axis that they cannot be told apart.
+        InvalidField: So many along an axis that they cannot be distinguished.
     """
     if wish.plane is not None and motion.dimensions:
         origin, axes, dimensions = wish.plane.origin, plane_axes(wish.plane.normal), 2

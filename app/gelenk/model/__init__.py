@@ -8,7 +8,7 @@
 - `chain`: base → tip as flat arrays for the kernels.
 - `convert`: DH table → URDF; standard ↔ modified.
 - `dh_from_chain`: chain → DH table, by the geometry of its axes.
-- `appearance`: bodies of a table's links, to be looked at and weighed; `skeleton`: of links without any.
+- `appearance`: bodies of a table's links, for display and mass; `skeleton`: of links without any.
 - `origins`: transforms as URDF writes them.
 - `robot`: description, chains and the Pinocchio model together.
 """

@@ -1,6 +1,6 @@
 """What the links of a table look like and weigh: simple solids along its lengths, each of some kilograms a metre.
 
-A table says nothing about bodies. So that its robot can be looked at and moved by a simulator, each link gets thin
+A table says nothing about bodies. So that its robot can be seen and moved by a simulator, each link gets thin
 cylinders along its d (the joint's axis) and its a (the common normal), a thicker short one where a joint turns and a
 box where one slides. Lengths that are zero leave nothing. The inertia is that of these solids, which is therefore one
 that a body can have: positive definite, and within the triangle inequality.
@@ -73,7 +73,7 @@ class Solid:
         return inertia
 
     def shape(self) -> Shape:
-        """To be looked at."""
+        """For display."""
         T = np.eye(4)
         T[:3, :3], T[:3, 3] = self.rotation, self.centre
         return Shape("visual", origin_of(T), "box" if self.kind == "box" else "cylinder", self.size)

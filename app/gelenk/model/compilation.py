@@ -24,7 +24,7 @@ _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
 def _kernel_digest() -> str:
     """What tells one state of the kernels' sources from another: those with kernels, and all that these import.
 
-    The errors are left out: kernels raise none, and new ones are no reason to compile all anew.
+    The errors are left out: kernels raise none, and new ones are no reason to recompile.
     """
     package = Path(__file__).parents[1]
     texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}

@@ -6,7 +6,7 @@ frame, which for a standard table is z_{i-1}. So link i carries joint i's motion
 
     base → (base transform) → frame_0 → joint 1 → link_1 → joint 2 → … → link_n → (tool transform) → tool
 
-with the DH frames `frame_1 … frame_n` fixed to their links, so that each T_0_i of the table can be asked for. A joint
+with the DH frames `frame_1 … frame_n` fixed to their links, so that each T_0_i of the table can be computed. A joint
 that rows follow and that is no row itself moves a small link of its own beside the chain, `leader_1, leader_2, …`.
 """
 

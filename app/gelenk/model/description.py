@@ -38,7 +38,7 @@ class Inertial:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A geometry of a link, to be looked at or collided with.
+    """A geometry of a link, for display or collision.
 
     Attributes:
         role: What it is for.

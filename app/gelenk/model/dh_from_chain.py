@@ -20,7 +20,7 @@ What the convention leaves free is chosen so:
   previous origin.
 - The tip's z axis is treated as the axis of a further joint, so that the tool is as simple as can be.
 
-A table is exact but for rounding. Nearly parallel axes have their common normal far away; where it is too far to be
+A table is exact except for rounding. Nearly parallel axes have their common normal far away; where it is too far to be
 read, they are taken as parallel if the caller allows that for their tilt. A snap tolerance makes what is nearly
 parallel, square or zero exactly so, as a person would write the table.
 """
@@ -49,7 +49,7 @@ _DIGITS = 12
 _SQUARE = 1e-4
 """Tilt of the tip's z against the last axis below which the tool takes it up: the normal could be far away."""
 _STEEP = 1e-2
-"""Tilt [rad] beyond which nobody would call axes parallel."""
+"""Largest tilt [rad] of axes that may count as parallel."""
 _TIE = 1e-9
 """How near to ±π/2 both directions of x count as equally good."""
 

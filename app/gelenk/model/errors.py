@@ -13,7 +13,7 @@
     │   ├── WrongJointCount          a configuration with too many or too few numbers
     │   ├── MissingJoint             a configuration by name that leaves a joint out
     │   ├── UnknownJoint             a configuration by name with a joint that the robot does not have
-    │   ├── OutsideLimits            a configuration beyond a joint's limits, where asked to respect them
+    │   ├── OutsideLimits            a configuration beyond a joint's limits, where the call respects them
     │   ├── UnsupportedJoint         a chain across a floating or planar joint
     │   ├── FrameNotOnChain          a frame that moves with joints the chain does not have
     │   └── RepresentationSingularity  Euler angles without a rate at this orientation
@@ -284,7 +284,7 @@ class UnknownJoint(InvalidInput):
 
 @dataclass(eq=False)
 class OutsideLimits(InvalidInput):
-    """A configuration lies beyond a joint's limits, and the call asked to respect them."""
+    """A configuration lies beyond a joint's limits, and the call respects them."""
 
     joint: str
     value: float

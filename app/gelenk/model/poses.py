@@ -40,7 +40,7 @@ class Poses:
 
 
 def nearest_rotation(matrix: Array) -> Array:
-    """The rotation nearest to a matrix that is one but for rounding; shape (3, 3) → (3, 3).
+    """The rotation nearest to a matrix that is one except for rounding; shape (3, 3) → (3, 3).
 
     What a double cannot tell from a rotation comes back as it is, so that a rotation that was sent returns unchanged.
 
@@ -64,7 +64,7 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def unit_quaternion(quaternion: Array) -> Array:
-    """The unit quaternion next to one that has length 1 but for rounding; shape (4,) → (4,), any order.
+    """The unit quaternion next to one that has length 1 except for rounding; shape (4,) → (4,), any order.
 
     Raises:
         InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.

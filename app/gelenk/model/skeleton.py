@@ -7,7 +7,7 @@ from gelenk.model.appearance import Solid, Stock
 from gelenk.model.description import MOVABLE, Description, Joint, Link
 
 _THICKNESS = 0.06
-"""Of a rod, half that of a body: what moves is to be seen, and nobody to take it for the robot's own shape."""
+"""Of a rod, half that of a body: motion must be visible, but not look like the robot's own shape."""
 
 
 def skeleton(description: Description, without: Container[str]) -> dict[str, list[Solid]]:

@@ -38,7 +38,7 @@ class Planned:
         end_rates: The same at the end.
         continuity: Order of the highest derivative that is continuous at the joins.
         title: Of a picture.
-        told: What the answer contains besides the motion, from its peaks.
+        told: Further fields of the answer, from the motion's peaks.
         passed: Points that a picture marks instead of the knots: those that are passed nearby; shapes (K,) and (K, n).
     """
 

@@ -96,7 +96,7 @@ class Planned:
         robot: The robot.
         chain: Base and tip.
         call: As requested.
-        question: What the core was asked.
+        question: The problem given to the core.
         found: What came of it.
         bounds: Limits of the answer's size.
     """

@@ -50,7 +50,7 @@ class Asked:
 
 
 def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
-    """What the core is asked.
+    """The problem for the core.
 
     Raises:
         InvalidInput: The field, and what is wrong with it.

@@ -6,5 +6,5 @@
 - `ellipsoids`: the arm with the velocity and force ellipse at its tip.
 - `workspace`: what an arm reaches, along the axes, coloured by how well.
 
-Loading matplotlib takes a third of a second, so whoever needs a picture imports these modules when it is asked for.
+Loading matplotlib takes a third of a second, so these modules are imported only when a picture is requested.
 """

@@ -60,7 +60,7 @@ class Asked:
     Attributes:
         directions: Unit vectors; shape (D, 3).
         tolerance: Of the force along one that is unbounded.
-        limited: What the joints can do within their limits, where polytopes were asked for.
+        limited: What the joints can do within their limits, where polytopes were requested.
     """
 
     directions: Array
@@ -108,7 +108,7 @@ def manipulability_picture(
         translation: Ellipsoids of translation at this configuration alone, in the base's axes; None where the task has
             no direction of it.
         kind: What the bytes are.
-        asked: What else is to be seen.
+        asked: Further parts of the picture.
     """
     arm = arm_line(chain, q)
     extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)

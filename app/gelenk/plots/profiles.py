@@ -166,7 +166,7 @@ def _limit(axes: Axes, lines: Lines, which: int) -> None:
 
 
 def _bounds(limits: Array) -> list[tuple[Array, str]]:
-    """Limits over time and their colours, each once; one that joints share is nobody's; shape (K, n) → (K,) each."""
+    """Limits over time and their colours, each once; a shared one has its own; shape (K, n) → (K,) each."""
     found, joints, counts = np.unique(limits, axis=1, return_index=True, return_counts=True)
     return [
         (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else QUIET)

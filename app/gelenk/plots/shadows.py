@@ -109,7 +109,7 @@ class Outline:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A direction in which ratios were asked for.
+    """A direction in which ratios were requested.
 
     Attributes:
         number: From 1.

@@ -196,7 +196,7 @@ def _corners(points: Array) -> tuple[Array, Array]:
 
 
 def _is_one_place(points: Array) -> bool:
-    """Whether all points are one, but for rounding."""
+    """Whether all points are one, except for rounding."""
     if not len(points):
         return False
     return bool(np.ptp(points, axis=0).max() <= _ROUNDING * np.abs(points).max())

@@ -1,4 +1,4 @@
-"""The process that others are copies of: it loads everything once, copies itself when asked, and does nothing else.
+"""The process that others are copies of: it loads everything once, copies itself on request, and does nothing else.
 
 Requests come over a socket that its parent and each of its copies hold. A request brings two sockets: the connection to
 the copy, and its lifeline, which first carries the copy's process id and at last its exit code. The requester holds the

@@ -5,5 +5,5 @@
 - `meshes`: which file a mesh's name means.
 - `records`: a robot's folder, read: what it is, where its files are.
 - `index`: what the list of robots and the quotas need of each uploaded one, in one file.
-- `library`: all robots by name; loaded once, and anew when their folder has changed.
+- `library`: all robots by name; loaded once, and again when their folder has changed.
 """

@@ -1,8 +1,8 @@
-"""What the list of robots and the quotas need of each uploaded robot, in one file: nobody reads ten thousand for it.
+"""What the list of robots and the quotas need of each uploaded robot, in one file instead of ten thousand.
 
 The folders are what counts, and the file is derived from them. Who writes a robot, or reads one that the file does not
 know as it is, appends a line; the last one of a name counts, and what is no line is passed over. Which robots there
-are the folder itself says. What was lost with a killed process, or edited by hand, is found when it is looked at again.
+are the folder itself says. What was lost with a killed process, or edited by hand, is found when it is examined again.
 """
 
 import os
@@ -76,7 +76,7 @@ class Index:
         Folders that are not robots are left out.
 
         Args:
-            looked_at: Of how many known ones it is asked whether they have been edited; None for all. The next list
+            looked_at: How many known ones are checked for edits; None for all. The next list
                 goes on from there.
         """
         with self._lock:

@@ -66,7 +66,7 @@ class RobotUpload:
         default_chain: Chain of calls that name none.
         meshes: What mesh files hold, by relative path.
         urdf_folder: Where the URDF stood among them.
-        strict: Whether a URDF with harmless faults is refused; asked when it comes, and not kept.
+        strict: Whether a URDF with harmless faults is refused; not stored.
         owner: Which client keeps it, counted against its quota.
     """
 
@@ -332,7 +332,7 @@ class Library:
                     path.rename(aside / uuid.uuid4().hex)
 
     def _writable(self, name: str) -> Path:
-        """The folder of an uploaded robot; asked before the lock, which makes the root, and again while holding it."""
+        """The folder of an uploaded robot; checked before the lock is taken, and again while it is held."""
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
         folder = self.uploads / name

@@ -1,6 +1,6 @@
 """Which file a mesh's name in a description means, and how an archive's files are named on disk.
 
-Nobody knows from which folder on a package was packed: the file counts whose path has the same end as the name.
+It is not known from which folder on a package was packed: the file counts whose path has the same end as the name.
 """
 
 import os.path

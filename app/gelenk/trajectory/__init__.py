@@ -18,7 +18,7 @@
 - `timing`: the time that joints take along a way, by `way_laws` and `s_curves` or time-optimally, under limits of
   joints and tip (`way_geometry`, `way_peaks`, `tip_rows`); `chain_laws` give each of several blended lines its speed;
   `composition` makes one polynomial of way and law; `passing_times` is the law of given times.
-- `problem`: what is asked of a trajectory and what comes of it, in `words`; `plan` joins its `parts`: `joint_part`, and
+- `problem`: the request for a trajectory and its result, in `words`; `plan` joins its `parts`: `joint_part`, and
   `tip_part` along `ways`; `whole_audit` joins their judgements.
 - `audit`: a motion judged by code that shares nothing with what planned it: `audit_pieces` of the joints, `audit_tip`
   of the tip, both between samples too by `audit_peaks`; what it has to keep to are `audit_demands`.

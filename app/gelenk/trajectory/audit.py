@@ -94,7 +94,7 @@ class Audit:
         jerk: Likewise; where acceleration jumps it is infinite, which `jumps` tells and this does not.
         jumps: The largest jump of position, velocity, acceleration and jerk where pieces meet.
         limit_margin: None where no joint has limits.
-        ends: Largest error of a joint at each end that is asked for, by name, [rad or m per sᵏ].
+        ends: Largest error of a joint at each end that is requested, by name, [rad or m per sᵏ].
         tip: Largest speed, angular speed, acceleration and angular acceleration, [m/s, rad/s, m/s², rad/s²].
         path_deviation: Largest distance from the path wanted, [m]; None without one.
         orientation_deviation: Largest angle from it, [rad].

@@ -1,7 +1,7 @@
 """How high a function gets between samples of it: parabolas through three of them, each time nearer to each other.
 
 Where the function is smooth three rounds find its peak to the last digits. Where it has a kink, as a singular value has
-at zero, the parabola tells little; the evenly spread places of each round cut what is looked at to a quarter then.
+at zero, the parabola tells little; the evenly spread places of each round reduce the interval to a quarter then.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ Values: TypeAlias = Callable[[Array], Array]
 """Of C functions at P places each: shape (C, P) both."""
 
 MOST = 16
-"""Triples of samples of one function that are looked at closely."""
+"""Triples of samples of one function that are examined closely."""
 _ROUNDS = 8
 _BEYOND = 0.125
 """Share of an interval by which a parabola may put a peak beyond the interval in which it is."""
@@ -82,7 +82,7 @@ def promising(places: Array, values: Array, rows: Indices, exact: Array) -> tupl
         places: Increasing around each of the rows; shape (N,).
         values: Of Q functions; shape (N, Q).
         rows: Samples whose neighbours belong to the same stretch of the functions; shape (K,).
-        exact: By how much less than this a peak may be higher without being looked at; shape (Q,).
+        exact: By how much less than this a peak may be higher without being examined; shape (Q,).
 
     Returns:
         Rows and columns of at most `MOST` of each function; shape (C,) each.

@@ -1,7 +1,7 @@
 """What the tip does while the joints move: speeds, accelerations, distance from the path, nearness to a singularity.
 
 Everything is sampled densely, both ends of each piece among the samples, and where parabolas through these reach higher
-looked at more closely. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
+examined more closely. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
 """
 
 from collections.abc import Callable
@@ -79,7 +79,7 @@ def tip_peaks(
 ) -> dict[str, Largest]:
     """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad].
 
-    Of the path only the directions of the task count; `least` samples are looked at.
+    Of the path only the directions of the task count; `least` samples are examined.
     """
     names = QUANTITIES if path is not None else QUANTITIES[:4]
 

@@ -54,7 +54,7 @@ def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
 
     Raises:
         InvalidField: A leg is too short to reach or leave its speed before the blend begins or after it has ended; or
-            a ramp or the blend is so short beside the whole that the times of its ends cannot be told apart.
+            a ramp or the blend is too short beside the whole to distinguish the times of its ends.
     """
     corner = blend.corner
     ramps = corner.speed_before / acceleration, corner.speed_after / acceleration

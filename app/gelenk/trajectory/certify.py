@@ -1,6 +1,6 @@
 """A second way to what is said of a motion: its ends, its knots, its joins and its peaks.
 
-Everything is computed anew from Bézier control points, whose differences are the derivatives at the ends of a piece
+Everything is recomputed from Bézier control points, whose differences are the derivatives at the ends of a piece
 and whose repeated means (de Casteljau's) are the values within. Nothing of how motions are evaluated, derived or
 searched for extremes elsewhere is used.
 """

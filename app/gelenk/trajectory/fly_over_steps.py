@@ -15,7 +15,7 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
         blend: What came out.
         given: What determined it.
         value: Of that.
-        whole: The motion around it, where it is asked for.
+        whole: The motion around it, if requested.
     """
     steps = [_directions(blend), _time(blend, given, value), _ends(blend), _parabola(blend), _closest(blend)]
     if whole is not None:

@@ -116,7 +116,7 @@ class Course:
         return Knot(s, q, dq[0], ddq, float(sigmas[0, -1]), right[0], float(np.sqrt(np.sum(dJ * dJ))))
 
     def first_knot(self, s: float, at: PathSamples, q: Array) -> Knot:
-        """The knot at a configuration that is on the way but for a little."""
+        """The knot at a configuration that is nearly on the path."""
         rows = task_rows(self.chain, self.task, at, q[None])
         offset = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)
         return replace(self.knot(s, at, q), offset=float(np.abs(offset).max()))

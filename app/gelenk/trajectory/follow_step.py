@@ -21,7 +21,7 @@ _QUINTIC = hermite_pieces(np.eye(6)[:3, None], np.eye(6)[3:, None], np.ones(1))[
 _BERNSTEIN = np.array([[comb(i, k) / comb(5, k) for k in range(6)] for i in range(6)])
 """Bernstein coefficients from powers: a quintic stays between the least and the largest of them."""
 INNER = np.arange(1, 8) / 8.0
-"""Places between 0 and 1 at which a piece is looked at."""
+"""Places between 0 and 1 at which a piece is examined."""
 
 
 def _basis(taus: Array, order: int = 0) -> Array:

@@ -29,7 +29,7 @@ _IK_TOLERANCE = 1e-8
 _SAME = 0.05
 """Between two configurations that may be one, [rad or m]."""
 _POSES = 16
-"""On the rest of the way that are looked at, the last one at its end."""
+"""Poses on the rest of the path that are examined, the last one at its end."""
 _EXACT = 1e-6
 """Tolerance of inverse kinematics there, [m and rad]."""
 _MOST_BRANCHES, _MOST_SAMPLED = 16, 8

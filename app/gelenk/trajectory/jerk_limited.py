@@ -2,7 +2,7 @@
 
 The switching times come from Ruckig [Berscheid2021], which finds them in closed form; nothing of it is used that asks
 a server. Ruckig is content with a target met to 1e-8: what it hands over is integrated here, and where the end is not
-met to rounding its jerks are changed by the least that closes the gap. So the motion ends where it was asked to.
+met to rounding its jerks are changed by the least that closes the gap. So the motion ends exactly at its target.
 """
 
 from dataclasses import dataclass, replace

@@ -62,7 +62,7 @@ def point_to_point_motion(
 ) -> PiecewisePolynomial:
     """From rest to rest in the least time that the law takes under the limits, or in a given one.
 
-    - cubic, quintic, septic: T is the largest of c₁Δ/v, √(c₂Δ/a) and, but for the cubic, ∛(c₃Δ/j) of any joint, with
+    - cubic, quintic, septic: T is the largest of c₁Δ/v, √(c₂Δ/a) and, except for the cubic, ∛(c₃Δ/j) of any joint, with
       the peaks c of the law: 1.5, 6; 1.875, 5.7735, 60; 2.1875, 7.5132, 52.5. Acceleration is zero at both ends of a
       quintic, jerk too of a septic.
     - jerk_limited: the least time under limits of velocity, acceleration and jerk, along the straight line where that
@@ -72,7 +72,7 @@ def point_to_point_motion(
       2e-6 of the time: the acceleration is then less than it may be.
     - time_optimal: the same; in a given time it is slowed as a whole.
 
-    In a given time all but the trapezoid are slowed as a whole. Limits of the tip are not looked at.
+    In a given time all but the trapezoid are slowed as a whole. Limits of the tip are not examined.
 
     Args:
         start: Shape (n,), [rad or m].

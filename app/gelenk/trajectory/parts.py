@@ -40,10 +40,10 @@ class Part:
 
     Attributes:
         motion: Of the joints, from 0 s on; of one piece that takes no time where nothing moves.
-        reports: Of its segments, as far as they were begun; times from 0 s on.
+        reports: Of its segments, as far as they were started; times from 0 s on.
         demands: What the motion has to keep to.
         halt: Why it ends early; None where it is whole.
-        timing: Where it was asked for.
+        timing: If requested.
     """
 
     motion: PiecewisePolynomial

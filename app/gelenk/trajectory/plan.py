@@ -42,7 +42,7 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
     Args:
         robot: The robot.
         chain: What moves; n variables.
-        problem: What is asked for.
+        problem: The request.
 
     Raises:
         InvalidField: A segment makes no sense, or asks for less time than its limits allow.
@@ -126,7 +126,7 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
 
 
 def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
-    """By how much all is slowed down to last as long as asked for.
+    """The factor by which all is slowed down to last as long as requested.
 
     Raises:
         InvalidField: It takes longer already, or some segment has a duration of its own.
@@ -146,7 +146,7 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
 
 
 def _with_stated_jerk(part: Part, problem: Problem) -> Part:
-    """Slowed down to the limits of jerk that were asked for, where the law alone does not keep them.
+    """Slowed down to the limits of jerk that were requested, where the law alone does not keep them.
 
     Raises:
         InvalidField: The time that it takes is given.

@@ -1,4 +1,4 @@
-"""What is asked of a trajectory, and what comes of it.
+"""The request for a trajectory, and its result.
 
 A trajectory begins at a configuration, at rest, and goes through segments: joints to a configuration or a pose, the tip
 along a line, a circle or a spline. Each segment has a law of time and limits of its own. It comes to rest between two
@@ -20,7 +20,7 @@ from gelenk.trajectory.words import Law, NearSingularity, OrientationLaw, Segmen
 
 @dataclass(frozen=True, slots=True)
 class MotionLimits:
-    """What joints and tip may do in a segment, scales applied; all finite and > 0 but for the tip's, which may be ∞.
+    """What joints and tip may do in a segment, scales applied; all finite and > 0 except for the tip's, which may be ∞.
 
     Attributes:
         velocity: Of each joint; shape (n,), [rad/s or m/s].
@@ -57,7 +57,7 @@ class Segment:
         times: When each is to be reached, after the segment's start; shape (m,), [s].
         boundary: Of a spline.
         blends: Whether a joint spline's waypoints are passed beside, on straight lines with parabolic blends.
-        stated_jerk: Limits of jerk that were asked for, which hold whatever the law; shape (n,), ∞ where none was,
+        stated_jerk: Limits of jerk that were requested, which hold whatever the law; shape (n,), ∞ where none was,
             [rad/s³ or m/s³].
     """
 
@@ -102,7 +102,7 @@ class Following:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """What is asked of a trajectory.
+    """The request for a trajectory.
 
     Attributes:
         start: Where it begins, at rest; shape (n,), [rad or m].
@@ -233,7 +233,7 @@ class Trajectory:
         completed_fraction: Of the segments, each counting alike, a part of one by its length.
         failure: Why it is not 1.
         audit: The judgement of the motion.
-        timing: Where it was asked for.
+        timing: If requested.
     """
 
     motion: PiecewisePolynomial

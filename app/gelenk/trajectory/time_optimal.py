@@ -1,7 +1,7 @@
 """Along a given path in the shortest time under limits of joint velocity and acceleration, by reachability [Pham2018].
 
 With u = s̈ and x = ṡ², on a path q(s): q̇² = q'² x and q̈ = q' u + q'' x are linear in (u, x). The path is cut into
-intervals, and in each u is constant. Limits are asked of the polynomials that q̇² and q̈ then are, not of their values
+intervals, and in each u is constant. Limits hold for the polynomials that q̇² and q̈ then are, not of their values
 at the nodes: they are kept everywhere. That costs second order in the length of an interval, and it holds where q' of a
 joint changes its sign (zero-inertia points), where conditions at the nodes alone let the acceleration chatter: there,
 where a path bends much for what a joint can accelerate, intervals have to be short to come near the optimum.
@@ -68,7 +68,7 @@ class TimeOptimal:
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """A path over 0 ≤ s ≤ 1 and what is asked along it.
+    """A path over 0 ≤ s ≤ 1 and the limits along it.
 
     Attributes:
         path: q(s).
@@ -76,7 +76,7 @@ class _Task:
         is_corner: At which breaks it has to stop; shape (M + 1,).
         start: The least and the largest ṡ² at its start.
         end: The same at its end.
-        rows: What else is asked; None for nothing.
+        rows: Further limits; None for none.
     """
 
     path: PiecewisePolynomial

@@ -80,7 +80,7 @@ def timed(
 
     The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Limits of the tip cost up to 0.25 % more where
     the way bends (`tip_rows`), and a last uniform scaling by k ≥ 1, mostly by less than 1e-5, for what is between the
-    places at which they are asked. Where the trapezoid takes no longer it is that, of fewer pieces.
+    places at which they are checked. Where the trapezoid takes no longer it is that, of fewer pieces.
 
     Args:
         path: What the tip follows, for its limits and for where it bends; None for a way of the joints alone.

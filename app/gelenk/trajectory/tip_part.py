@@ -92,7 +92,7 @@ def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
 
 
 def _stated(segments: Sequence[Segment]) -> Array | None:
-    """The limits of jerk that were asked for."""
+    """The limits of jerk that were requested."""
     stated = [one.stated_jerk for one in segments if one.stated_jerk is not None]
     return np.min(stated, axis=0) if stated else None
 
@@ -178,7 +178,7 @@ def _demands(
 
 
 def _way_error(joints: JointWay, timing: Timed, limits: MotionLimits) -> WayError:
-    """How far the motion is from the exact way; of one that leaves its way nobody knows."""
+    """How far the motion is from the exact path; None for one that leaves its path."""
     if joints.bend_errors is None:
         return WayError(math.inf, math.inf, math.inf)
     return way_error(joints.positions, joints.bend_errors, timing, limits)
@@ -211,7 +211,7 @@ def _reports(
     following: Following,
     blends: Sequence[BlendReport],
 ) -> tuple[SegmentReport, ...]:
-    """Of the segments that were begun."""
+    """Reports of the segments that were started."""
     begins = (0.0, *way.ends[:-1])
     damped = following.near_singularity == "damp" and joints.path_deviation > following.position_tolerance
     reports = []

@@ -165,7 +165,7 @@ class PointToPoint:
         motion: Positions in time.
         profiles: Of each joint, as it is driven.
         own: The fastest profile of each joint by itself.
-        factors: k = T/T_j where the own profile was slowed; None where it was planned anew for the duration.
+        factors: k = T/T_j where the own profile was slowed; None where it was planned for the duration.
     """
 
     motion: PiecewisePolynomial

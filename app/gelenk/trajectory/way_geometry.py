@@ -42,7 +42,7 @@ ACCELERATION: Final = 2
 """Which of the tip's is its linear acceleration."""
 
 _INSIDE = 1e-9
-"""How far inside of a piece its ends are looked at where the path may jump, in fractions of the piece."""
+"""How far inside of a piece its ends are examined where the path may jump, in fractions of the piece."""
 _SAME = 1e-9
 _CORNER = 1e-7
 """The jump of q', in fractions of the largest, that takes a stop; as for `time_optimal`."""

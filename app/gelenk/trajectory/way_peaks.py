@@ -1,6 +1,6 @@
 """How near a motion along a way comes to its limits: exactly for the joints, for the tip on samples that are refined.
 
-A polynomial lies between its least and its largest Bernstein coefficient. So only the pieces and joints are looked at
+A polynomial lies between its least and its largest Bernstein coefficient. So only the pieces and joints are examined
 closely whose coefficients reach beyond what is found anyway.
 """
 

@@ -43,7 +43,7 @@ Slip: TypeAlias = Literal["sign", "degrees"] | int
 _WINDOW = 8
 """Rows in which a wrong number is looked for; all of them in a shorter table."""
 _LOOKS = 24
-"""Configurations at which a repaired table is looked at."""
+"""Configurations at which a repaired table is examined."""
 _ZERO = 1e-12
 
 

@@ -16,9 +16,9 @@ from gelenk.model.arrays import Array
 from gelenk.model.dh import Convention, DhJoint, DhTable
 
 LOOKS = 24
-"""Configurations at which a repaired table is looked at."""
+"""Configurations at which a repaired table is examined."""
 _MOST_LOOKS = 24
-"""Repaired tables that are looked at, of those whose axes agree."""
+"""Repaired tables that are examined, of those whose axes agree."""
 
 
 @dataclass(frozen=True, slots=True)

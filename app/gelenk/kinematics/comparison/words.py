@@ -1,4 +1,4 @@
-"""What a comparison is asked by default and the names of mistakes, without what finds them."""
+"""Defaults of a comparison and the names of mistakes, without the code that finds them."""
 
 from typing import Literal, TypeAlias
 

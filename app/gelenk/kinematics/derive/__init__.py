@@ -13,6 +13,6 @@
 - `symbolic`: all of it for one table, as text and as values at samples; it knows neither NumPy nor Pinocchio.
 - `numeric`: the same quantities at given configurations, from the table's own product of transforms.
 - `check`: formulas against numbers.
-- `steps`: the solution told in the order of the lecture.
+- `steps`: the solution in the order of the lecture.
 - `worked`: all of it together.
 """

@@ -20,7 +20,7 @@ ROOT, MASS, GRAVITY, LENGTH, VARIABLE, CONSTANT, TRIGONOMETRIC, RATE = range(8)
 """Kinds of atoms, in the order in which a product is written."""
 
 MAX_TERMS = 4000
-"""Terms of a polynomial beyond which nobody reads it."""
+"""More terms than this make a polynomial unreadable."""
 
 
 class TooManyTerms(Exception):

@@ -1,4 +1,4 @@
-"""The worked solution told in the order of the lecture: short words, and the formulas they speak of."""
+"""The worked solution in the order of the lecture: short words, and the formulas they speak of."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
 """The symbolic part of a worked solution: one table in, formulas out, and what they are at samples.
 
 Both functions take and give plain data, so that they can run in another process, and both remember their last
-results. The values at the samples come from the very polynomials that are written out: whoever asked compares them
+results. The values at the samples come from the very polynomials that are written out: the caller compares them
 with the numbers of the table itself.
 """
 

@@ -14,7 +14,7 @@ Grid: TypeAlias = list[list[float]]
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked, as plain data.
+    """The request as plain data.
 
     Attributes:
         table: The table.

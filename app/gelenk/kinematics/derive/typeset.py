@@ -69,7 +69,7 @@ class Notation:
         group: The group of parallel axes of a joint angle.
         offset_angles: Indices of angles ϑ_i that hold more than the variable q_i alone.
         numbers: Values in place of symbols; empty where these stay.
-        has_commas: Whether indices of a sum are separated, so that c_{1,2} is told from c_{12} of ten joints and more.
+        has_commas: Whether indices of a sum are separated: with ten joints c_{1,2} is not c_{12}.
     """
 
     style: Style

@@ -70,7 +70,7 @@ class WorkedSolution:
         joint_names: The order of a configuration.
         formulas: Transforms and Jacobian; None where there was no time.
         singularities: Determinant and where it vanishes; None where there was no time.
-        motion: The equations of motion; None where they were not asked for, or the notes say why there are none.
+        motion: The equations of motion; None where they were not requested, or the notes say why there are none.
         examples: Smallest singular value of the block at each condition's example; None where there is none.
         numeric: One each given configuration.
         determinants: Of the block at each of these; None where no block is square.

@@ -26,7 +26,7 @@ from gelenk.model.poses import Poses
 _Number = TypeVar("_Number", np.float64, np.int64)
 
 _PIECE = 1024
-"""Targets that one thread takes at once, some milliseconds; the clock is looked at before the next."""
+"""Targets that one thread takes at once, some milliseconds; the clock is checked before the next."""
 _APART = 1e-6
 """How far apart two solutions are that a closed form and a search have found, [rad or m]."""
 _BESIDE = 1e-6
@@ -378,7 +378,7 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
 
     Args:
         found: The one.
-        left: The targets that are answered anew; shape (k,).
+        left: The targets to answer again; shape (k,).
         rest: What was found of these.
     """
     by_form = np.ones(len(found), dtype=bool)
@@ -418,11 +418,11 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
 
 
 def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinematics:
-    """What a search solved, but not as it was asked to be, as failures.
+    """Targets that a search solved, but not as requested, as failures.
 
     Args:
         rest: What the search came to.
-        elbow_angle: Where the elbow was asked to be; None where only a closed form was asked for.
+        elbow_angle: The requested angle of the elbow; None where only a closed form was requested.
     """
     failures, statuses = dict(rest.failures), list(rest.statuses)
     reason = "no branch with the elbow at this angle meets the request; with another angle one does"

@@ -63,7 +63,7 @@ class Branches(NamedTuple):
         codes: Which roots each took; shape (M,).
         free: Bit j where variable j was free and has kept the seed's value; shape (M,).
         firsts: Where each target's begin; shape (N + 1,).
-        doubtful: 1 of a target where rounding may have cost solutions; shape (N,), or empty where that is not asked.
+        doubtful: 1 of a target where rounding may have cost solutions; shape (N,), or empty where that is not needed.
     """
 
     qs: Array

@@ -28,11 +28,11 @@ SPACING = 0.2
 _NEIGHBOURS = 0.02
 """Distance up to which two solutions are one if the middle between them is a solution too, [rad or m]."""
 _MOST_DISTINCT = 256
-"""Solutions that are looked at to tell whether they form a continuum."""
+"""Solutions that are examined for whether they form a continuum."""
 _MOST_ISOLATED = 32
 """More solutions than this form a continuum: a 6R arm has at most 16 that stand alone [Raghavan1993]."""
 _MOST_WINDINGS = 100_000
-"""Solutions with all their full turns that are looked at."""
+"""Solutions with all their full turns that are examined."""
 _ROUNDING = 1e-9
 """How far beyond a limit counts as at it, [rad or m]."""
 _TURN = 2.0 * np.pi

@@ -257,7 +257,7 @@ def _is_simple(chain: Chain) -> bool:
 
 
 def _is_independent(chain: Chain, task: Task) -> bool:
-    """Whether no joint can make up for another one in what counts, but for the elbow of seven joints."""
+    """Whether no joint can compensate another in the task, except for the elbow of seven joints."""
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
     qs = np.random.default_rng(1).uniform(-reach, reach, (5, len(chain)))
     Js = linearise(chain, Poses(*chain_poses(chain.flat, qs)), qs, task)[1]

@@ -3,7 +3,7 @@
 Joint values and targets may be complex. Then all targets but special ones have the same number of solutions, 16 of six
 turning joints of general geometry [Raghavan1993], and no target has more that stand alone. Those of one target lead to
 those of any other [Morgan1989]; on the way round a loop they change places, so that one leads to all [Sommese2005]. So
-many that stand alone at the target asked for are all there are, however they were found.
+many isolated solutions of the requested target are all there are, however they were found.
 
 An arm of any joints of the same kinds is solved by loops once, from it each arm, from that each target.
 """
@@ -41,7 +41,7 @@ _APART, _APART_STEPS = 1e-5, 1e3
 _AROUND = 0.3
 """Imaginary part of what may lead to a real solution [rad or sizes of the arm]."""
 _EXACTLY, _NEARLY = 1e-12, tuple(10.0**-k for k in range(11, 1, -1))
-"""Sines and distances [sizes of the arm] that are none but for rounding, and that make an arm nearly special."""
+"""Sines and distances [sizes of the arm] that are zero up to rounding, and that make an arm nearly special."""
 _SEEDS = (11, 12, 13)
 """Of targets at which all solutions of an arm are looked for."""
 
@@ -67,7 +67,7 @@ class Arm(NamedTuple):
 
 
 class Special(NamedTuple):
-    """An arm that is exactly special in the place of one that is so but for a little.
+    """An exactly special arm that replaces one which is special up to a small deviation.
 
     Attributes:
         arm: The one, with all its solutions of some target.

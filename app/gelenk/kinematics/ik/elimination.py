@@ -23,7 +23,7 @@ EQUATIONS, PRODUCTS, ORDER = 14, 27, 12
 """Equations; products of (1, cos q_3, sin q_3) with powers 0 to 2 of two tangents; size of the determinant."""
 _DEGREE, _SAMPLES = 8, 32
 _ARCS, _TERMS, _NARROW = 64, 15, 1e-7
-"""Arcs on which the slope of the determinant counts as a polynomial, its terms, and how narrow arcs are told apart."""
+"""Arcs on which the slope of the determinant counts as a polynomial, its terms, and the narrowest arc."""
 _HALF_ARC = math.pi / _ARCS
 _TOUCHES = 1e-5
 """Share of the largest determinant below which an extremum counts as a root."""
@@ -59,7 +59,7 @@ class Space(NamedTuple):
         series: Cosine and sine coefficients of the determinant; shape (2, _DEGREE + 1).
         samples: Its values; shape (_SAMPLES,).
         turns: Where its slope vanishes; shape (48,).
-        stack: Coefficients of the slope on arcs that are to be looked at; shape (64, _TERMS).
+        stack: Coefficients of the slope on arcs that are to be examined; shape (64, _TERMS).
         edges: Where they begin and how wide they are; shape (2, 64).
         powers: Coefficients of the slope on an arc; shape (_TERMS,).
         roots: Of the determinant; shape (32,).

@@ -1,6 +1,6 @@
 """Solutions of a moving target, followed in complex joint values while the arm and its target change.
 
-The loop E_1 E_2 E_3 = M E_6⁻¹ E_5⁻¹ E_4⁻¹ is looked at from its middle, between joints 3 and 4: there the fewest joints
+The loop E_1 E_2 E_3 = M E_6⁻¹ E_5⁻¹ E_4⁻¹ is examined from its middle, between joints 3 and 4: there the fewest joints
 multiply what rounding has done. Everything is linear in a parameter t from 0 to 1, directions and quaternions up to
 their length. Cubic extrapolation predicts, Newton's method corrects, and the step is as long as the correction allows.
 """

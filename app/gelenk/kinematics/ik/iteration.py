@@ -37,7 +37,7 @@ _Symmetric: TypeAlias = tuple[
 """A symmetric matrix in registers, lower triangle row by row."""
 
 FULL, AXIS, SOME = 0, 1, 2
-"""What of a pose is asked for: all of it; position and one axis's direction; another choice."""
+"""The requested part of a pose: all of it; position and one axis's direction; another choice."""
 
 ERROR, BEST, SINCE, COUNT, REACHED, FIRST, STATE_ROWS = 12, 13, 14, 15, 16, 17, 18
 """Rows of a state: the target takes the first twelve."""

@@ -60,7 +60,7 @@ class Path:
 
     Attributes:
         stop_reason: Why it went no further.
-        trace: Every configuration on the way, where it was asked for.
+        trace: Every configuration of the iteration, if requested.
     """
 
     stop_reason: StopReason
@@ -119,11 +119,11 @@ class InverseKinematics:
         firsts: Where each target's solutions begin; shape (N + 1,).
         statuses: The verdict on each target; N.
         failures: Of each unsolved target, by its number.
-        complete: Whether these are all solutions, of each target; None where one was asked for.
+        complete: Whether these are all solutions, of each target; None where one was requested.
         doubts: Of targets that are solved, by their number, why these may not be all solutions.
-        paths: Of each target, where a single method was followed or a trace was asked for.
+        paths: Of each target, where a single method was followed or a trace was requested.
         branches: Of each solution, where a closed form was used.
-        families: Of targets with infinitely many solutions, by their number, where all were asked for.
+        families: Of targets with infinitely many solutions, by their number, where all were requested.
     """
 
     qs: Array

@@ -27,7 +27,7 @@ ITERATIONS_PER_START = 20
 
 _TURN = 2.0 * np.pi
 _CHUNK = 128
-"""Targets of seven joints that one thread takes at once; the clock is looked at before the next."""
+"""Targets of seven joints that one thread takes at once; the clock is checked before the next."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -119,7 +119,7 @@ def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array,
         options: What counts and how.
 
     Raises:
-        InvalidField: A closed form is asked for, and none is known.
+        InvalidField: A closed form is requested, and none is known.
     """
     chain = held_chain(chain, options.fixed_joints)
     seeds = narrowed(chain, seeds)
@@ -176,7 +176,7 @@ def _with_families(
 
 
 def _form(question: Question, options: Options) -> ClosedForm | None:
-    """The closed form that answers the question, where there is one and nothing is asked that it cannot tell."""
+    """The closed form that answers the question, unless an option needs another method."""
     if options.method not in {"auto", "analytic"}:
         return None
     form = closed_form(question.chain, options.task)
@@ -215,7 +215,7 @@ def solve_quickly(
         question: The targets; a few.
         starts: Of each target.
         random_seed: Of the starts.
-        by_form: Whether a closed form is asked for, and nothing else will do.
+        by_form: Whether a closed form is requested, and nothing else will do.
     """
     chain = question.chain
     if not is_looked_at(chain, question.task):

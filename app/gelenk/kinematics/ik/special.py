@@ -1,7 +1,7 @@
 """What is special about an arm: which neighbouring axes are parallel or meet, found as zeros of DH parameters.
 
-An arm that is special but for a little has solutions that rounding loses on their way to infinity. It is taken as the
-arm that is exactly so, which lacks them, and a target of the one is a target of the other but for as little.
+An arm that is special up to a small deviation has solutions near infinity that rounding loses. It is replaced by the
+exactly special arm, which lacks them; a target of one is a target of the other up to as small a deviation.
 """
 
 from typing import NamedTuple

@@ -32,7 +32,7 @@ _LOST = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked: targets for a chain, and what counts as reaching them.
+    """The problem: targets for a chain, and what counts as reaching them.
 
     Attributes:
         robot: The robot.

@@ -1,4 +1,4 @@
-"""The words in which inverse kinematics is asked and answers, without what computes it."""
+"""The terms of requests and answers of inverse kinematics, without the code that computes it."""
 
 from typing import Literal, TypeAlias, get_args
 

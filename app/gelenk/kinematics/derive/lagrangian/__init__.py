@@ -9,6 +9,6 @@
 - `symbolic`: all of it for one table; it knows neither NumPy nor Pinocchio.
 - `numeric`: M, C and g at given configurations, from the columns of Jacobians.
 - `check`: formulas and numbers against Pinocchio.
-- `steps`: the derivation told in the order of the lecture.
+- `steps`: the derivation in the order of the lecture.
 - `solution`: all of it together.
 """

@@ -67,7 +67,7 @@ def checked_dynamics(table: DhTable, chain: Chain, dynamics: Dynamics, count: in
 
 
 def motion_question(question: Question, table: DhTable, dynamics: Dynamics, seed: int) -> MotionQuestion:
-    """What the symbolic part is asked: gravity in frame 0, and samples with a number for everything."""
+    """Input of the symbolic part: gravity in frame 0, and samples with a number for everything."""
     direction = tuple(_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
     gravity = Gravity(dynamics.gravity.size, (direction[0], direction[1], direction[2]))
     random = np.random.default_rng(seed)

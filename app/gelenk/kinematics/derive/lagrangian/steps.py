@@ -1,4 +1,4 @@
-"""The equations of motion told in the order of the lecture: short words, and the formulas they speak of."""
+"""The equations of motion in the order of the lecture: short words, and the formulas they speak of."""
 
 from gelenk.kinematics.derive.lagrangian.texts import MotionTexts
 from gelenk.kinematics.derive.steps import Step

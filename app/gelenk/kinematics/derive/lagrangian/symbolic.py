@@ -38,7 +38,7 @@ from gelenk.kinematics.derive.texts import Entry, Grid
 from gelenk.kinematics.derive.typeset import MatrixText, Notation, Text
 
 MAX_JOINTS = 3
-"""Joints beyond which nobody writes the equations out."""
+"""More joints than this make the equations too long to write out."""
 
 _MOVING = {"m", "I", "g", "lc", "xc", "yc", "zc", "gammax", "gammay", "gammaz", "qd", "qdd"}
 """Names of the atoms that only equations of motion have."""

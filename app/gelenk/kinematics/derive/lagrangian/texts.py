@@ -27,7 +27,7 @@ class MotionSample:
 
 @dataclass(frozen=True, slots=True)
 class MotionQuestion:
-    """What is asked.
+    """The request as plain data.
 
     Attributes:
         table: The table.

@@ -249,7 +249,7 @@ def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
 
 
 def _same_rates(polynomial: Polynomial) -> list[Polynomial]:
-    """The terms by lengths, sines and cosines, those together beside which the rates are the same but for a number."""
+    """The terms by lengths, sines and cosines, grouped where their rates differ only by a number."""
     alike: dict[Polynomial, list[Polynomial]] = {}
     for group in _groups(polynomial, _is_static):
         rates = {tuple(item for item in m if is_rate(item[0])): value for m, value in group}
