@@ -29,14 +29,14 @@ def slow(seconds: float) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[int, str]]:
-    """The service with two processes in its crew: its own process, and its address."""
+    """The service with two processes in its pool: its own process, and its address."""
     settings = {"GELENK_CREW_PROCESSES": "2", "GELENK_REQUEST_SECONDS": "8", "GELENK_CREW_MEMORY_BYTES": "300000000"}
     with service(tmp_path_factory.mktemp("data"), **settings) as (run, url):
-        wait_for(lambda: len(crew(run.pid)) == 2)
+        wait_for(lambda: len(pool_pids(run.pid)) == 2)
         yield run.pid, url
 
 
-def crew(pid: int) -> list[int]:
+def pool_pids(pid: int) -> list[int]:
     """The processes that answer what may take long."""
     return called("crew", pid)
 
@@ -79,14 +79,14 @@ def processor_seconds(pid: int) -> float:
 
 
 def busy_one(pid: int, begin: Callable[[], object]) -> int:
-    """The process of the crew that something gives work to."""
-    wait_for(lambda: len(crew(pid)) == 2 and not changes(crew(pid)))
-    before = {one: processor_seconds(one) for one in crew(pid)}
+    """The process of the pool that something gives work to."""
+    wait_for(lambda: len(pool_pids(pid)) == 2 and not changes(pool_pids(pid)))
+    before = {one: processor_seconds(one) for one in pool_pids(pid)}
     begin()
     until = time.monotonic() + 60
     while time.monotonic() < until:
         time.sleep(0.05)
-        for one in crew(pid):  # one of them may have just been replaced
+        for one in pool_pids(pid):  # one of them may have just been replaced
             if processor_seconds(one) > before.setdefault(one, 0.0) + 0.2:
                 return one
     raise AssertionError("none is at work")
@@ -120,7 +120,7 @@ def check_whole(pid: int, url: str) -> None:
     for thread in threads:
         thread.join()
     assert answers == [200] * 4
-    wait_for(lambda: len(crew(pid)) == 2, 5.0)
+    wait_for(lambda: len(pool_pids(pid)) == 2, 5.0)
 
 
 @pytest.mark.slow
@@ -140,7 +140,7 @@ def test_a_crash_fails_its_own_request_alone(running: tuple[int, str], how: sign
         assert time.monotonic() - killed < 5.0
         assert other.result()[0] == 200
     check_whole(pid, url)
-    wait_for(lambda: victim not in crew(pid), 5.0)
+    wait_for(lambda: victim not in pool_pids(pid), 5.0)
 
 
 @pytest.mark.slow
@@ -154,7 +154,7 @@ def test_a_hang_is_ended_at_its_deadline(running: tuple[int, str]) -> None:
     assert (status, problem["type"]) == (504, "urn:gelenk:deadline-exceeded")
     assert "job" in problem["detail"]
     check_whole(pid, url)
-    wait_for(lambda: victim not in crew(pid), 5.0)
+    wait_for(lambda: victim not in pool_pids(pid), 5.0)
 
 
 @pytest.mark.slow
@@ -201,18 +201,18 @@ def test_who_leaves_takes_the_work_along(running: tuple[int, str]) -> None:
     ).encode()
     with socket.create_connection((HOST, int(url.rsplit(":", 1)[1])), timeout=20) as connection:
         victim = busy_one(pid, lambda: connection.sendall(head + body))
-    wait_for(lambda: victim not in crew(pid), 5.0)
+    wait_for(lambda: victim not in pool_pids(pid), 5.0)
     check_whole(pid, url)
 
 
 @pytest.mark.slow
 def test_a_robot_is_loaded_here_only_after_another_process_has_lived_through_it(running: tuple[int, str]) -> None:
-    """Of an uploaded robot that was not asked for yet the first call is one of the crew's, however quick it is."""
+    """Of an uploaded robot that was not asked for yet the first call is one of the pool's, however quick it is."""
     pid, url = running
     row = {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0}
     dh = {"convention": "standard", "joints": [row]}
     assert get(f"{url}/v1/robots", "POST", {"name": "own", "dh": dh})[0] == 201
-    for process in crew(pid):
+    for process in pool_pids(pid):
         os.kill(process, signal.SIGSTOP)
     status, problem = get(f"{url}/v1/robots/own/fk", "POST", {"joint_positions": [[0.0]]})
     assert (status, problem["type"]) == (504, "urn:gelenk:deadline-exceeded")

@@ -34,7 +34,7 @@ def is_whole(pid: int) -> bool:
 
 @pytest.mark.slow
 def test_a_killed_worker_is_replaced_at_once(running: tuple[int, str]) -> None:
-    """With its crew, whose processes end with it; and nobody who asks meanwhile is refused."""
+    """With its pool, whose processes end with it; and nobody who asks meanwhile is refused."""
     pid, url = running
     seconds = []
     for _ in range(KILLS):

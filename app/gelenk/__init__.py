@@ -7,8 +7,9 @@
 - `robot`: the core as a library, `gelenk.Robot`.
 - `logs`: the log, as lines of JSON.
 - `prune`: removes from a container image what the service never opens.
-- `api`: HTTP only. `contract`: what travels. `store`: robots on disk. `jobs`: long work in processes of its own.
-- `crew`: processes that answer what may take long or go wrong.
+- `api`: HTTP only. `contract`: the operations, and what travels. `store`: robots on disk.
+- `jobs`: long work in processes of its own.
+- `operations`: the answer to each of them. `pool`: processes for requests that may take long or crash.
 - `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
 - `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
 

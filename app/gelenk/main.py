@@ -14,21 +14,21 @@ from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
 from gelenk.api import dispatch, documentation, openapi, problems, studio
-from gelenk.api.access.directory import Directory
-from gelenk.api.access.door import Check, Door
+from gelenk.api.access.audit_log import AuditLog
 from gelenk.api.access.hosts import TrustedHosts, repeated
-from gelenk.api.access.journal import Audit
 from gelenk.api.access.keyring import Keyring
 from gelenk.api.access.keys import KeyCheck
 from gelenk.api.access.metrics import Metrics
+from gelenk.api.access.middleware import AccessRule, Middleware
 from gelenk.api.access.origins import Origins
+from gelenk.api.access.route_table import RouteTable
 from gelenk.api.access.tracing import TracedId, exporter_variables, telemetry
 from gelenk.api.bodies import Bodies
+from gelenk.api.context import ContextSetup
 from gelenk.api.derive import derive_handler
 from gelenk.api.jobs import jobs_router
 from gelenk.api.long_works import LONG_WORK
-from gelenk.api.operations import Setup
-from gelenk.api.remote import PARSED_HERE_BYTES, Remote
+from gelenk.api.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.api.robot_table import table_route
 from gelenk.api.robots import robots_router, upload_routes
 from gelenk.api.routes import Application
@@ -36,14 +36,14 @@ from gelenk.api.service import Readiness, service_router
 from gelenk.api.workspace import SampleLimits, workspace_route, workspace_work
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS, ROBOT_ENDPOINTS
-from gelenk.crew.crew import Crew
 from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner
-from gelenk.jobs.shelf import Limits as JobLimits
-from gelenk.jobs.shelf import Shelf
+from gelenk.jobs.store import JobStore
+from gelenk.jobs.store import Limits as JobLimits
 from gelenk.jobs.workers import Workers
 from gelenk.operations.outcome import Limits
+from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
 from gelenk.store.library import Quota
 
@@ -61,35 +61,35 @@ _SWITCH_SECONDS = 5e-4
 """The longest that a computing thread may keep the event loop waiting for the interpreter."""
 
 
-def create_app(settings: Settings, crew: Crew | None = None) -> Application:
+def create_app(settings: Settings, pool: WorkerPool | None = None) -> Application:
     """The application.
 
     Args:
         settings: What the operator has set.
-        crew: The processes for long work; started by the application if left out.
+        pool: The processes for long work; started by the application if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
     limits = Limits(most, seconds, settings.job_bytes)
-    setup = Setup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
+    setup = ContextSetup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
     library = setup.library()
-    crew = crew or Crew(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
-    remote = Remote(crew, setup, library, seconds, settings.client_requests)
+    pool = pool or WorkerPool(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
+    pool_client = PoolClient(pool, setup, library, seconds, settings.client_requests)
     derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
     runner = _runner(settings, limits)
-    audit = Audit(settings.data_dir / "audit")
-    metrics = Metrics(library.catalogue_names, crew, runner.shelf.states)
-    readiness = Readiness(crew, settings.data_dir, lambda: runner.failure)
+    audit = AuditLog(settings.data_dir / "audit")
+    metrics = Metrics(library.catalogue_names, pool, runner.store.states)
+    readiness = Readiness(pool, settings.data_dir, lambda: runner.failure)
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         threading.Thread(target=library.prepare, name="sweep", daemon=True).start()
         runner.begin()
-        starting = asyncio.create_task(_start(readiness, crew))
+        starting = asyncio.create_task(_start(readiness, pool))
         async with metrics.publishing():
             yield
         starting.cancel()
-        crew.close()
+        pool.close()
         runner.close()
         derivations.shutdown()
         audit.close()
@@ -117,30 +117,30 @@ def create_app(settings: Settings, crew: Crew | None = None) -> Application:
         ],
     )
     app.root_path = settings.root_path
-    app.state.crew = crew
+    app.state.pool = pool
     if settings.otlp_endpoint:
         app.add_middleware(TracedId)
     problems.install(app)
     size = settings.max_body_bytes
-    app.include_router(robots_router(library, remote))
-    app.router.routes.extend(upload_routes(remote, size))
-    special = {"derive_dh": derive_handler(crew, derivations)}
+    app.include_router(robots_router(library, pool_client))
+    app.router.routes.extend(upload_routes(pool_client, size))
+    special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
-        handler = special.get(endpoint.name) or dispatch.handler(endpoint, remote, runner, limits)
+        handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
         most_body = min(size, PARSED_HERE_BYTES) if endpoint.name in special else size
         app.router.routes.append(dispatch.route(endpoint, handler, most_body))
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = handler
-    app.router.routes.append(table_route(remote, size))
+    app.router.routes.append(table_route(pool_client, size))
     samples = SampleLimits(settings.max_job_samples, most)
-    app.router.routes.append(workspace_route(runner, remote, samples, size))
+    app.router.routes.append(workspace_route(runner, pool_client, samples, size))
     app.include_router(jobs_router(runner))
     app.include_router(service_router(readiness, metrics))
     documentation.install(app)
     studio.install(app)
     queries = [endpoint.options for endpoint in ROBOT_ENDPOINTS if endpoint.options is not None]
     openapi.describe(app, bool(settings.api_keys), queries)
-    app.door = _door(app, settings, metrics, audit)
+    app.entry = _middleware(app, settings, metrics, audit)
     return app
 
 
@@ -156,24 +156,24 @@ def _runner(settings: Settings, limits: Limits) -> Runner:
     kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
     kinds |= {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
     workers = Workers(settings.job_processes)
-    shelf = Shelf(settings.data_dir / "jobs", kept)
+    store = JobStore(settings.data_dir / "jobs", kept)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers
     is_local = settings.ray_lost == "local"
-    return Runner(shelf, kinds, workers, settings.running_jobs, settings.job_seconds, executor, is_local)
+    return Runner(store, kinds, workers, settings.running_jobs, settings.job_seconds, executor, is_local)
 
 
-def _door(app: Application, settings: Settings, metrics: Metrics, audit: Audit) -> Door:
+def _middleware(app: Application, settings: Settings, metrics: Metrics, audit: AuditLog) -> Middleware:
     """The checks that a request must pass before the application answers it."""
-    checks: list[Check] = [repeated, TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
+    checks: list[AccessRule] = [repeated, TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
-    directory = Directory(iter_route_contexts(app.routes))
-    return Door(app.answer, directory, settings.root_path, checks, metrics, audit)
+    directory = RouteTable(iter_route_contexts(app.routes))
+    return Middleware(app.answer, directory, settings.root_path, checks, metrics, audit)
 
 
-async def _start(readiness: Readiness, crew: Crew) -> None:
-    """Get ready, the crew first: the process it is copied from compiles the kernels into the cache."""
-    await crew.start()
+async def _start(readiness: Readiness, pool: WorkerPool) -> None:
+    """Get ready, the pool first: the process it is copied from compiles the kernels into the cache."""
+    await pool.start()
     readiness.begin()
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from gelenk.model.errors import counted
 from gelenk.places import catalogue
-from gelenk.processes.original import SELDOM_NEEDED
+from gelenk.processes.fork_server import SELDOM_NEEDED
 from gelenk.store.library import Library
 from gelenk.store.meshes import MESH_SUFFIXES
 from gelenk.store.records import package_data

@@ -34,20 +34,20 @@ class Settings:
         held_body_bytes: Total size of the large request bodies that each worker process holds, incoming or waiting for
             their answer; one of the largest always fits (`GELENK_HELD_BODY_BYTES`).
         max_answer_numbers: Most numbers in one answer (`GELENK_MAX_ANSWER_NUMBERS`).
-        crew_processes: Processes of each worker process for long requests: its crew; up to half as many more, for
+        crew_processes: Processes of each worker process for long requests: its pool; up to half as many more, for
             clients that have none while others occupy all (`GELENK_CREW_PROCESSES`).
-        crew_waiting: Requests that may wait for one of the crew; more are refused (`GELENK_CREW_WAITING`).
+        crew_waiting: Requests that may wait for one of the pool; more are refused (`GELENK_CREW_WAITING`).
         connections: Open connections of each worker process; beyond that, those idle longest are closed; fewer if the
             system allows fewer open files (`GELENK_CONNECTIONS`).
         requests_waiting: Requests of each worker process that may wait to start (`GELENK_REQUESTS_WAITING`).
-        client_requests: Requests of one client, identified by its key or else its address, that may wait for the crew
+        client_requests: Requests of one client, identified by its key or else its address, that may wait for the pool
             or be in progress (`GELENK_CLIENT_REQUESTS`).
         client_robots: Uploaded robots that one client may store, identified by its key; all clients without a key count
             as one (`GELENK_CLIENT_ROBOTS`).
         client_robot_bytes: Bytes of all of them (`GELENK_CLIENT_ROBOT_BYTES`).
-        crew_memory_bytes: Memory that each process of the crew may use beside the program itself
+        crew_memory_bytes: Memory that each process of the pool may use beside the program itself
             (`GELENK_CREW_MEMORY_BYTES`).
-        request_seconds: How long a request may wait for the crew, and may then run, [s]
+        request_seconds: How long a request may wait for the pool, and may then run, [s]
             (`GELENK_REQUEST_SECONDS`).
         job_processes: Processes that the jobs of each worker process share, started when first needed
             (`GELENK_JOB_PROCESSES`).

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import MISSING, fields
 
 from docs.handbook.schema_words import anchor, defined
-from gelenk.api import remote
+from gelenk.api import pool_client
 from gelenk.api.access import keyring
 from gelenk.contract import ik
 from gelenk.model import dh, tree, urdf, xml
@@ -43,7 +43,7 @@ _BOUNDS = (
     ("keys", keyring.MAX_KEYS),
     ("targets of a call by a method of the course, or with `trace`", ik.MAX_STEPWISE),
     ("the same of a job", ik.MAX_JOB_STEPWISE),
-    ("a body of `dh/derive` or `workspace`", f"{remote.PARSED_HERE_BYTES // 1024} KiB"),
+    ("a body of `dh/derive` or `workspace`", f"{pool_client.PARSED_HERE_BYTES // 1024} KiB"),
     ("configurations of a target's `trace`", ik.MAX_TRACE),
     ("targets of a job", ik.MAX_JOB_TARGETS),
 )

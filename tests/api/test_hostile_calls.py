@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.api.remote import PARSED_HERE_BYTES
+from gelenk.api.pool_client import PARSED_HERE_BYTES
 from tests.api.test_openapi import OPERATIONS
 from tests.corpus.bodies import Call, of_json
 from tests.corpus.calls import FORMS, HEADERS, NPY, PATHS, PLANAR, QUERIES

@@ -1,4 +1,4 @@
-"""What the crew finds out of a robot once, the event loop knows from then on, and answers by itself."""
+"""What the pool finds out of a robot once, the event loop knows from then on, and answers by itself."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.crew.crew import Crew
 from gelenk.model.errors import ServiceBusy
+from gelenk.pool.pool import WorkerPool
 from tests.api.conftest import ready_client
 
 UR5 = [0.1, -1.2, 1.4, -0.6, 0.5, 0.2]
@@ -40,7 +40,7 @@ def test_the_crew_is_needed_once(
     async def run(*_: object) -> None:
         raise ServiceBusy(1)
 
-    monkeypatch.setattr(Crew, "run", run)
+    monkeypatch.setattr(WorkerPool, "run", run)
     again = fresh_client.post(f"/v1/robots/{path}", json=content)
     assert (again.status_code, again.json()) == (200, first.json())
     robot, name = path.split("/")

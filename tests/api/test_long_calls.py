@@ -18,10 +18,10 @@ from gelenk.api.access.keyring import new_key
 from gelenk.api.access.scopes import Scope
 from gelenk.api.preference import wants_answer_later
 from gelenk.contract.trajectory_request import TrajectoryRequest
-from gelenk.crew.crew import Crew
 from gelenk.kinematics.ik import search, solve
 from gelenk.main import create_app
 from gelenk.model.arrays import Array
+from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
 
 JSON, NPY, CSV = "application/json", "application/x-npy", "text/csv"
@@ -211,7 +211,7 @@ class Leap:
         return max(0.0, self.now)
 
 
-class Here(Crew):
+class Here(WorkerPool):
     """A crew without processes."""
 
     async def run(self, function: Any, argument: Any, *_: Any) -> Any:

@@ -6,7 +6,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.api.places import Places
-from gelenk.api.remote import PARSED_HERE_BYTES
+from gelenk.api.pool_client import PARSED_HERE_BYTES
 
 
 def test_turns_go_round_the_clients_and_who_leaves_takes_no_place() -> None:

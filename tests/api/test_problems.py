@@ -14,15 +14,14 @@ from starlette.requests import Request
 from starlette.testclient import TestClient
 
 from gelenk.api.bodies import Bodies
+from gelenk.api.context import ContextSetup
 from gelenk.api.npy import read_npy
-from gelenk.api.operations import Setup
+from gelenk.api.pool_client import PoolClient
 from gelenk.api.problems import status_of
-from gelenk.api.remote import Remote
-from gelenk.crew.crew import Crew
 from gelenk.jobs.job import Failure
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.shelf import Limits as JobLimits
-from gelenk.jobs.shelf import Shelf
+from gelenk.jobs.store import JobStore
+from gelenk.jobs.store import Limits as JobLimits
 from gelenk.jobs.workers import Workers
 from gelenk.kinematics.certify import certify_poses
 from gelenk.model import errors
@@ -30,6 +29,7 @@ from gelenk.model.chain import build_chain
 from gelenk.model.poses import Poses
 from gelenk.model.urdf import read_urdf
 from gelenk.operations.outcome import Limits
+from gelenk.pool.pool import WorkerPool
 from gelenk.store.archive import unpacked
 from gelenk.store.folders import writing
 from gelenk.store.library import Library, Quota, RobotUpload
@@ -38,7 +38,7 @@ from gelenk.trajectory.audit import audit
 from gelenk.trajectory.audit_demands import Demands
 from gelenk.trajectory.plan import refuse_failed
 from gelenk.trajectory.polynomial import PiecewisePolynomial
-from tests.crew import calls
+from tests.pool import calls
 from tests.robots import robot
 
 CATALOGUE = Path("robots")
@@ -111,15 +111,15 @@ OTHERWISE: dict[type[errors.KinematicsError], Callable[[], object]] = {
     errors.InvalidRobotFolder: lambda: read_record(Path("x\0"), "uploaded"),
     errors.UnsupportedJoint: lambda: build_chain(read_urdf(SHIP), "sea", "crane"),
     errors.StorageFull: lambda: refused_by_the_system(errno.ENOSPC),
-    errors.JobExists: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", digest, {}, "one") for digest in "ab"]),
+    errors.JobExists: lambda: in_a_store(lambda store: [store.add("workspace", digest, {}, "one") for digest in "ab"]),
     errors.JobNotFinished: lambda: result_of({}),
-    errors.JobFinished: lambda: on_a_shelf(cancelled_twice),
+    errors.JobFinished: lambda: in_a_store(cancelled_twice),
     errors.JobCancelled: lambda: result_of({"state": "cancelled"}),
     errors.JobFailed: lambda: result_of({"state": "failed", "failure": Failure.because("the process died")}),
     errors.JobInterrupted: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobInterrupted("gone"))}),
-    errors.ServiceStopping: lambda: on_a_shelf(submitted_too_late),
+    errors.ServiceStopping: lambda: in_a_store(submitted_too_late),
     errors.JobTookTooLong: lambda: result_of({"state": "failed", "failure": Failure.of(errors.JobTookTooLong(1.0))}),
-    errors.TooManyJobs: lambda: on_a_shelf(lambda shelf: [shelf.add("workspace", "", {}) for _ in range(3)]),
+    errors.TooManyJobs: lambda: in_a_store(lambda store: [store.add("workspace", "", {}) for _ in range(3)]),
     errors.ServiceBusy: lambda: by_a_crew(calls.double, 1, LONG, waiting=0),
     errors.NoRoomForBody: lambda: Bodies(1).check_room(2),
     errors.TooManyRequests: lambda: of_a_client(share=0),
@@ -138,57 +138,57 @@ def beyond_the_quota() -> None:
         Library(CATALOGUE, Path(folder), Quota(0, 1)).add(RobotUpload("mine", "urdf", row, owner="somebody"))
 
 
-def on_a_shelf(do: Callable[[Shelf], object]) -> None:
+def in_a_store(do: Callable[[JobStore], object]) -> None:
     """Something with jobs of which no more than two may wait."""
     with TemporaryDirectory() as folder:
-        shelf = Shelf(Path(folder), JobLimits(unfinished=2))
+        store = JobStore(Path(folder), JobLimits(unfinished=2))
         try:
-            do(shelf)
+            do(store)
         finally:
-            shelf.close()
+            store.close()
 
 
 def by_a_crew(function: Callable[[Any], object], argument: object, seconds: float, waiting: int = 1) -> None:
     """What a single process is asked for, within 100 MB."""
 
     async def run() -> None:
-        crew = Crew(1, waiting, 100 * 1024**2)
+        pool = WorkerPool(1, waiting, 100 * 1024**2)
         try:
             if waiting:
-                await crew.start()
-            await crew.run(function, argument, seconds)
+                await pool.start()
+            await pool.run(function, argument, seconds)
         finally:
-            crew.close()
+            pool.close()
 
     asyncio.run(run())
 
 
 def of_a_client(share: int) -> None:
     request = Request({"type": "http", "headers": [], "client": ("10.0.0.7", 50000)})
-    setup = Setup(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
-    remote = Remote(Crew(1, 1, 1), setup, setup.library(), 1.0, share)
-    asyncio.run(remote.resident(request, "somebody"))
+    setup = ContextSetup(CATALOGUE, CATALOGUE / "none", Limits(1, 1.0))
+    pool_client = PoolClient(WorkerPool(1, 1, 1), setup, setup.library(), 1.0, share)
+    asyncio.run(pool_client.resident(request, "somebody"))
 
 
 def result_of(state: dict[str, object]) -> None:
     """The result of a job that is in a state, if it ever began."""
 
-    def ask(shelf: Shelf) -> None:
-        job, _ = shelf.add("workspace", "", {})
-        shelf.change(job.id, **state)
-        Runner(shelf, {}, Workers(1), running=1, seconds=1.0).result(job.id, "result.json")
+    def ask(store: JobStore) -> None:
+        job, _ = store.add("workspace", "", {})
+        store.change(job.id, **state)
+        Runner(store, {}, Workers(1), running=1, seconds=1.0).result(job.id, "result.json")
 
-    on_a_shelf(ask)
+    in_a_store(ask)
 
 
-def cancelled_twice(shelf: Shelf) -> None:
-    runner, (job, _) = Runner(shelf, {}, Workers(1), running=1, seconds=1.0), shelf.add("workspace", "", {})
+def cancelled_twice(store: JobStore) -> None:
+    runner, (job, _) = Runner(store, {}, Workers(1), running=1, seconds=1.0), store.add("workspace", "", {})
     for _ in range(2):
         runner.cancel(job.id)
 
 
-def submitted_too_late(shelf: Shelf) -> None:
-    runner = Runner(shelf, {}, Workers(1), running=1, seconds=1.0)
+def submitted_too_late(store: JobStore) -> None:
+    runner = Runner(store, {}, Workers(1), running=1, seconds=1.0)
     runner.close()
     runner.submit("workspace", "", {})
 

@@ -13,7 +13,7 @@ from starlette.testclient import TestClient
 
 from gelenk import prune
 from gelenk.contract.robots import EXAMPLE_DH, RobotInfo, RobotList
-from gelenk.crew.crew import Crew
+from gelenk.pool.pool import WorkerPool
 from tests.api.conftest import ready_client
 from tests.corpus.zips import URDF, zipped
 
@@ -283,12 +283,12 @@ def test_an_edit_by_hand_is_seen(own: TestClient, tmp_path: Path) -> None:
 def test_a_disk_that_refuses_is_said_and_leaves_nothing(
     own: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int, status: int
 ) -> None:
-    """The crew's part is done in this process, where the disk can be made to refuse."""
+    """The pool's part is done in this process, where the disk can be made to refuse."""
 
-    async def here(__: Crew, function: Callable[[Any], Any], argument: Any, *_: Any) -> Any:
+    async def here(__: WorkerPool, function: Callable[[Any], Any], argument: Any, *_: Any) -> Any:
         return function(argument)
 
-    monkeypatch.setattr(Crew, "run", here)
+    monkeypatch.setattr(WorkerPool, "run", here)
     own.post("/v1/robots", json={"name": "arm", "urdf": URDF})
     before = sorted(tmp_path.rglob("*"))
 

@@ -22,7 +22,7 @@ from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.driver import _computed, code_digest
 from gelenk.jobs.job import Job
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.store import JobStore, Limits
 from gelenk.jobs.workers import Cancelled, Order, Unavailable, Workers
 from gelenk.main import create_app
 from gelenk.model.errors import JobFailed
@@ -46,7 +46,7 @@ def address() -> Iterator[str]:
 @pytest.fixture
 def runner(address: str, tmp_path: Path) -> Iterator[Runner]:
     kinds = {"parts": of_parts}
-    made = Runner(Shelf(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
+    made = Runner(JobStore(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
     made.begin()
     yield made
     made.close()
@@ -58,7 +58,7 @@ def submitted(runner: Runner, function: str, values: list[Any]) -> Job:
 
 def ended(runner: Runner, job: Job) -> Job:
     deadline = time.monotonic() + SOON
-    while not (now := runner.shelf.get(job.id)).is_final:
+    while not (now := runner.store.get(job.id)).is_final:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     return now
@@ -128,22 +128,22 @@ class Scripted:
 def test_what_is_lost_waits_or_goes_on_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_local: bool) -> None:
     monkeypatch.setattr(runner_module, "_LOOK_FOR_LEFT", 0.05)
     executor, kinds = Scripted(), {"parts": of_parts}
-    runner = Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 60.0, executor, is_local)
+    runner = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 60.0, executor, is_local)
     with contextlib.closing(runner):
         runner.begin()
         job = submitted(runner, "echo", [1, 2, "hangs"])
         deadline = time.monotonic() + SOON
-        while runner.shelf.get(job.id).progress < 0.6:
+        while runner.store.get(job.id).progress < 0.6:
             assert time.monotonic() < deadline
             time.sleep(0.02)
         executor.lose()
         if not is_local:
-            while runner.shelf.get(job.id).state != "queued":
+            while runner.store.get(job.id).state != "queued":
                 assert time.monotonic() < deadline
                 time.sleep(0.02)
             assert runner.failure == executor.failure
             time.sleep(0.3)
-            assert (left := runner.shelf.get(job.id)).state == "queued"
+            assert (left := runner.store.get(job.id)).state == "queued"
             assert (left.attempts, left.progress) == (0, 2 / 3)
             executor.submit = lambda function, argument, _: done(function(argument))  # type: ignore[method-assign]
             executor.failure = None
@@ -163,7 +163,7 @@ def done(value: Any) -> "Future[Any]":
 def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothing(tmp_path: Path) -> None:
     with socket.create_server((HOST, 0)) as head:
         address = f"{HOST}:{head.getsockname()[1]}"
-        runner = Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
+        runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
         runner.begin()
         job = submitted(runner, "double", [1])
         head.accept()[0].close()  # the first look whether it is there; what comes next is Ray
@@ -172,23 +172,23 @@ def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothin
         started = time.monotonic()
         runner.close()
         assert time.monotonic() - started < 3.0
-        assert runner.shelf.get(job.id).state == "queued"
+        assert runner.store.get(job.id).state == "queued"
 
 
 def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
-    with contextlib.closing(Shelf(tmp_path, Limits())) as shelf:
-        job, _ = shelf.add("parts", "x", made_by("double", [1]))
+    with contextlib.closing(JobStore(tmp_path, Limits())) as store:
+        job, _ = store.add("parts", "x", made_by("double", [1]))
     nowhere, kinds = Cluster(f"{HOST}:{free_port()}"), {"parts": of_parts}
-    with contextlib.closing(Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
+    with contextlib.closing(Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
         runner.begin()
         deadline = time.monotonic() + SOON
         while "refused" not in (runner.failure or ""):
             assert time.monotonic() < deadline
             time.sleep(0.02)
         time.sleep(0.2)
-        left = runner.shelf.get(job.id)
+        left = runner.store.get(job.id)
         assert (left.state, left.owner, left.attempts) == ("queued", job.owner, 0)
-    here = Runner(Shelf(tmp_path, Limits()), kinds, Workers(1), 1, 9.0)
+    here = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0)
     with contextlib.closing(here):
         here.begin()
         assert ended(here, job).state == "succeeded"
@@ -326,17 +326,17 @@ def test_no_job_hangs_on_a_part_of_the_cluster_that_is_lost(
     with tempfile.TemporaryDirectory(prefix="ray-") as folder, contextlib.ExitStack() as stack:
         ray_head, address = stack.enter_context(head(folder, 0))
         nodes = [stack.enter_context(node(folder, address, 1)) for _ in range(1 + others)]
-        runner = Runner(Shelf(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
+        runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
         stack.callback(runner.close)
         runner.begin()
         job = submitted(runner, "sleep", [0.2] * 30)
         deadline = time.monotonic() + SOON
-        while runner.shelf.get(job.id).progress < 0.1:
+        while runner.store.get(job.id).progress < 0.1:
             assert time.monotonic() < deadline, runner.failure
             time.sleep(0.05)
         signalled(ray_head if what == "head" else nodes[0], how)
         deadline = time.monotonic() + 30.0
-        while (now := runner.shelf.get(job.id)).state == "running":
+        while (now := runner.store.get(job.id)).state == "running":
             assert time.monotonic() < deadline, now
             time.sleep(0.05)
         assert now.state in {"succeeded", "queued"}

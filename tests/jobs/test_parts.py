@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.packing import packed, unpacked
 from gelenk.jobs.parts import Parts, computed
 from gelenk.model.errors import StorageFailed, TooLarge, UnknownJob
 

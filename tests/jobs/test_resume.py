@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.store import JobStore, Limits
 from gelenk.jobs.workers import Order, Workers
 from gelenk.model.errors import JobInterrupted
 from tests.jobs.parts import fatal, made_by, of_parts
@@ -52,7 +52,7 @@ class Threads:
 
 def opened(folder: Path) -> Runner:
     kinds = {"parts": of_parts, "fatal": fatal}
-    return Runner(Shelf(folder, Limits()), kinds, Workers(1), running=1, seconds=60.0, executor=Threads())
+    return Runner(JobStore(folder, Limits()), kinds, Workers(1), running=1, seconds=60.0, executor=Threads())
 
 
 def killed(folder: Path, progress: float) -> None:
@@ -66,7 +66,7 @@ def finished(folder: Path) -> Runner:
     runner = opened(folder)
     runner.begin()
     deadline = time.monotonic() + 20.0
-    while not runner.shelf.get("mine").is_final:
+    while not runner.store.get("mine").is_final:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     runner.close()
@@ -75,9 +75,9 @@ def finished(folder: Path) -> Runner:
 
 def left(folder: Path, kind: str, request: dict[str, bytes]) -> None:
     """A job that its process has not begun."""
-    shelf = Shelf(folder, Limits())
-    shelf.add(kind, "x", request, "mine")
-    shelf.close()
+    store = JobStore(folder, Limits())
+    store.add(kind, "x", request, "mine")
+    store.close()
 
 
 @pytest.mark.slow
@@ -87,12 +87,12 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     seen = []
     for progress in (0.25, 0.6):
         killed(jobs, progress)
-        job = Shelf(jobs, Limits()).get("mine")
+        job = JobStore(jobs, Limits()).get("mine")
         assert (job.state, job.attempts) == ("queued", 1)
         assert job.progress >= progress
         seen.append(job.progress)
     runner = finished(jobs)
-    job = runner.shelf.get("mine")
+    job = runner.store.get("mine")
     assert (job.state, job.progress) == ("succeeded", 1.0)
     expected = "[" + ", ".join(repr(str(k)) for k in range(PARTS)) + "]"
     assert runner.result("mine", "result.txt").read_text() == expected
@@ -122,9 +122,9 @@ def test_a_job_that_brings_the_service_down_is_given_up(tmp_path: Path) -> None:
     left(tmp_path, "fatal", {"call.json": b""})
     for attempt in (1, 2, 3):
         killed(tmp_path, 2.0)
-        assert Shelf(tmp_path, Limits()).get("mine").attempts == attempt
+        assert JobStore(tmp_path, Limits()).get("mine").attempts == attempt
     runner = finished(tmp_path)
-    assert runner.shelf.get("mine").state == "failed"
+    assert runner.store.get("mine").state == "failed"
     with pytest.raises(JobInterrupted, match="started 3 times"):
         runner.result("mine", "result.txt")
     assert [path.name for path in (tmp_path / "mine").iterdir()] == ["job.json"]

@@ -11,7 +11,7 @@ import pytest
 from gelenk.jobs.job import Job
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Runner, Work
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.store import JobStore, Limits
 from gelenk.jobs.workers import Workers
 from gelenk.model.errors import (
     InvalidField,
@@ -41,7 +41,7 @@ def raised(folder: Path) -> Work:
 
 def opened(folder: Path, workers: int = 2, running: int = 2, seconds: float = 60.0) -> Runner:
     kinds = {"parts": of_parts, "raised": raised}
-    return Runner(Shelf(folder, Limits()), kinds, Workers(workers), running, seconds)
+    return Runner(JobStore(folder, Limits()), kinds, Workers(workers), running, seconds)
 
 
 @pytest.fixture(scope="module")
@@ -57,12 +57,12 @@ def submitted(runner: Runner, function: str, values: list[Any], name: str | None
 
 def watched(runner: Runner, job: Job) -> list[Job]:
     """Every state of a job until its end, and that does not take long."""
-    seen = [runner.shelf.get(job.id)]
+    seen = [runner.store.get(job.id)]
     deadline = time.monotonic() + 20.0
     while not seen[-1].is_final:
         assert time.monotonic() < deadline
         time.sleep(0.02)
-        now = runner.shelf.get(job.id)
+        now = runner.store.get(job.id)
         if now != seen[-1]:
             seen.append(now)
     return seen
@@ -94,7 +94,7 @@ def test_a_name_that_stands_is_not_done_again(runner: Runner) -> None:
 def test_a_cancelled_job_ends_at_once_and_the_next_one_runs(runner: Runner) -> None:
     hanging = submitted(runner, "sleep", [60.0] * 4)
     time.sleep(0.5)
-    assert runner.shelf.get(hanging.id).state == "running"
+    assert runner.store.get(hanging.id).state == "running"
     with pytest.raises(JobNotFinished):
         runner.result(hanging.id, "result.txt")
     started = time.monotonic()
@@ -103,13 +103,13 @@ def test_a_cancelled_job_ends_at_once_and_the_next_one_runs(runner: Runner) -> N
         runner.result(hanging.id, "result.txt")
     assert watched(runner, submitted(runner, "double", [3]))[-1].state == "succeeded"
     assert time.monotonic() - started < 5.0
-    assert runner.shelf.get(hanging.id).state == "cancelled"
+    assert runner.store.get(hanging.id).state == "cancelled"
 
 
 def test_a_job_that_another_process_cancels_ends_too(runner: Runner) -> None:
     job = submitted(runner, "sleep", [0.2] * 100)
     time.sleep(0.4)
-    runner.shelf.change(job.id, state="cancelled")
+    runner.store.change(job.id, state="cancelled")
     deadline = time.monotonic() + 5.0
     while runner._orders:
         assert time.monotonic() < deadline
@@ -123,7 +123,7 @@ def test_a_job_that_is_cancelled_before_its_turn_is_never_begun(runner: Runner) 
     for job in ahead:
         watched(runner, job)
     time.sleep(0.1)
-    assert (runner.shelf.get(last.id).state, runner.shelf.get(last.id).started) == ("cancelled", None)
+    assert (runner.store.get(last.id).state, runner.store.get(last.id).started) == ("cancelled", None)
 
 
 @pytest.mark.slow
@@ -135,12 +135,12 @@ def test_turns_go_round_the_clients(tmp_path: Path) -> None:
 
     heavy = [asked("heavy", 1000) for _ in range(4)]
     deadline = time.monotonic() + 20.0
-    while [runner.shelf.get(job.id).state for job in heavy] != ["running"] * 2 + ["queued"] * 2:
+    while [runner.store.get(job.id).state for job in heavy] != ["running"] * 2 + ["queued"] * 2:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     light = [watched(runner, asked("light", 1))[-1].state for _ in range(2)]
     assert light == ["succeeded"] * 2
-    assert not any(runner.shelf.get(job.id).is_final for job in heavy)
+    assert not any(runner.store.get(job.id).is_final for job in heavy)
     runner.close()
 
 
@@ -149,8 +149,8 @@ def test_a_job_that_comes_to_its_end_while_it_is_cancelled_keeps_its_result(
 ) -> None:
     job = submitted(runner, "double", [1])
     watched(runner, job)
-    get = runner.shelf.get
-    monkeypatch.setattr(runner.shelf, "get", lambda name: replace(get(name), state="running"))
+    get = runner.store.get
+    monkeypatch.setattr(runner.store, "get", lambda name: replace(get(name), state="running"))
     with pytest.raises(JobFinished):
         runner.cancel(job.id)
     monkeypatch.undo()
@@ -163,7 +163,7 @@ def test_a_finished_job_is_removed(runner: Runner) -> None:
     with pytest.raises(JobFinished):
         runner.cancel(job.id)
     assert runner.cancel(job.id, remove=True).state == "succeeded"
-    for ask in (runner.shelf.get, runner.cancel, lambda job_id: runner.result(job_id, "result.txt")):
+    for ask in (runner.store.get, runner.cancel, lambda job_id: runner.result(job_id, "result.txt")):
         with pytest.raises(UnknownJob):
             ask(job.id)
 
@@ -226,7 +226,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     first = submitted(runner, "sleep", [0.0, 0.0, 0.0, 0.0, 60.0])
     waiting = submitted(runner, "double", [7])
     deadline = time.monotonic() + 20.0
-    while runner.shelf.get(first.id).progress < 0.8:
+    while runner.store.get(first.id).progress < 0.8:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     pids = runner.workers.pids
@@ -237,7 +237,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     assert all(gone(pid) for pid in pids)
     with pytest.raises(ServiceStopping):
         submitted(runner, "sleep", [0.0])
-    left = Shelf(tmp_path, Limits()).get(first.id)
+    left = JobStore(tmp_path, Limits()).get(first.id)
     assert (left.state, left.progress, left.attempts, left.failure) == ("queued", 0.8, 0, None)
     following = opened(tmp_path)
     try:
@@ -245,7 +245,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
         states = watched(following, waiting)
         assert states[-1].state == "succeeded"
         assert following.result(waiting.id, "result.txt").read_text() == "[14]"
-        assert following.shelf.get(first.id).progress == 0.8
+        assert following.store.get(first.id).progress == 0.8
         assert following.cancel(first.id).state == "cancelled"
     finally:
         following.close()

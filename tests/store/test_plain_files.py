@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from gelenk.jobs.robot_files import robot_text
-from gelenk.jobs.shelf import Limits, Shelf
+from gelenk.jobs.store import JobStore, Limits
 from gelenk.model.errors import KinematicsError
 from gelenk.store.folders import read_plain
 from gelenk.store.library import Library, RobotUpload
@@ -54,7 +54,7 @@ def at_most(seconds: int, what: str) -> Iterator[None]:
 
 def used(data: Path) -> None:
     """Everything that a service does with its data folder, at its start and for requests."""
-    library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits(unfinished=100))
+    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", Limits(unfinished=100))
     steps: list[Callable[[], object]] = [
         library.prepare,
         library.summaries,
@@ -63,32 +63,32 @@ def used(data: Path) -> None:
         lambda: library.add(RobotUpload("arm", "urdf", urdf())),
         lambda: library.add(RobotUpload("new", "urdf", urdf())),
         lambda: library.replace(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"})),
-        shelf.prepare,
-        shelf.states,
-        lambda: shelf.get("mine"),
-        lambda: robot_text(shelf.request("mine")),
-        lambda: shelf.parts(shelf.get("mine")).read("1"),
-        lambda: shelf.add("ik", "digest", {}, "mine"),
-        lambda: shelf.add("ik", "digest", {}, "other"),
-        shelf.take_up,
-        shelf.tidy,
-        lambda: shelf.remove("mine"),
+        store.prepare,
+        store.states,
+        lambda: store.get("mine"),
+        lambda: robot_text(store.request("mine")),
+        lambda: store.parts(store.get("mine")).read("1"),
+        lambda: store.add("ik", "digest", {}, "mine"),
+        lambda: store.add("ik", "digest", {}, "other"),
+        store.take_up,
+        store.tidy,
+        lambda: store.remove("mine"),
         lambda: library.remove("arm"),
     ]
     for step in steps:
         with suppress(KinematicsError, OSError, ValueError):
             step()
-    shelf.close()
+    store.close()
 
 
 @pytest.fixture(scope="module")
 def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
     data = tmp_path_factory.mktemp("data")
-    library, shelf = Library(CATALOGUE, data / "robots"), Shelf(data / "jobs", Limits())
+    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", Limits())
     library.add(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"}))
-    job, _ = shelf.add("ik", "digest", {"robot.urdf": b"<robot/>", "robot.json": b'["arm", "a", "b"]'}, "mine")
-    shelf.parts(job).write("1", b"part")
-    shelf.close()
+    job, _ = store.add("ik", "digest", {"robot.urdf": b"<robot/>", "robot.json": b'["arm", "a", "b"]'}, "mine")
+    store.parts(job).write("1", b"part")
+    store.close()
     (data / "jobs" / ".owners" / job.owner).touch()  # as a killed process leaves it
     return data
 

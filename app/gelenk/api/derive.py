@@ -1,4 +1,4 @@
-"""The worked solution of a table: formulas from the crew, numbers from here."""
+"""The worked solution of a table: formulas from the pool, numbers from here."""
 
 import time
 from concurrent.futures import Executor
@@ -6,29 +6,29 @@ from typing import Any
 
 from starlette.responses import Response
 
-from gelenk.api.elsewhere import Elsewhere
+from gelenk.api.blocking_pool_client import BlockingPoolClient
 from gelenk.api.lagrangian import formula_content, matrix_content, motion_content
 from gelenk.api.payloads import JSON, BoundedRequest, json_response, read_json
 from gelenk.api.places import Places
+from gelenk.api.pool_client import client_of, while_wanted
 from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.remote import client_of, while_wanted
 from gelenk.api.routes import Handler, in_thread
 from gelenk.contract.derive import DeriveRequest
-from gelenk.crew.crew import Crew
 from gelenk.kinematics.derive.jacobian import ROW_NAMES
 from gelenk.kinematics.derive.numeric import NumericSolution
 from gelenk.kinematics.derive.steps import which_block
 from gelenk.kinematics.derive.texts import ColumnText, ConditionText, Entry, Singularities, SolutionText
 from gelenk.kinematics.derive.worked import WorkedSolution, worked_solution
 from gelenk.model.errors import InvalidField
+from gelenk.pool.pool import WorkerPool
 
 SECONDS = 8.0
 """Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""
 _AT_ONCE = 2
-"""Requests that are worked on in threads of this process at a time, while the crew writes their formulas."""
+"""Requests that are worked on in threads of this process at a time, while the pool writes their formulas."""
 
 
-def derive_handler(crew: Crew, executor: Executor) -> Handler:
+def derive_handler(pool: WorkerPool, executor: Executor) -> Handler:
     """What answers `ENDPOINT`: a thread of this process, with formulas from workers."""
     places = Places(_AT_ONCE)
 
@@ -41,11 +41,11 @@ def derive_handler(crew: Crew, executor: Executor) -> Handler:
         body = await request.body()
 
         client = client_of(request)
-        elsewhere = Elsewhere(crew, client)
+        blocking_client = BlockingPoolClient(pool, client)
 
         def work() -> Response:
             call = read_json(DeriveRequest, body)
-            return json_response(_answer(call, _solved(call, elsewhere, deadline)))
+            return json_response(_answer(call, _solved(call, blocking_client, deadline)))
 
         async def worked() -> Response:
             async with places.taken(client):
@@ -54,19 +54,19 @@ def derive_handler(crew: Crew, executor: Executor) -> Handler:
         try:
             return await while_wanted(request.receive, worked())
         finally:
-            elsewhere.end()
+            blocking_client.end()
 
     return handle
 
 
-def _solved(call: DeriveRequest, elsewhere: Elsewhere, deadline: float) -> WorkedSolution:
+def _solved(call: DeriveRequest, blocking_client: BlockingPoolClient, deadline: float) -> WorkedSolution:
     return worked_solution(
         call.dh.table(),
         call.joint_positions,
         call.notation,
         keeps_symbols=call.symbolic,
         dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
-        run=elsewhere.run,
+        run=blocking_client.run,
         deadline=deadline,
     )
 

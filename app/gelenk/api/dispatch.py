@@ -12,7 +12,6 @@ from typing import Any, cast
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
-from gelenk.api.errand import Desk, Inquiry, buffers
 from gelenk.api.long_work import submitted
 from gelenk.api.long_works import LONG_WORK
 from gelenk.api.npy import npy_response, read_npy
@@ -40,49 +39,50 @@ from gelenk.api.payloads import (
     read_json,
     read_query,
 )
+from gelenk.api.pool_client import INLINE_BYTES, PoolClient
 from gelenk.api.preference import wants_answer_later
 from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.remote import INLINE_BYTES, Remote
 from gelenk.api.routes import DocumentedRoute, Handler
+from gelenk.api.task import Context, TaskRequest, buffers
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.jobs.runner import Runner
 from gelenk.model.errors import InvalidArray, InvalidField
 from gelenk.operations.operation import Operation, operation
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
-from gelenk.operations.tally import TALLY, Tally
+from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
 from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 _PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
 
 
-def answer(desk: Desk, inquiry: Inquiry) -> Response:
+def answer(context: Context, task_request: TaskRequest) -> Response:
     """The answer to any request, in a worker, however long it takes."""
-    found = operation(inquiry.endpoint)
-    robot, call = _robot_and_call(desk.library, found.endpoint, inquiry)
-    return _answered(found.endpoint, call, found.run(robot, call, desk.limits), inquiry.wanted)
+    found = operation(task_request.endpoint)
+    robot, call = _robot_and_call(context.library, found.endpoint, task_request)
+    return _answered(found.endpoint, call, found.run(robot, call, context.limits), task_request.wanted)
 
 
-def plan_job(desk: Desk, inquiry: Inquiry) -> Response:
+def plan_job(context: Context, task_request: TaskRequest) -> Response:
     """The files that a job is computed from, packed into one; the request is checked."""
-    robot, call = _robot_and_call(desk.library, BY_NAME[inquiry.endpoint], inquiry)
-    return Response(LONG_WORK[inquiry.endpoint].planned(cast(LoadedRobot, robot), call, desk.limits))
+    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
+    return Response(LONG_WORK[task_request.endpoint].planned(cast(LoadedRobot, robot), call, context.limits))
 
 
-def find(desk: Desk, inquiry: Inquiry) -> Response:
+def find(context: Context, task_request: TaskRequest) -> Response:
     """What has to be known about a robot before requests of this kind are fast."""
-    warm_up = operation(inquiry.endpoint).warm_up
-    robot, call = _robot_and_call(desk.library, BY_NAME[inquiry.endpoint], inquiry)
+    warm_up = operation(task_request.endpoint).warm_up
+    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
     return Response(b"" if warm_up is None else pickle.dumps(warm_up.find(cast(LoadedRobot, robot), call)))
 
 
-def handler(endpoint: Endpoint[Any, Any], remote: Remote, runner: Runner, limits: Limits) -> Handler:
+def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
     """What answers the requests of an endpoint.
 
     Args:
         endpoint: The endpoint.
-        remote: Sends requests to workers.
+        pool_client: Sends requests to workers.
         runner: Runs jobs.
         limits: What an answer may take.
     """
@@ -95,33 +95,38 @@ def handler(endpoint: Endpoint[Any, Any], remote: Remote, runner: Runner, limits
         wanted, pieces = request.preferred(offered), await request.pieces()
         query, is_npy = request.scope["query_string"].decode("latin-1"), request.media_type == NPY
 
-        def inquiry() -> Inquiry:
+        def task_request() -> TaskRequest:
             robot = request.path_params.get("robot", "")
-            return Inquiry(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
+            return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
         if can_be_job and wants_answer_later(request.scope["headers"]):
-            planned = await remote.told(request, plan_job, inquiry())
+            planned = await pool_client.told(request, plan_job, task_request())
             return await submitted(runner, endpoint.name, request, planned)
-        if request.length <= INLINE_BYTES and not remote.crew.is_starting:
+        if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
             if wanted not in _PICTURES and not found.is_heavy(call):
-                outcome = await _on_the_loop(found, remote, request, call, limits, inquiry)
+                outcome = await _on_the_loop(found, pool_client, request, call, limits, task_request)
                 if outcome is not None:
                     return _answered(endpoint, call, outcome, wanted)
-        return await remote.answer(request, answer, inquiry())
+        return await pool_client.answer(request, answer, task_request())
 
     return handle
 
 
 async def _on_the_loop(
-    found: Operation, remote: Remote, request: BoundedRequest, call: Any, limits: Limits, inquiry: Callable[[], Inquiry]
+    found: Operation,
+    pool_client: PoolClient,
+    request: BoundedRequest,
+    call: Any,
+    limits: Limits,
+    task_request: Callable[[], TaskRequest],
 ) -> Outcome | None:
     """The outcome where that is fast; what it needs to know of the robot is found out first."""
     if not isinstance(found.endpoint, RobotEndpoint):
         return found.run(None, call, limits)
-    robot = await remote.resident(request, request.path_params["robot"])
+    robot = await pool_client.resident(request, request.path_params["robot"])
     if found.warm_up is not None and not found.warm_up.is_known(robot, call):
-        content = await remote.told(request, find, inquiry())
+        content = await pool_client.told(request, find, task_request())
         known = pickle.loads(content)  # noqa: S301 - from a process of ours
         await asyncio.to_thread(found.warm_up.keep, robot, call, known)
     return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)
@@ -188,10 +193,12 @@ def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
     return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
 
 
-def _robot_and_call(library: Library, endpoint: Endpoint[Any, Any], inquiry: Inquiry) -> tuple[LoadedRobot | None, Any]:
+def _robot_and_call(
+    library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
+) -> tuple[LoadedRobot | None, Any]:
     """The robot that a path or a request names, and the request."""
-    robot = library.get(inquiry.robot) if inquiry.robot else None
-    call = _parsed(endpoint, inquiry.query, inquiry.body, inquiry.npy)
+    robot = library.get(task_request.robot) if task_request.robot else None
+    call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
         robot = library.get(name)
     return robot, call
@@ -215,7 +222,7 @@ def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted:
     """The answer; what the metrics count of it is left behind."""
     if isinstance(endpoint, RobotEndpoint):
         batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
-        TALLY.set(Tally(batch) if outcome.solved is None else outcome.solved(batch))
+        REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
     if wanted == JSON:
         return json_response(outcome.content())
     if wanted in _PICTURES:

@@ -86,7 +86,7 @@ def jobs_router(runner: Runner) -> APIRouter:
 
         A job whose process ended is `queued` until another process resumes the unfinished part.
         """
-        return job_response(runner.shelf.get(job))
+        return job_response(runner.store.get(job))
 
     @router.get(
         "/{job}/events",
@@ -105,7 +105,7 @@ def jobs_router(runner: Runner) -> APIRouter:
         `event: progress` on each advance, and at the end `event: finished`; the data of both is the job as
         `GET /v1/jobs/{job}` has it. Comments keep the connection alive between them.
         """
-        first = await asyncio.to_thread(runner.shelf.get, job)
+        first = await asyncio.to_thread(runner.store.get, job)
         if first.is_final and last_event_id == _event_id(first):
             return Response(status_code=204)
         return StreamingResponse(
@@ -143,7 +143,7 @@ def jobs_router(runner: Runner) -> APIRouter:
 
         A job given up because the service ended every time it was started returns 409: submit it again.
         """
-        told = runner.shelf.get(job)
+        told = runner.store.get(job)
         wanted = preferred_type(request.headers.get("accept", ""), (JSON, NPY, *EXTRA.get(told.kind, ())))
         if told.kind == KIND and wanted in _PICTURES:
             paths = runner.result(job, ARRAY), runner.result(job, SUMMARY)
@@ -198,7 +198,7 @@ async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIt
         await asyncio.sleep(LOOK_SECONDS)
         quiet += LOOK_SECONDS
         try:
-            job = await asyncio.to_thread(runner.shelf.get, job.id)
+            job = await asyncio.to_thread(runner.store.get, job.id)
         except UnknownJob:
             return
 
@@ -209,7 +209,7 @@ def _file_response(runner: Runner, job_id: str, media_type: str) -> Response:
     try:
         stream = open_plain(path)
     except FileNotFoundError:
-        runner.shelf.get(job_id)
+        runner.store.get(job_id)
         raise InvalidArray(NO_ARRAY) from None
     headers = headers_of(runner.result(job_id, HEADERS), media_type)
     return StreamingResponse(

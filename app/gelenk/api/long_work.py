@@ -15,10 +15,10 @@ from starlette.responses import Response
 
 from gelenk.api.job_info import job_response
 from gelenk.api.payloads import CSV, JSON, NPY, PNG, SVG
+from gelenk.api.pool_client import client_of
 from gelenk.api.preference import APPLIED
-from gelenk.api.remote import client_of
 from gelenk.contract.common import Payload
-from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.packing import packed, unpacked
 from gelenk.jobs.robot_files import robot_files
 from gelenk.jobs.runner import Runner, Work
 from gelenk.operations.outcome import Limits

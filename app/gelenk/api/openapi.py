@@ -41,7 +41,7 @@ JOB_BEGUN: dict[int | str, dict[str, Any]] = {
 }
 
 BY_THE_CREW = (429, 500, 503, 504)
-"""Statuses of whatever a process of the crew may have to answer."""
+"""Statuses of whatever a process of the pool may have to answer."""
 
 _NAMED: dict[str, tuple[dict[str, Any], str]] = {
     "Configuration": (

@@ -6,18 +6,18 @@ from fastapi import Query
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
-from gelenk.api.errand import Desk, Inquiry
 from gelenk.api.openapi import RobotPath, problem_responses
 from gelenk.api.payloads import BoundedRequest, json_response, read_query
-from gelenk.api.remote import Remote
+from gelenk.api.pool_client import PoolClient
 from gelenk.api.routes import DocumentedRoute
+from gelenk.api.task import Context, TaskRequest
 from gelenk.contract.common import FrameName
 from gelenk.contract.dh import Convention, SnapTolerance
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer, FromUrdfOptions
 from gelenk.operations.dh_from_urdf import table_answer
 
 
-def table_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
+def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute:
     """The route; no table is made on the event loop."""
 
     def robot_table(  # type: ignore[empty-body]
@@ -30,8 +30,10 @@ def table_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
         """The table of a chain of this robot, as `from-urdf` finds it; the default chain where no frame is named."""
 
     async def get_table(request: BoundedRequest) -> Response:
-        inquiry = Inquiry(robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1"))
-        return await remote.answer(request, _robot_table, inquiry)
+        task_request = TaskRequest(
+            robot=request.path_params["robot"], query=request.scope["query_string"].decode("latin-1")
+        )
+        return await pool_client.answer(request, _robot_table, task_request)
 
     return DocumentedRoute(
         "/v1/robots/{robot}/dh",
@@ -46,6 +48,9 @@ def table_route(remote: Remote, max_body_bytes: int) -> DocumentedRoute:
     )
 
 
-def _robot_table(desk: Desk, inquiry: Inquiry) -> Response:
-    options, loaded = read_query(FromUrdfOptions, QueryParams(inquiry.query)), desk.library.get(inquiry.robot)
+def _robot_table(context: Context, task_request: TaskRequest) -> Response:
+    options, loaded = (
+        read_query(FromUrdfOptions, QueryParams(task_request.query)),
+        context.library.get(task_request.robot),
+    )
     return json_response(table_answer(loaded.robot, options, loaded.warnings))

@@ -9,14 +9,14 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Request, Response
 from starlette.datastructures import UploadFile
 
-from gelenk.api.errand import Desk, Inquiry, buffers
 from gelenk.api.meshes import MEDIA_TYPES, SANDBOXED, mesh_response
 from gelenk.api.openapi import BY_THE_CREW, RobotPath, UploadedRobotPath, json_example, problem_responses, without_null
 from gelenk.api.payloads import JSON, BoundedRequest, json_response, read_json
+from gelenk.api.pool_client import PoolClient
 from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.remote import Remote
 from gelenk.api.routes import DocumentedRoute
 from gelenk.api.skeleton import skeleton_of
+from gelenk.api.task import Context, TaskRequest, buffers
 from gelenk.contract.common import ChainEnds
 from gelenk.contract.dh import DhTablePayload, table_content
 from gelenk.contract.pose import Pose
@@ -49,10 +49,10 @@ _LIST_SECONDS = 5.0
 """How long the list of robots is cached if nothing says that it has changed."""
 
 
-def robots_router(library: Library, remote: Remote) -> APIRouter:
-    """Operations that read or remove robots, in the crew, because descriptions come from outside."""
+def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
+    """Operations that read or remove robots, in the pool, because descriptions come from outside."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
-    listed = Listed(library, remote)
+    listed = Listed(library, pool_client)
 
     @router.get(
         "",
@@ -74,7 +74,7 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
     )
     async def get_robot(robot: RobotPath, request: Request) -> Any:
         """Joints, links, frames, chains, licence, and warnings about the description."""
-        return await remote.answer(request, _described, Inquiry(robot=robot))
+        return await pool_client.answer(request, _described, TaskRequest(robot=robot))
 
     @router.get(
         "/{robot}/urdf",
@@ -88,7 +88,7 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
     )
     async def get_urdf(robot: RobotPath, request: Request) -> Response:
         """The description as uploaded, or as generated from the DH table."""
-        return await remote.answer(request, _urdf, Inquiry(robot=robot))
+        return await pool_client.answer(request, _urdf, TaskRequest(robot=robot))
 
     @router.get(
         "/{robot}/meshes/{path:path}",
@@ -117,7 +117,7 @@ def robots_router(library: Library, remote: Remote) -> APIRouter:
 
         A file that is stored compressed is sent so to clients whose `Accept-Encoding` names `gzip`.
         """
-        await remote.resident(request, robot)
+        await pool_client.resident(request, robot)
         accepted = ",".join(request.headers.getlist("Accept-Encoding"))
         return await asyncio.to_thread(lambda: mesh_response(library.mesh(robot, path), path, accepted))
 
@@ -143,31 +143,31 @@ class Listed:
 
     Args:
         library: All robots.
-        remote: Who makes the list.
+        pool_client: Who makes the list.
     """
 
-    def __init__(self, library: Library, remote: Remote) -> None:
-        self._library, self._remote = library, remote
+    def __init__(self, library: Library, pool_client: PoolClient) -> None:
+        self._library, self._remote = library, pool_client
         self._kept: tuple[int, float, bytes] | None = None
 
     async def answer(self, request: Request) -> Response:
-        """The list; raises as `Remote.answer` does."""
+        """The list; raises as `PoolClient.answer` does."""
         state, now = self._library.state(), time.monotonic()
         if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
             return Response(self._kept[2], media_type=JSON)
-        content = await self._remote.told(request, _listed, Inquiry())
+        content = await self._remote.told(request, _listed, TaskRequest())
         self._kept = None if state is None else (state, now, content)
         return Response(content, media_type=JSON)
 
 
-def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
+def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
     """What writes robots: as JSON, or as a zip in a form."""
 
     async def add(request: BoundedRequest) -> Response:
-        return await _receive(request, remote, None)
+        return await _receive(request, pool_client, None)
 
     async def replace(request: BoundedRequest) -> Response:
-        return await _receive(request, remote, request.path_params["robot"])
+        return await _receive(request, pool_client, request.path_params["robot"])
 
     def add_robot(robot: NewRobot) -> RobotInfo:
         """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
@@ -221,14 +221,14 @@ def upload_routes(remote: Remote, max_body_bytes: int) -> list[DocumentedRoute]:
     ]
 
 
-async def _receive(request: BoundedRequest, remote: Remote, name: str | None) -> Response:
-    """Accept an upload in either form; the crew checks and stores it."""
+async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str | None) -> Response:
+    """Accept an upload in either form; the pool checks and stores it."""
     root_path, given = request.scope.get("root_path", ""), request.media_type
     key = request.scope.get("gelenk.key")
     owner = WITHOUT_KEY if key is None else f"key {key}"
     if given == JSON:
-        inquiry = Inquiry(buffers(await request.pieces()))
-        return await remote.answer(request, Keep(name, root_path, owner), inquiry)
+        task_request = TaskRequest(buffers(await request.pieces()))
+        return await pool_client.answer(request, Keep(name, root_path, owner), task_request)
     if given != MULTIPART:
         raise UnsupportedMediaType(given, (JSON, MULTIPART))
     with writing():
@@ -242,7 +242,7 @@ async def _receive(request: BoundedRequest, remote: Remote, name: str | None) ->
         pieces = await asyncio.to_thread(lambda: list(iter(lambda: archive.file.read(_PIECE), b"")))
     finally:
         await form.close()
-    return await remote.answer(request, Keep(name, root_path, owner, text), Inquiry(buffers(pieces)))
+    return await pool_client.answer(request, Keep(name, root_path, owner, text), TaskRequest(buffers(pieces)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,11 +261,11 @@ class Keep:
     owner: str
     form: ArchiveReplacement | None = None
 
-    def __call__(self, desk: Desk, inquiry: Inquiry) -> Response:
+    def __call__(self, context: Context, task_request: TaskRequest) -> Response:
         """The robot as it is kept now."""
         if self.form is None:
-            return self._kept(desk.library, replace(_from_json(inquiry.body, self.name), owner=self.owner))
-        with unpacked(BytesIO(inquiry.body), root=desk.library.uploads) as content:
+            return self._kept(context.library, replace(_from_json(task_request.body, self.name), owner=self.owner))
+        with unpacked(BytesIO(task_request.body), root=context.library.uploads) as content:
             upload = RobotUpload(
                 name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
                 format="urdf",
@@ -277,7 +277,7 @@ class Keep:
                 strict=self.form.strict,
                 owner=self.owner,
             )
-            return self._kept(desk.library, upload)
+            return self._kept(context.library, upload)
 
     def _kept(self, library: Library, upload: RobotUpload) -> Response:
         if self.name is not None:
@@ -298,16 +298,16 @@ def _from_json(body: bytes, name: str | None) -> RobotUpload:
     return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain, strict=robot.strict)
 
 
-def _listed(desk: Desk, _: Inquiry) -> Response:
-    return Response(b'{"robots":[%b]}' % b",".join(desk.library.summaries()), media_type=JSON)
+def _listed(context: Context, _: TaskRequest) -> Response:
+    return Response(b'{"robots":[%b]}' % b",".join(context.library.summaries()), media_type=JSON)
 
 
-def _described(desk: Desk, inquiry: Inquiry) -> Response:
-    return json_response(info(desk.library.get(inquiry.robot)).model_dump(mode="json"))
+def _described(context: Context, task_request: TaskRequest) -> Response:
+    return json_response(info(context.library.get(task_request.robot)).model_dump(mode="json"))
 
 
-def _urdf(desk: Desk, inquiry: Inquiry) -> Response:
-    return Response(desk.library.get(inquiry.robot).urdf, media_type="application/xml", headers=SANDBOXED)
+def _urdf(context: Context, task_request: TaskRequest) -> Response:
+    return Response(context.library.get(task_request.robot).urdf, media_type="application/xml", headers=SANDBOXED)
 
 
 def info(loaded: LoadedRobot) -> RobotInfo:

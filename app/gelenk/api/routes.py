@@ -62,7 +62,7 @@ class Application(FastAPI):
     """FastAPI, with the operations on a robot dispatched first.
 
     `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
-    an unknown operation, takes FastAPI's way; and so do all where that way is traced (`is_traced`). `door` is where
+    an unknown operation, takes FastAPI's way; and so do all where that way is traced (`is_traced`). `entry` is where
     requests arrive, and leads to `answer`.
     """
 
@@ -71,13 +71,13 @@ class Application(FastAPI):
         self._max_body_bytes, self._is_traced = max_body_bytes, is_traced
         self.bodies = bodies
         self.operations: dict[str, Handler] = {}
-        self.door: ASGIApp = self.answer
+        self.entry: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve a connection."""
         if self.root_path and scope["type"] == "http":
             scope = prefixed(scope, self.root_path)
-        await self.door(scope, receive, send)
+        await self.entry(scope, receive, send)
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that has passed the checks; HEAD is GET without the body."""

@@ -17,9 +17,9 @@ from gelenk.api.openapi import problem_responses
 from gelenk.api.payloads import json_response
 from gelenk.api.problems import problem
 from gelenk.contract.health import Health
-from gelenk.crew.crew import Crew
 from gelenk.kinematics.warm import warm_up
 from gelenk.model.compilation import wait_for_others
+from gelenk.pool.pool import WorkerPool
 from gelenk.store import folders
 
 _LOOK_SECONDS = 1.0
@@ -27,10 +27,10 @@ _LOOK_SECONDS = 1.0
 
 
 class Readiness:
-    """Whether everything that requests need is ready: the kernels (compiled or from their cache), the crew, the disk.
+    """Whether everything that requests need is ready: the kernels (compiled or from their cache), the pool, the disk.
 
     Args:
-        crew: The processes for long requests.
+        pool: The processes for long requests.
         data_dir: Where uploads and jobs are kept.
         jobs_failure: Why jobs cannot be done, where that is so.
 
@@ -38,8 +38,8 @@ class Readiness:
         failure: Why the kernels will never be ready.
     """
 
-    def __init__(self, crew: Crew, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
-        self._crew, self._data_dir, self._jobs_failure = crew, data_dir, jobs_failure
+    def __init__(self, pool: WorkerPool, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
+        self._crew, self._data_dir, self._jobs_failure = pool, data_dir, jobs_failure
         self._has_kernels = False
         self._looked = -math.inf
         self._storage: str | None = None

@@ -12,8 +12,8 @@ from starlette.responses import Response
 from gelenk.api.job_info import job_response
 from gelenk.api.openapi import RobotPath, json_example, problem_responses
 from gelenk.api.payloads import JSON, BoundedRequest, read_json
+from gelenk.api.pool_client import PARSED_HERE_BYTES, PoolClient, client_of
 from gelenk.api.problems import UnsupportedMediaType
-from gelenk.api.remote import PARSED_HERE_BYTES, Remote, client_of
 from gelenk.api.routes import DocumentedRoute
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.workspace import SlicePlane, WorkspaceRequest
@@ -45,7 +45,9 @@ class SampleLimits:
     numbers: int
 
 
-def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_body_bytes: int) -> DocumentedRoute:
+def workspace_route(
+    runner: Runner, pool_client: PoolClient, limits: SampleLimits, max_body_bytes: int
+) -> DocumentedRoute:
     """POST /v1/robots/{robot}/workspace; the request is checked in a thread before there is a job."""
 
     def workspace(robot: RobotPath, call: WorkspaceRequest) -> JobInfo:
@@ -67,7 +69,7 @@ def workspace_route(runner: Runner, remote: Remote, limits: SampleLimits, max_bo
         if request.scope["query_string"]:
             raise InvalidField("query", "this call has its parameters as fields of the body")
         body = await request.body()
-        robot = await remote.resident(request, request.path_params["robot"])
+        robot = await pool_client.resident(request, request.path_params["robot"])
 
         def begin() -> Response:
             call = read_json(WorkspaceRequest, body)
@@ -111,7 +113,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
         if call.kind != "dexterity" and field in call.model_fields_set:
             raise InvalidField(field, f"is only allowed with the kind `dexterity`; this one is `{call.kind}`")
     if call.job_id is None:  # a job of that name may be this very one
-        runner.shelf.check_room(client)
+        runner.store.check_room(client)
     check_size(_question(loaded.record.name, loaded.robot, chain, call))
     ends = f"{loaded.record.name}\0{chain.base_frame}\0{chain.tip_frame}\0"
     content = call.model_dump_json(exclude={"job_id", "base_frame", "tip_frame"})

@@ -12,8 +12,8 @@ import httpx2
 from anyio.from_thread import start_blocking_portal
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from gelenk.crew.crew import Crew
 from gelenk.main import create_app
+from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
 
 _EVENTS = "/events"
@@ -22,7 +22,7 @@ _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 
-class _Alone(Crew):
+class _Alone(WorkerPool):
     """No processes: their work is done here, in a thread, and Ctrl-C stops it."""
 
     def __init__(self) -> None:

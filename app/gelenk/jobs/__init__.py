@@ -5,12 +5,12 @@ results together. A part is a function of its argument alone, so that it may be 
 any order; those that are finished are on disk, and a job that is taken up after a restart does not do them again.
 
 - `job`: what a job is, from its beginning to its end.
-- `shelf`: jobs as folders, which every process of the service reads and writes; `parts`: what is finished of them;
+- `store`: jobs as folders, which every process of the service reads and writes; `parts`: what is finished of them;
   `owners`: which of these processes live.
 - `workers`: processes that are kept warm, and replaced when they die or hang.
 - `cluster`: the same on a Ray cluster; `driver`: the process that speaks to it, the only place that knows Ray.
 - `run`: a job while it is done; `runner`: takes jobs in and up again, has them done, and cancels them.
-- `parcel`: arrays as bytes; `robot_files`: the robot of a job.
+- `packing`: arrays as bytes; `robot_files`: the robot of a job.
 - `workspace`: the workspace of a robot as a job.
 - `workspace_picture`: its picture.
 """

@@ -10,7 +10,7 @@ from typing import IO, Any, Protocol, TypeAlias, TypeVar
 
 from gelenk.jobs.job import Job
 from gelenk.jobs.parts import Parts, computed
-from gelenk.jobs.shelf import Shelf
+from gelenk.jobs.store import JobStore
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
 from gelenk.model.errors import JobFailed, UnknownJob
 
@@ -64,7 +64,7 @@ class Run:
     order: Order
     executor: Executor
     workers: Workers
-    shelf: Shelf
+    store: JobStore
     parts: Parts
     _looked: float = field(default=0.0)
     _progress: float = field(default=0.0)
@@ -164,7 +164,7 @@ class Run:
     def _look(self) -> None:
         self._looked = time.monotonic()
         try:
-            job = self.shelf.change(self.job, **self._news())
+            job = self.store.change(self.job, **self._news())
         except UnknownJob:
             raise Cancelled from None
         if job.is_final:

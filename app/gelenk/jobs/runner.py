@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 from gelenk.jobs.job import Failure, Job
 from gelenk.jobs.run import Executor, Files, Run
-from gelenk.jobs.shelf import Shelf
+from gelenk.jobs.store import JobStore
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
 from gelenk.model.errors import (
     JobCancelled,
@@ -59,7 +59,7 @@ class Runner:
 
     def __init__(
         self,
-        shelf: Shelf,
+        store: JobStore,
         kinds: Mapping[str, Kind],
         workers: Workers,
         running: int,
@@ -67,7 +67,7 @@ class Runner:
         executor: Executor | None = None,
         is_local: bool = False,
     ) -> None:
-        self.shelf, self.workers, self._kinds = shelf, workers, kinds
+        self.store, self.workers, self._kinds = store, workers, kinds
         self._executor, self._is_local = executor or workers, is_local
         self._seconds = seconds
         self._turns: Turns[Job] = Turns(running)
@@ -81,7 +81,7 @@ class Runner:
 
     def begin(self) -> None:
         """Take up what was left by processes that are gone, now and whenever there is something."""
-        self.shelf.prepare()
+        self.store.prepare()
         thread = threading.Thread(target=self._take_up, name="jobs-left", daemon=True)
         thread.start()
         self._threads.append(thread)
@@ -111,7 +111,7 @@ class Runner:
         """
         if self._closed.is_set():
             raise ServiceStopping
-        job, is_new = self.shelf.add(kind, digest, request, job_id, client)
+        job, is_new = self.store.add(kind, digest, request, job_id, client)
         if is_new:
             self._do_later(job)
         return job
@@ -130,12 +130,12 @@ class Runner:
             UnknownJob: There is none of this name.
             JobFinished: It is finished, if only in this moment, and stays.
         """
-        was_final = self.shelf.get(job_id).is_final
-        job = self.shelf.change(job_id, state="cancelled")
+        was_final = self.store.get(job_id).is_final
+        job = self.store.change(job_id, state="cancelled")
         if was_final or job.state != "cancelled":
             if not remove:
                 raise JobFinished(job_id, job.state)
-            self.shelf.remove(job_id)
+            self.store.remove(job_id)
         order = self._orders.get(job_id)
         if order is not None:
             order.cancelled.set()
@@ -150,7 +150,7 @@ class Runner:
             JobCancelled: It never will be.
             KinematicsError: It failed: what it has failed with.
         """
-        job = self.shelf.get(job_id)
+        job = self.store.get(job_id)
         match job.state:
             case "queued" | "running":
                 raise JobNotFinished(job_id, job.state, job.progress)
@@ -158,7 +158,7 @@ class Runner:
                 raise JobCancelled(job_id)
             case "failed":
                 raise (job.failure or Failure.because("the job failed")).error_again()
-        return self.shelf.file(job_id, name)
+        return self.store.file(job_id, name)
 
     def rendered(self, function: Callable[[Any], bytes], argument: Any) -> bytes:
         """What a function makes of a result, in another process because it takes long.
@@ -190,7 +190,7 @@ class Runner:
         ends = time.monotonic() + _GOODBYE_SECONDS
         for thread in self._threads:
             thread.join(max(0.0, ends - time.monotonic()))
-        self.shelf.close()
+        self.store.close()
 
     def _take_up(self) -> None:
         while True:
@@ -198,13 +198,13 @@ class Runner:
             try:
                 # Where none can be done now, another process may, or this one later.
                 if self.failure is None:
-                    for job in self.shelf.take_up():
+                    for job in self.store.take_up():
                         logger.warning("job %s resumes: the service process that ran it has ended", job.id)
                         self._do_later(job)
                     while self._waiting:
                         self._do_later(self._waiting.pop(0))
                 self._say_again()
-                self.shelf.tidy()
+                self.store.tidy()
             except (KinematicsError, OSError) as error:
                 logger.warning("unfinished jobs cannot be resumed: %s", error)
             if self._closed.wait(_LOOK_FOR_LEFT):
@@ -269,28 +269,28 @@ class Runner:
     def _done(self, job: Job, order: Order) -> None:
         if self.failure is not None:
             raise Unavailable(self.failure)
-        job = self.shelf.begin(job)
+        job = self.store.begin(job)
         if job.is_final:
             return
         if job.attempts > _ATTEMPTS:
             raise JobInterrupted(
                 f"it was started {_ATTEMPTS} times, and each time the service ended before it made progress"
             )
-        request = self.shelf.request(job.id)
+        request = self.store.request(job.id)
         if not request.is_dir():
             raise JobInterrupted("its request is no longer there")
         executor = self.workers if self._is_local and self._executor.failure else self._executor
-        run = Run(job, order, executor, self.workers, self.shelf, self.shelf.parts(job))
+        run = Run(job, order, executor, self.workers, self.store, self.store.parts(job))
         for name, content in self._kinds[job.kind](request)(run).items():
-            self.shelf.write(job.id, name, content)
-        self.shelf.change(job, state="succeeded", progress=1.0)
+            self.store.write(job.id, name, content)
+        self.store.change(job, state="succeeded", progress=1.0)
 
     def _clear(self, job: Job) -> None:
         """Remove what a job needs no more, if it is over."""
         with contextlib.suppress(KinematicsError, OSError):
-            now = self.shelf.get(job.id)
+            now = self.store.get(job.id)
             if now.is_final and now.created == job.created:
-                self.shelf.clear(job)
+                self.store.clear(job)
 
     def _postpone(self, job: Job, reason: Unavailable) -> None:
         """Put a job back into the queue: its remaining parts cannot be computed now."""
@@ -304,14 +304,14 @@ class Runner:
     def _leave(self, job: Job) -> None:
         """Leave a job to the next process of the service; this shutdown does not count as a failed attempt."""
         with contextlib.suppress(KinematicsError):
-            self.shelf.change(job, state="queued", attempts=0)
+            self.store.change(job, state="queued", attempts=0)
 
     def _fail(self, job: Job, failure: Failure) -> None:
         """Say that a job has failed; where the disk does not even take that, as soon as it does."""
         with contextlib.suppress(KinematicsError, OSError):
-            self.shelf.parts(job).clear()  # it is room that may be lacking
+            self.store.parts(job).clear()  # it is room that may be lacking
         try:
-            self.shelf.change(job, state="failed", failure=failure)
+            self.store.change(job, state="failed", failure=failure)
         except UnknownJob:
             return
         except KinematicsError as error:
@@ -322,6 +322,6 @@ class Runner:
         """Say of those jobs that they have failed of which it could not be said before."""
         for job, failure in list(self._unsaid.values()):
             with contextlib.suppress(UnknownJob):
-                self.shelf.change(job, state="failed", failure=failure)
+                self.store.change(job, state="failed", failure=failure)
             del self._unsaid[job.id]
             self._clear(job)

@@ -25,7 +25,7 @@ _GRACE = 1.0
 _IDLE = 300.0
 """After how long without work a process is let go, [s]."""
 _NICENESS = 10
-"""Requests whose client waits go first, before the crew too."""
+"""Requests whose client waits go first, before the pool too."""
 ATTEMPTS = 3
 """How often a part is started whose process dies, which may not be the part's fault."""
 DIED = f"its process died {ATTEMPTS} times, the limit; possibly out of memory"

@@ -9,11 +9,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import orjson
 
-from gelenk.jobs.parcel import packed, unpacked
+from gelenk.jobs.packing import packed, unpacked
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
-from gelenk.jobs.shelf import write_result
+from gelenk.jobs.store import write_result
 from gelenk.kinematics.dexterity import Orientations, Over, excluded, orientations, shares
 from gelenk.kinematics.sampling import Sampling
 from gelenk.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace

@@ -15,7 +15,7 @@ from gelenk.model.compilation import is_awaited
 from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
 from gelenk.operations.ik_request import Bounds, asked, options_of, task_of
 from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.tally import Tally
+from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
 from gelenk.store.records import LoadedRobot
 
@@ -94,5 +94,7 @@ def _outcome(chain: Chain, call: InverseRequest, result: InverseKinematics) -> O
     return Outcome(
         content,
         array if fits else None,
-        solved=lambda targets: Tally(targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())),
+        solved=lambda targets: RequestCounts(
+            targets, Counter(result.statuses), len(result.qs), int(result.iterations.sum())
+        ),
     )

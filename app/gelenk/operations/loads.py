@@ -43,7 +43,7 @@ def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
 
 
 def _find(loaded: LoadedRobot, call: WrenchOptions) -> None:
-    """Nothing that travels: that it can be made is all that the crew finds out."""
+    """Nothing that travels: that it can be made is all that the pool finds out."""
     _learn(loaded, call)
 
 

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
-from gelenk.jobs.shelf import Limits as JobLimits
+from gelenk.jobs.store import Limits as JobLimits
 from gelenk.model.arrays import Array
-from gelenk.operations.tally import Tally
+from gelenk.operations.request_counts import RequestCounts
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
 
@@ -42,4 +42,4 @@ class Outcome:
     array: Callable[[], tuple[Array, dict[str, str]]] | None = None
     picture: Callable[[PictureFormat], bytes] | None = None
     columns: Sequence[str] | None = None
-    solved: Callable[[int], Tally] | None = None
+    solved: Callable[[int], RequestCounts] | None = None

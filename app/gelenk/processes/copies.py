@@ -13,16 +13,16 @@ import threading
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 
-from gelenk.processes.original import COPY, LOAD, NUMBER, WARM_UP
+from gelenk.processes.fork_server import COPY, LOAD, NUMBER, WARM_UP
 
 GOODBYE_SECONDS = 1.0
 """How long to wait for the end of a killed process."""
 _BEGIN = """
 import sys
 sys.path[:] = sys.argv[3:]
-from gelenk.processes import copies, original
+from gelenk.processes import copies, fork_server
 copies.reach_by(int(sys.argv[1]))
-original.main(int(sys.argv[2]))
+fork_server.main(int(sys.argv[2]))
 """
 
 

@@ -67,7 +67,7 @@ def test_an_unexpected_error_carries_them(tmp_path: Path, monkeypatch: pytest.Mo
     def fail(*_: object) -> None:
         raise RuntimeError("boom")
 
-    monkeypatch.setattr("gelenk.api.remote.Remote.answer", fail)
+    monkeypatch.setattr("gelenk.api.pool_client.PoolClient.answer", fail)
     with TestClient(application(data_dir=tmp_path), raise_server_exceptions=False) as client:
         answer = client.get("/v1/robots/panda")
     assert answer.status_code == 500

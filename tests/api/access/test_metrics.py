@@ -12,7 +12,7 @@ from prometheus_client.parser import text_string_to_metric_families
 from starlette.testclient import TestClient
 
 from gelenk.api.access import metrics
-from gelenk.crew.crew import Crew
+from gelenk.pool.pool import WorkerPool
 from tests.api.access.asking import HOST, application, ask, bearer, keys_for
 from tests.api.conftest import ready_client
 from tests.test_faults import called, wait_for
@@ -71,7 +71,7 @@ def test_calls_are_counted_with_their_batches_and_times(client: TestClient) -> N
 
 @pytest.mark.parametrize("count", [1, 200])
 def test_the_solve_rate_is_that_of_the_answers(client: TestClient, count: int) -> None:
-    """A few targets are solved on the event loop, many by the crew."""
+    """A few targets are solved on the event loop, many by the pool."""
     near = {"position": [0.5, 0.5, 0.0], "rpy": [0.0, 0.0, 0.0]}
     far = {"position": [50.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]}
     call = {"targets": [near, far] * count, "task": ["x", "y"]}
@@ -109,9 +109,9 @@ def test_what_is_under_way_is_told(client: TestClient) -> None:
 
 def test_names_from_outside_cannot_multiply_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(metrics, "MOST_ROBOTS", 3)
-    made = metrics.Metrics(["panda", "ur5"], Crew(2, 1, 1), dict)
+    made = metrics.Metrics(["panda", "ur5"], WorkerPool(2, 1, 1), dict)
     app = application()
-    monkeypatch.setattr(app.door, "_metrics", made)  # type: ignore[attr-defined]
+    monkeypatch.setattr(app.entry, "_metrics", made)  # type: ignore[attr-defined]
     for i in range(50):
         assert ask(app, f"/v1/robots/robot{i}").status == 404
         assert ask(app, f"/nothing/{i}", method="BREW").status in {404, 405}

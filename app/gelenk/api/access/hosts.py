@@ -10,7 +10,7 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.request_context import RequestContext
 from gelenk.api.problems import problem
 from gelenk.model.errors import quoted
 
@@ -23,7 +23,7 @@ _HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
 _MOST_REMEMBERED = 64
 
 
-def repeated(exchange: Exchange) -> Response | None:
+def repeated(exchange: RequestContext) -> Response | None:
     """Refuses requests with duplicates of single-valued fields: a proxy may have acted on the other one."""
     names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
     if len(names) == len(set(names)):
@@ -46,7 +46,7 @@ class TrustedHosts:
         self._endings = tuple(name[1:] for name in names if name.startswith("*."))
         self._remembered: set[bytes] = set()
 
-    def __call__(self, exchange: Exchange) -> Response | None:
+    def __call__(self, exchange: RequestContext) -> Response | None:
         """A refusal, or None."""
         given = exchange.headers.get(b"host", b"")
         if given in self._remembered and self._stands_once(exchange):
@@ -65,7 +65,7 @@ class TrustedHosts:
         return problem(exchange.request, HTTPStatus.MISDIRECTED_REQUEST, "unknown-host", detail)
 
     @staticmethod
-    def _stands_once(exchange: Exchange) -> bool:
+    def _stands_once(exchange: RequestContext) -> bool:
         names: list[bytes] = [name for name, _ in exchange.scope["headers"]]
         return names.count(b"host") == 1
 

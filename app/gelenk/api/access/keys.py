@@ -5,8 +5,8 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from gelenk.api.access.exchange import Exchange
 from gelenk.api.access.keyring import Keyring
+from gelenk.api.access.request_context import RequestContext
 from gelenk.api.access.scopes import Scope
 from gelenk.api.problems import problem
 
@@ -26,7 +26,7 @@ class KeyCheck:
         self._keyring = keyring
         self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
 
-    def __call__(self, exchange: Exchange) -> Response | None:
+    def __call__(self, exchange: RequestContext) -> Response | None:
         """A refusal, or None."""
         operation = exchange.operation
         if operation.is_open:
@@ -50,13 +50,13 @@ class KeyCheck:
         return None
 
 
-def _unauthorised(exchange: Exchange, detail: str, challenge: str) -> Response:
+def _unauthorised(exchange: RequestContext, detail: str, challenge: str) -> Response:
     response = problem(exchange.request, HTTPStatus.UNAUTHORIZED, "key-needed", detail)
     response.headers["WWW-Authenticate"] = challenge
     return response
 
 
-def _forbidden(exchange: Exchange, needed: Scope, given: frozenset[Scope]) -> Response:
+def _forbidden(exchange: RequestContext, needed: Scope, given: frozenset[Scope]) -> Response:
     facts = {"missing_scope": needed, "scopes": sorted(given)}
     detail = f"this needs the scope `{needed}`, which the key has not"
     response = problem(exchange.request, HTTPStatus.FORBIDDEN, "missing-scope", detail, facts)

@@ -20,9 +20,9 @@ from prometheus_client.metrics_core import GaugeMetricFamily, Metric
 from prometheus_client.multiprocess import MultiProcessCollector, mark_process_dead
 from prometheus_client.registry import Collector
 
-from gelenk.api.access.exchange import Exchange
-from gelenk.crew.crew import Crew
-from gelenk.operations.tally import Tally
+from gelenk.api.access.request_context import RequestContext
+from gelenk.operations.request_counts import RequestCounts
+from gelenk.pool.pool import WorkerPool
 
 FOLDER = "PROMETHEUS_MULTIPROC_DIR"
 MOST_ROBOTS = 128
@@ -44,15 +44,15 @@ class Metrics:
 
     Args:
         robots: Names that have a label from the start.
-        crew: Who works for this process.
+        pool: Who works for this process.
         jobs: How many jobs there are by state, in all processes.
     """
 
-    def __init__(self, robots: Sequence[str], crew: Crew, jobs: Callable[[], Mapping[str, int]]) -> None:
+    def __init__(self, robots: Sequence[str], pool: WorkerPool, jobs: Callable[[], Mapping[str, int]]) -> None:
         self._registry = CollectorRegistry()
-        self._robots, self._crew, self._jobs = set(robots[:MOST_ROBOTS]), crew, jobs
+        self._robots, self._crew, self._jobs = set(robots[:MOST_ROBOTS]), pool, jobs
         self._in_flight = 0
-        self._over: deque[Exchange] = deque()
+        self._over: deque[RequestContext] = deque()
         self._bound = cache(_labelled)
         self._told: dict[Counter, float] = {}
         by_robot = "operation", "robot"
@@ -79,7 +79,7 @@ class Metrics:
         """Count a request that has come in."""
         self._in_flight += 1
 
-    def end(self, exchange: Exchange) -> None:
+    def end(self, exchange: RequestContext) -> None:
         """Count a request that is over; a few are gathered first, which costs each of them less."""
         self._in_flight -= 1
         self._over.append(exchange)
@@ -90,21 +90,21 @@ class Metrics:
         while self._over:
             self._count(self._over.popleft())
 
-    def _count(self, exchange: Exchange) -> None:
+    def _count(self, exchange: RequestContext) -> None:
         operation, robot = exchange.operation.name, self._label(exchange)
         self._bound(self._seconds, operation, robot).observe(exchange.seconds)
         self._bound(self._answers, operation, exchange.status or _LEFT).inc()
-        if exchange.tally is not None:
-            self._count_call(exchange.tally, operation, robot)
+        if exchange.counts is not None:
+            self._count_call(exchange.counts, operation, robot)
 
-    def _count_call(self, tally: Tally, operation: str, robot: str) -> None:
-        if tally.batch:
-            self._bound(self._batch, operation, robot).observe(tally.batch)
-        if tally.verdicts:
-            for verdict, count in tally.verdicts.items():
+    def _count_call(self, counts: RequestCounts, operation: str, robot: str) -> None:
+        if counts.batch:
+            self._bound(self._batch, operation, robot).observe(counts.batch)
+        if counts.verdicts:
+            for verdict, count in counts.verdicts.items():
                 self._bound(self._targets, robot, verdict).inc(count)
-            self._bound(self._solutions, robot).inc(tally.solutions)
-            self._bound(self._iterations, robot).inc(tally.iterations)
+            self._bound(self._solutions, robot).inc(counts.solutions)
+            self._bound(self._iterations, robot).inc(counts.iterations)
 
     def publish(self) -> None:
         """Report how many requests of this process are finished and in progress."""
@@ -149,7 +149,7 @@ class Metrics:
         jobs.register(_Jobs(self._jobs()))
         return generate_latest(registry) + generate_latest(jobs)
 
-    def _label(self, exchange: Exchange) -> str:
+    def _label(self, exchange: RequestContext) -> str:
         """The label of a robot; one that has answered gets its own, as long as there are any."""
         robot = exchange.robot
         if robot is None or robot in self._robots:

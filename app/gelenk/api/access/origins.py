@@ -9,7 +9,7 @@ from http import HTTPStatus
 
 from starlette.responses import Response
 
-from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.request_context import RequestContext
 from gelenk.api.problems import problem
 from gelenk.model.errors import quoted
 
@@ -31,7 +31,7 @@ class Origins:
     def __init__(self, allowed: Sequence[str]) -> None:
         self._allowed = frozenset(origin.encode() for origin in allowed)
 
-    def __call__(self, exchange: Exchange) -> Response | None:
+    def __call__(self, exchange: RequestContext) -> Response | None:
         """A refusal or the answer to a preflight, or None."""
         origin, site = exchange.headers.get(b"origin"), exchange.headers.get(b"sec-fetch-site")
         if self._allowed:
@@ -51,7 +51,7 @@ class Origins:
     def _allows(self, origin: bytes) -> bool:
         return b"*" in self._allowed or origin.lower() in self._allowed
 
-    def _admitted(self, exchange: Exchange, origin: bytes) -> Response | None:
+    def _admitted(self, exchange: RequestContext, origin: bytes) -> Response | None:
         """Let the page read the answer; a preflight is answered at once, before it would need a key."""
         exchange.answer_headers += [
             (b"access-control-allow-origin", origin),
@@ -67,11 +67,11 @@ class Origins:
         return Response(status_code=HTTPStatus.NO_CONTENT)
 
 
-def _is_preflight(exchange: Exchange) -> bool:
+def _is_preflight(exchange: RequestContext) -> bool:
     return exchange.scope["method"] == "OPTIONS" and b"access-control-request-method" in exchange.headers
 
 
-def _is_same_origin(exchange: Exchange, origin: bytes | None, site: bytes | None) -> bool:
+def _is_same_origin(exchange: RequestContext, origin: bytes | None, site: bytes | None) -> bool:
     """Whether the page is one of the service itself, or the request was typed in."""
     if site is not None:
         return site in {b"same-origin", b"none"}

@@ -16,9 +16,9 @@ from urllib.parse import quote
 import pytest
 from starlette.types import Message
 
-from gelenk.api.access.directory import Operation
-from gelenk.api.access.exchange import Exchange
-from gelenk.api.access.journal import Audit
+from gelenk.api.access.audit_log import AuditLog
+from gelenk.api.access.request_context import RequestContext
+from gelenk.api.access.route_table import Operation
 from gelenk.api.access.scopes import Scope
 from gelenk.model.errors import StorageFailed
 from gelenk.store import folders
@@ -84,7 +84,7 @@ def test_refused_writes_are_summed_up_and_push_no_line_out(tmp_path: Path) -> No
     added, first = entries(tmp_path)
     assert added["status"] == 201
     assert (first["key"], first["status"], first["refused"], first["clients"]) == ("read", 403, 1, ["192.0.2.7"])
-    app.door._audit.close()  # type: ignore[attr-defined]
+    app.entry._audit.close()  # type: ignore[attr-defined]
     *_, rest = entries(tmp_path)
     assert (rest["key"], rest["refused"], rest["clients"]) == ("read", 299, ["192.0.2.7"])
     assert first["since"] <= rest["since"] <= rest["time"]
@@ -92,7 +92,7 @@ def test_refused_writes_are_summed_up_and_push_no_line_out(tmp_path: Path) -> No
 
 
 def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) -> None:
-    audit = Audit(tmp_path)
+    audit = AuditLog(tmp_path)
     for i in range(1000):
         exchange = written_by("anna")
         exchange.status, exchange.was_let_in = 403, False
@@ -108,7 +108,7 @@ def test_refusals_of_many_addresses_are_summed_up_within_bounds(tmp_path: Path) 
 
 @pytest.mark.slow
 def test_what_was_counted_is_written_in_time_also_where_nothing_more_comes(tmp_path: Path) -> None:
-    audit = Audit(tmp_path, sum_seconds=0.5)
+    audit = AuditLog(tmp_path, sum_seconds=0.5)
     for _ in range(2):
         for _ in range(20):
             exchange = written_by("anna")
@@ -142,21 +142,21 @@ def test_a_disk_that_refuses_does_not_refuse_the_write(
 
     monkeypatch.setattr(folders, "exclusive", refuse)
     with caplog.at_level(logging.ERROR):
-        Audit(tmp_path).write(written_by("anna"), "/v1/robots/arm")
+        AuditLog(tmp_path).write(written_by("anna"), "/v1/robots/arm")
     (record,) = caplog.records
     assert "the audit log cannot be written: Read-only file system" in record.message
     assert record.facts["location"] == "/v1/robots/arm"  # type: ignore[attr-defined]
 
 
-def written_by(name: str) -> Exchange:
+def written_by(name: str) -> RequestContext:
     scope = {"type": "http", "method": "POST", "path": "/v1/robots", "headers": [], "client": ("192.0.2.7", 1)}
-    exchange = Exchange.begun(scope, Operation("add_robot", Scope.WRITE), None)
+    exchange = RequestContext.begun(scope, Operation("add_robot", Scope.WRITE), None)
     exchange.key, exchange.status, exchange.was_let_in = name, 201, True
     return exchange
 
 
 def test_the_audit_log_is_bounded_and_the_newest_lines_stay(tmp_path: Path) -> None:
-    audit = Audit(tmp_path, most_bytes=2000, kept=2)
+    audit = AuditLog(tmp_path, most_bytes=2000, kept=2)
     for i in range(100):
         audit.write(written_by(f"k{i}"), None)
     files = sorted(tmp_path.glob("*.jsonl"))
@@ -173,10 +173,10 @@ def test_many_writers_lose_no_line(tmp_path: Path) -> None:
     code = """
 import sys
 from pathlib import Path
-from gelenk.api.access.journal import Audit
+from gelenk.api.access.audit_log import AuditLog
 from tests.api.access.test_journal import written_by
 for i in range(50):
-    Audit(Path(sys.argv[1]), 4000, 100).write(written_by(f"{sys.argv[2]}-{i}"), None)
+    AuditLog(Path(sys.argv[1]), 4000, 100).write(written_by(f"{sys.argv[2]}-{i}"), None)
 """
     with ThreadPoolExecutor(3) as pool:
         commands = [[sys.executable, "-c", code, str(tmp_path), str(n)] for n in range(3)]

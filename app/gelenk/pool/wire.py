@@ -1,4 +1,4 @@
-"""Messages between the service and a process of its crew: an object, and large bytes beside it that are not copied.
+"""Messages between the service and a process of its pool: an object, and large bytes beside it that are not copied.
 
 On a stream socket, big-endian: the count of parts, the length of each, the parts. The first one is the pickled object;
 the others are the buffers that it wraps in `pickle.PickleBuffer`.

@@ -1,4 +1,4 @@
-"""The crew for a thread that waits: results, ends that are in time, and a request that nobody waits for."""
+"""The pool for a thread that waits: results, ends that are in time, and a request that nobody waits for."""
 
 import asyncio
 import time
@@ -7,29 +7,29 @@ from typing import Any
 
 import pytest
 
-from gelenk.api.elsewhere import Elsewhere
-from gelenk.crew.crew import Crew
+from gelenk.api.blocking_pool_client import BlockingPoolClient
 from gelenk.model.errors import ServiceBusy
-from tests.crew import calls
-from tests.crew.test_crew import LONG, at_work, with_crew
+from gelenk.pool.pool import WorkerPool
+from tests.pool import calls
+from tests.pool.test_pool import LONG, at_work, with_pool
 
 
 def of_a_thread(
-    test: Callable[[Crew, Callable[..., Awaitable[Any]], Elsewhere], Awaitable[None]], waiting: int = 5
+    test: Callable[[WorkerPool, Callable[..., Awaitable[Any]], BlockingPoolClient], Awaitable[None]], waiting: int = 5
 ) -> None:
-    async def run(crew: Crew) -> None:
-        elsewhere = Elsewhere(crew)
+    async def run(pool: WorkerPool) -> None:
+        blocking_client = BlockingPoolClient(pool)
 
         def ask(function: Callable[[Any], Any], argument: Any, seconds: float = LONG) -> Awaitable[Any]:
-            return asyncio.to_thread(elsewhere.run, function, argument, seconds)
+            return asyncio.to_thread(blocking_client.run, function, argument, seconds)
 
-        await test(crew, ask, elsewhere)
+        await test(pool, ask, blocking_client)
 
-    with_crew(run, count=1, waiting=waiting)
+    with_pool(run, count=1, waiting=waiting)
 
 
 def test_results_and_errors_are_the_function_s() -> None:
-    async def test(_: Crew, ask: Callable[..., Awaitable[Any]], _elsewhere: Elsewhere) -> None:
+    async def test(_: WorkerPool, ask: Callable[..., Awaitable[Any]], _elsewhere: BlockingPoolClient) -> None:
         assert await ask(calls.double, 21) == 42
         with pytest.raises(ValueError, match="wrong"):
             await ask(calls.fail, "wrong")
@@ -41,7 +41,7 @@ def test_results_and_errors_are_the_function_s() -> None:
 
 
 def test_what_takes_too_long_is_ended_in_time() -> None:
-    async def test(_: Crew, ask: Callable[..., Awaitable[Any]], _elsewhere: Elsewhere) -> None:
+    async def test(_: WorkerPool, ask: Callable[..., Awaitable[Any]], _elsewhere: BlockingPoolClient) -> None:
         began = time.monotonic()
         with pytest.raises(TimeoutError):
             await ask(calls.sleep, LONG, 0.3)
@@ -54,12 +54,12 @@ def test_what_takes_too_long_is_ended_in_time() -> None:
 
 
 def test_a_full_crew_says_so() -> None:
-    async def test(crew: Crew, ask: Callable[..., Awaitable[Any]], elsewhere: Elsewhere) -> None:
+    async def test(pool: WorkerPool, ask: Callable[..., Awaitable[Any]], blocking_client: BlockingPoolClient) -> None:
         at_it = asyncio.ensure_future(ask(calls.sleep, LONG))
-        await at_work(crew, 1)
+        await at_work(pool, 1)
         with pytest.raises(ServiceBusy):
-            await asyncio.to_thread(Elsewhere(crew).run, calls.double, 1, LONG)
-        elsewhere.end()
+            await asyncio.to_thread(BlockingPoolClient(pool).run, calls.double, 1, LONG)
+        blocking_client.end()
         with pytest.raises(ChildProcessError):
             await at_it
 
@@ -67,14 +67,14 @@ def test_a_full_crew_says_so() -> None:
 
 
 def test_what_nobody_waits_for_is_broken_off() -> None:
-    async def test(crew: Crew, ask: Callable[..., Awaitable[Any]], elsewhere: Elsewhere) -> None:
+    async def test(pool: WorkerPool, ask: Callable[..., Awaitable[Any]], blocking_client: BlockingPoolClient) -> None:
         at_it = asyncio.ensure_future(ask(calls.sleep, LONG))
-        await at_work(crew, 1)
-        elsewhere.end()
+        await at_work(pool, 1)
+        blocking_client.end()
         with pytest.raises(ChildProcessError, match="no longer waits"):
             await at_it
         with pytest.raises(ChildProcessError, match="no longer waits"):
             await ask(calls.double, 1)
-        assert await crew.run(calls.double, 21, LONG) == 42
+        assert await pool.run(calls.double, 21, LONG) == 42
 
     of_a_thread(test)

@@ -8,16 +8,16 @@ from random import getrandbits
 from starlette.requests import Request
 from starlette.types import Scope as AsgiScope
 
-from gelenk.api.access.directory import Operation
+from gelenk.api.access.route_table import Operation
 from gelenk.api.access.scopes import AS_JOBS, Scope
 from gelenk.api.preference import wants_answer_later
-from gelenk.operations.tally import Tally
+from gelenk.operations.request_counts import RequestCounts
 
 _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 
 
 @dataclass(slots=True)
-class Exchange:
+class RequestContext:
     """A request and its answer.
 
     Attributes:
@@ -46,10 +46,10 @@ class Exchange:
     status: int = 0
     was_let_in: bool = False
     seconds: float = 0.0
-    tally: Tally | None = None
+    counts: RequestCounts | None = None
 
     @classmethod
-    def begun(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "Exchange":
+    def begun(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "RequestContext":
         """A request that has just come in; problems find its id in the scope."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id", b"")

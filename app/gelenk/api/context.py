@@ -3,13 +3,13 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gelenk.api.errand import Desk
+from gelenk.api.task import Context
 from gelenk.operations.outcome import Limits
 from gelenk.store.library import Library, Quota
 
 
 @dataclass(frozen=True, slots=True)
-class Setup:
+class ContextSetup:
     """What answers depend on beside the request.
 
     Attributes:
@@ -28,6 +28,6 @@ class Setup:
         """All robots."""
         return Library(self.catalogue, self.uploads, self.quota)
 
-    def desk(self) -> Desk:
+    def context(self) -> Context:
         """What a process needs to answer with."""
-        return Desk(self.library(), self.limits)
+        return Context(self.library(), self.limits)

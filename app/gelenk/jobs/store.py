@@ -46,7 +46,7 @@ class Limits:
     Attributes:
         kept: Jobs, finished ones included; the oldest finished ones go first.
         kept_bytes: Of all of them.
-        unfinished: Jobs of one client that wait or run; see `Shelf.check_room` where there are several.
+        unfinished: Jobs of one client that wait or run; see `JobStore.check_room` where there are several.
         job_bytes: Of the finished parts of one job.
         kept_seconds: How long a finished job is kept, [s].
     """
@@ -58,7 +58,7 @@ class Limits:
     kept_seconds: float = 30 * 24 * 3600.0
 
 
-class Shelf:
+class JobStore:
     """All jobs below a folder; safe to use from many threads and processes.
 
     Args:
@@ -320,7 +320,7 @@ class Shelf:
 
 
 def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]) -> None:
-    """Write a result into the folder of a job, which is its name; see `Shelf.write`."""
+    """Write a result into the folder of a job, which is its name; see `JobStore.write`."""
     with folders.writing():
         try:
             with (folder / name).open("wb") as target:

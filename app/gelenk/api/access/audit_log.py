@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.request_context import RequestContext
 from gelenk.logs import line, moment
 from gelenk.model.errors import StorageFailed
 from gelenk.store import folders
@@ -25,7 +25,7 @@ requests = logging.getLogger("gelenk.requests")
 logger = logging.getLogger("gelenk")
 
 
-def log_request(exchange: Exchange) -> None:
+def log_request(exchange: RequestContext) -> None:
     """Log a request that is over: failures of the service as errors, refused access as a warning.
 
     Everything else is information, also a busy service: that would be logged often, and the metrics count it.
@@ -39,7 +39,7 @@ def log_request(exchange: Exchange) -> None:
         requests.log(level, "request", extra={"facts": facts})
 
 
-def _facts(exchange: Exchange) -> dict[str, Any]:
+def _facts(exchange: RequestContext) -> dict[str, Any]:
     return {
         "request_id": exchange.request_id,
         "key": exchange.key or None,
@@ -51,7 +51,7 @@ def _facts(exchange: Exchange) -> dict[str, Any]:
     }
 
 
-class Audit:
+class AuditLog:
     """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
 
     A line is on disk before the write is acknowledged. A refused request has written nothing: refusals of
@@ -71,7 +71,7 @@ class Audit:
         self._refusals: dict[str, _Refusals] = {}
         self._lock = threading.Lock()
 
-    def write(self, exchange: Exchange, location: str | None) -> None:
+    def write(self, exchange: RequestContext, location: str | None) -> None:
         """Add a line, or count a refusal; where the disk does not take it, it goes to the log.
 
         Args:

@@ -1,4 +1,4 @@
-"""The crew for code that is not a coroutine: part of a request runs elsewhere while a thread waits for it."""
+"""The pool for code that is not a coroutine: part of a request runs elsewhere while a thread waits for it."""
 
 import asyncio
 import threading
@@ -6,23 +6,23 @@ from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from typing import Any, TypeVar
 
-from gelenk.crew.crew import Crew
 from gelenk.model.errors import DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory
+from gelenk.pool.pool import WorkerPool
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 
-class Elsewhere:
-    """Has functions run by the crew on behalf of one request; to be made on the event loop, and ended there.
+class BlockingPoolClient:
+    """Has functions run by the pool on behalf of one request; to be made on the event loop, and ended there.
 
     Args:
-        crew: Who runs them.
+        pool: Who runs them.
         client: Whose request it is.
     """
 
-    def __init__(self, crew: Crew, client: str = "") -> None:
-        self._crew, self._client, self._loop = crew, client, asyncio.get_running_loop()
+    def __init__(self, pool: WorkerPool, client: str = "") -> None:
+        self._crew, self._client, self._loop = pool, client, asyncio.get_running_loop()
         self._lock = threading.Lock()
         self._under_way: Future[Any] | None = None
         self._is_over = False
@@ -38,7 +38,7 @@ class Elsewhere:
         Raises:
             TimeoutError: It takes longer.
             ChildProcessError: Its process died, or the result is no longer needed.
-            KinematicsError: As `Crew.run` where the crew takes no more calls.
+            KinematicsError: As `WorkerPool.run` where the pool takes no more calls.
             Exception: Whatever the function raises.
         """
 

@@ -11,7 +11,7 @@ from pickle import PickleBuffer
 
 import numpy as np
 
-from gelenk.crew.wire import pieces_of
+from gelenk.pool.wire import pieces_of
 
 
 def double(value: int) -> int:

@@ -39,7 +39,7 @@ UNKNOWN = Operation("unknown", None)
 """A path or a method that there is not: where keys are on, any key may learn that."""
 
 
-class Directory:
+class RouteTable:
     """The operations of an application.
 
     Args:

@@ -1,4 +1,4 @@
-"""The crew: calls that crash, hang, take too much or lose their caller fail alone, and the crew is whole again."""
+"""The pool: calls that crash, hang, take too much or lose their caller fail alone, and the pool is whole again."""
 
 import asyncio
 import json
@@ -14,88 +14,90 @@ from typing import Any
 
 import pytest
 
-from gelenk.crew.crew import Crew
-from gelenk.crew.wire import PIECE
 from gelenk.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from gelenk.pool.pool import WorkerPool
+from gelenk.pool.wire import PIECE
 from gelenk.processes import copies
-from tests.crew import calls
 from tests.jobs.parts import gone
+from tests.pool import calls
 
 LONG = 60.0
 MEMORY = 300 * 1024**2
 
 
-def with_crew(test: Callable[[Crew], Awaitable[None]], count: int = 2, waiting: int = 10, memory: int = MEMORY) -> None:
+def with_pool(
+    test: Callable[[WorkerPool], Awaitable[None]], count: int = 2, waiting: int = 10, memory: int = MEMORY
+) -> None:
     async def run() -> None:
-        crew = Crew(count, waiting, memory)
+        pool = WorkerPool(count, waiting, memory)
         try:
-            await crew.start()
-            await test(crew)
+            await pool.start()
+            await test(pool)
         finally:
-            pids = crew.pids
-            crew.close()
+            pids = pool.pids
+            pool.close()
         assert all(gone(pid) for pid in pids)
 
     asyncio.run(run())
 
 
-async def at_work(crew: Crew, count: int) -> None:
+async def at_work(pool: WorkerPool, count: int) -> None:
     async with asyncio.timeout(LONG):
-        while crew.busy < count:
+        while pool.busy < count:
             await asyncio.sleep(0.005)
 
 
-async def seconds_to_whole(crew: Crew) -> float:
+async def seconds_to_whole(pool: WorkerPool) -> float:
     """How long it takes until every process is at work again, all of them at the same time."""
     began = time.monotonic()
-    at_work_again = [asyncio.create_task(crew.run(calls.sleep, 1.0, LONG)) for _ in range(crew.size)]
-    await at_work(crew, crew.size)
+    at_work_again = [asyncio.create_task(pool.run(calls.sleep, 1.0, LONG)) for _ in range(pool.size)]
+    await at_work(pool, pool.size)
     seconds = time.monotonic() - began
-    assert await asyncio.gather(*at_work_again) == [1.0] * crew.size
+    assert await asyncio.gather(*at_work_again) == [1.0] * pool.size
     return seconds
 
 
 @pytest.mark.slow
 def test_processes_have_everything_loaded_and_stay() -> None:
-    async def test(crew: Crew) -> None:
-        assert len(crew.pids) == 2
-        found = await crew.run(calls.loaded_modules, None, LONG)
+    async def test(pool: WorkerPool) -> None:
+        assert len(pool.pids) == 2
+        found = await pool.run(calls.loaded_modules, None, LONG)
         assert found >= {"gelenk.main", "numba", "pinocchio"}
-        pids = {await crew.run(calls.own_pid, None, LONG) for _ in range(5)}
-        assert pids <= set(crew.pids)
+        pids = {await pool.run(calls.own_pid, None, LONG) for _ in range(5)}
+        assert pids <= set(pool.pids)
         assert os.getpid() not in pids
-        assert crew.restarts == 0
+        assert pool.restarts == 0
 
-    with_crew(test)
+    with_pool(test)
 
 
 @pytest.mark.slow
 def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
     """All of it, once a call has loaded some of it; not while the service starts."""
 
-    async def test(crew: Crew) -> None:
-        await crew.run(calls.load, "sympy", LONG)
+    async def test(pool: WorkerPool) -> None:
+        await pool.run(calls.load, "sympy", LONG)
         async with asyncio.timeout(LONG):
-            while not await crew.run(calls.loaded_modules, None, LONG) >= {"sympy", "matplotlib.figure"}:
+            while not await pool.run(calls.loaded_modules, None, LONG) >= {"sympy", "matplotlib.figure"}:
                 await asyncio.sleep(3.0)
                 with pytest.raises(WorkerCrashed):
-                    await crew.run(calls.die, signal.SIGKILL, LONG)
+                    await pool.run(calls.die, signal.SIGKILL, LONG)
 
-    with_crew(test, count=1)
+    with_pool(test, count=1)
 
 
 @pytest.mark.slow
 def test_a_process_that_loaded_modules_of_its_own_makes_room_for_one_that_shares_them() -> None:
     """Some seconds later; in a service of its own, whose original has not loaded them yet."""
     program = (
-        "import asyncio; from gelenk.crew.crew import Crew; from tests.crew import calls\n"
+        "import asyncio; from gelenk.pool.pool import WorkerPool; from tests.pool import calls\n"
         "async def run():\n"
-        "    crew = Crew(1, 1, 10**9)\n"
-        "    await crew.run(calls.load, 'sympy', 60.0)\n"
+        "    pool = WorkerPool(1, 1, 10**9)\n"
+        "    await pool.run(calls.load, 'sympy', 60.0)\n"
         "    for seconds in (0.0, 25.0):\n"
         "        await asyncio.sleep(seconds)\n"
-        "        print(await crew.run(calls.own_pid, None, 60.0), await crew.run(calls.loaded_modules, None, 60.0))\n"
-        "    crew.close()\n"
+        "        print(await pool.run(calls.own_pid, None, 60.0), await pool.run(calls.loaded_modules, None, 60.0))\n"
+        "    pool.close()\n"
         "asyncio.run(run())"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=True)
@@ -110,11 +112,11 @@ def test_a_process_that_loaded_modules_of_its_own_makes_room_for_one_that_shares
 def test_what_a_process_logs_is_a_line_of_json(tmp_path: Path) -> None:
     """On the standard error stream of a service, whose log it is part of."""
     program = (
-        "import asyncio; from gelenk.crew.crew import Crew; from tests.crew import calls\n"
+        "import asyncio; from gelenk.pool.pool import WorkerPool; from tests.pool import calls\n"
         "async def run():\n"
-        "    crew = Crew(1, 1, 10**9)\n"
-        "    await crew.run(calls.log, 'two\\nlines', 60.0)\n"
-        "    crew.close()\n"
+        "    pool = WorkerPool(1, 1, 10**9)\n"
+        "    await pool.run(calls.log, 'two\\nlines', 60.0)\n"
+        "    pool.close()\n"
         "asyncio.run(run())"
     )
     environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
@@ -131,223 +133,223 @@ def test_what_a_process_logs_is_a_line_of_json(tmp_path: Path) -> None:
 def test_large_bytes_come_through(size: int) -> None:
     content = os.urandom(size)
 
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         pieces = [PickleBuffer(content[: size // 3]), PickleBuffer(content[size // 3 :])]
-        back = await crew.run(calls.reversed_bytes, pieces, LONG)
+        back = await pool.run(calls.reversed_bytes, pieces, LONG)
         assert b"".join(back) == content[::-1]
         assert all(len(memoryview(piece)) <= PIECE for piece in back)
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
 def test_a_crash_fails_its_own_call_alone(how: signal.Signals) -> None:
-    async def test(crew: Crew) -> None:
-        other = asyncio.create_task(crew.run(calls.sleep, 1.0, LONG))
-        await at_work(crew, 1)
+    async def test(pool: WorkerPool) -> None:
+        other = asyncio.create_task(pool.run(calls.sleep, 1.0, LONG))
+        await at_work(pool, 1)
         with pytest.raises(WorkerCrashed, match=how.name):
-            await crew.run(calls.die, how, LONG)
-        assert await crew.run(calls.double, 4, LONG) == 8
+            await pool.run(calls.die, how, LONG)
+        assert await pool.run(calls.double, 4, LONG) == 8
         assert await other == 1.0
-        assert crew.restarts == 1
+        assert pool.restarts == 1
 
-    with_crew(test)
+    with_pool(test)
 
 
 def test_an_exit_is_a_crash() -> None:
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         with pytest.raises(WorkerCrashed, match="exit code 3"):
-            await crew.run(calls.leave, 3, LONG)
+            await pool.run(calls.leave, 3, LONG)
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 @pytest.mark.slow
 def test_capacity_is_whole_within_a_second_whatever_happened() -> None:
     """The best of three of each: the machine that this runs on has other work too."""
 
-    async def crash(crew: Crew) -> None:
+    async def crash(pool: WorkerPool) -> None:
         found = await asyncio.gather(
-            *(crew.run(calls.die, signal.SIGKILL, LONG) for _ in range(crew.size)), return_exceptions=True
+            *(pool.run(calls.die, signal.SIGKILL, LONG) for _ in range(pool.size)), return_exceptions=True
         )
         assert all(isinstance(error, WorkerCrashed) for error in found)
 
-    async def hang(crew: Crew) -> None:
+    async def hang(pool: WorkerPool) -> None:
         found = await asyncio.gather(
-            *(crew.run(calls.sleep, 60.0, 0.2) for _ in range(crew.size)), return_exceptions=True
+            *(pool.run(calls.sleep, 60.0, 0.2) for _ in range(pool.size)), return_exceptions=True
         )
         assert all(isinstance(error, DeadlineExceeded) for error in found)
 
-    async def exhaust(crew: Crew) -> None:
+    async def exhaust(pool: WorkerPool) -> None:
         found = await asyncio.gather(
-            *(crew.run(calls.take, 400, LONG) for _ in range(crew.size)), return_exceptions=True
+            *(pool.run(calls.take, 400, LONG) for _ in range(pool.size)), return_exceptions=True
         )
         assert all(isinstance(error, WorkerOutOfMemory) for error in found)
 
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         for fault in (crash, hang, exhaust):
             seconds = []
             for _ in range(3):
-                before = set(crew.pids)
-                await fault(crew)
-                seconds.append(await seconds_to_whole(crew))
-                assert not before & set(crew.pids)
+                before = set(pool.pids)
+                await fault(pool)
+                seconds.append(await seconds_to_whole(pool))
+                assert not before & set(pool.pids)
             assert min(seconds) < 1.0, (fault.__name__, seconds)
 
-    with_crew(test)
+    with_pool(test)
 
 
 def test_a_hang_is_ended_at_its_deadline() -> None:
-    async def test(crew: Crew) -> None:
-        (pid,) = crew.pids
+    async def test(pool: WorkerPool) -> None:
+        (pid,) = pool.pids
         began = time.monotonic()
         with pytest.raises(DeadlineExceeded):
-            await crew.run(calls.sleep, 60.0, 0.3)
+            await pool.run(calls.sleep, 60.0, 0.3)
         assert 0.3 <= time.monotonic() - began < 5.0
-        assert await crew.run(calls.double, 1, LONG) == 2
+        assert await pool.run(calls.double, 1, LONG) == 2
         assert gone(pid)
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_a_stopped_process_is_ended_too() -> None:
-    async def test(crew: Crew) -> None:
-        (pid,) = crew.pids
+    async def test(pool: WorkerPool) -> None:
+        (pid,) = pool.pids
         os.kill(pid, signal.SIGSTOP)
         with pytest.raises(DeadlineExceeded):
-            await crew.run(calls.double, 1, 0.3)
-        assert await crew.run(calls.double, 1, LONG) == 2
+            await pool.run(calls.double, 1, 0.3)
+        assert await pool.run(calls.double, 1, LONG) == 2
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_memory_is_bounded_and_what_fits_is_computed() -> None:
-    async def test(crew: Crew) -> None:
-        assert await crew.run(calls.take, 100, LONG) == 100 * 125_000
+    async def test(pool: WorkerPool) -> None:
+        assert await pool.run(calls.take, 100, LONG) == 100 * 125_000
         with pytest.raises(WorkerOutOfMemory):
-            await crew.run(calls.take, 400, LONG)
-        assert await crew.run(calls.take, 100, LONG) == 100 * 125_000
+            await pool.run(calls.take, 400, LONG)
+        assert await pool.run(calls.take, 100, LONG) == 100 * 125_000
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_a_process_that_has_grown_makes_room_for_a_fresh_one() -> None:
-    async def test(crew: Crew) -> None:
-        first = await crew.run(calls.keep, 100, LONG)
-        assert await crew.run(calls.keep, 100, LONG) == first
-        assert await crew.run(calls.keep, 1, LONG) != first
-        assert crew.restarts == 0, "it was no fault"
+    async def test(pool: WorkerPool) -> None:
+        first = await pool.run(calls.keep, 100, LONG)
+        assert await pool.run(calls.keep, 100, LONG) == first
+        assert await pool.run(calls.keep, 1, LONG) != first
+        assert pool.restarts == 0, "it was no fault"
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_a_process_killed_between_calls_costs_no_call() -> None:
-    async def test(crew: Crew) -> None:
-        killed = list(crew.pids)
+    async def test(pool: WorkerPool) -> None:
+        killed = list(pool.pids)
         for pid in killed:
             os.kill(pid, signal.SIGKILL)
         async with asyncio.timeout(LONG):
             while not all(gone(pid) for pid in killed):
                 await asyncio.sleep(0.005)
-        assert await crew.run(calls.double, 1, LONG) == 2
+        assert await pool.run(calls.double, 1, LONG) == 2
 
-    with_crew(test)
+    with_pool(test)
 
 
 @pytest.mark.slow
 def test_who_leaves_takes_the_work_along(tmp_path: Path) -> None:
     mark = tmp_path / "done"
 
-    async def test(crew: Crew) -> None:
-        (pid,) = crew.pids
-        call = asyncio.create_task(crew.run(calls.mark_after, (1.0, str(mark)), LONG))
-        await at_work(crew, 1)
+    async def test(pool: WorkerPool) -> None:
+        (pid,) = pool.pids
+        call = asyncio.create_task(pool.run(calls.mark_after, (1.0, str(mark)), LONG))
+        await at_work(pool, 1)
         call.cancel()
         with pytest.raises(asyncio.CancelledError):
             await call
-        assert await crew.run(calls.own_pid, None, LONG) != pid
+        assert await pool.run(calls.own_pid, None, LONG) != pid
         await asyncio.sleep(1.2)
         assert not mark.exists()
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_who_leaves_the_queue_costs_nothing() -> None:
-    async def test(crew: Crew) -> None:
-        first = asyncio.create_task(crew.run(calls.sleep, 0.5, LONG))
-        await at_work(crew, 1)
-        second = asyncio.create_task(crew.run(calls.sleep, 60.0, LONG))
-        third = asyncio.create_task(crew.run(calls.double, 3, LONG))
+    async def test(pool: WorkerPool) -> None:
+        first = asyncio.create_task(pool.run(calls.sleep, 0.5, LONG))
+        await at_work(pool, 1)
+        second = asyncio.create_task(pool.run(calls.sleep, 60.0, LONG))
+        third = asyncio.create_task(pool.run(calls.double, 3, LONG))
         await asyncio.sleep(0.05)
-        assert crew.queue_length == 2
+        assert pool.queue_length == 2
         second.cancel()
         assert await third == 6
         assert await first == 0.5
-        assert (crew.queue_length, crew.restarts) == (0, 0)
+        assert (pool.queue_length, pool.restarts) == (0, 0)
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 @pytest.mark.slow
 def test_a_full_queue_refuses_at_once_and_says_when() -> None:
-    async def test(crew: Crew) -> None:
-        running = [asyncio.create_task(crew.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
-        await at_work(crew, 1)
+    async def test(pool: WorkerPool) -> None:
+        running = [asyncio.create_task(pool.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        await at_work(pool, 1)
         began = time.monotonic()
         with pytest.raises(ServiceBusy) as refused:
-            await crew.run(calls.double, 1, LONG)
+            await pool.run(calls.double, 1, LONG)
         assert time.monotonic() - began < 0.2
         assert refused.value.retry_after >= 1
-        assert crew.refused == 1
+        assert pool.refused == 1
         assert await asyncio.gather(*running) == [0.5] * 3
 
-    with_crew(test, 1, waiting=2)
+    with_pool(test, 1, waiting=2)
 
 
 @pytest.mark.slow
 def test_a_crowd_is_told_to_come_back_over_a_longer_time_the_larger_it_is() -> None:
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         for _ in range(5):
-            await crew.run(calls.sleep, 0.2, LONG)
-        running = [asyncio.create_task(crew.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
-        await at_work(crew, 1)
+            await pool.run(calls.sleep, 0.2, LONG)
+        running = [asyncio.create_task(pool.run(calls.sleep, 0.5, LONG)) for _ in range(3)]
+        await at_work(pool, 1)
         told = []
         for _ in range(200):
             with pytest.raises(ServiceBusy) as refused:
-                crew.check_room()
+                pool.check_room()
             told.append(refused.value.retry_after)
         assert told[0] <= 2 < told[-1] <= 10
         assert told == sorted(told)
         await asyncio.gather(*running)
 
-    with_crew(test, 1, waiting=2)
+    with_pool(test, 1, waiting=2)
 
 
 def test_whether_there_is_room_is_told_beforehand() -> None:
-    async def test(crew: Crew) -> None:
-        crew.check_room()
-        running = asyncio.create_task(crew.run(calls.sleep, 0.2, LONG))
-        await at_work(crew, 1)
+    async def test(pool: WorkerPool) -> None:
+        pool.check_room()
+        running = asyncio.create_task(pool.run(calls.sleep, 0.2, LONG))
+        await at_work(pool, 1)
         with pytest.raises(ServiceBusy):
-            crew.check_room()
+            pool.check_room()
         assert await running == 0.2
-        crew.check_room()
-        assert crew.refused == 1
+        pool.check_room()
+        assert pool.refused == 1
 
-    with_crew(test, 1, waiting=0)
+    with_pool(test, 1, waiting=0)
 
 
 def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
-    async def test(crew: Crew) -> None:
-        running = asyncio.create_task(crew.run(calls.sleep, 0.5, LONG))
-        await at_work(crew, 1)
+    async def test(pool: WorkerPool) -> None:
+        running = asyncio.create_task(pool.run(calls.sleep, 0.5, LONG))
+        await at_work(pool, 1)
         with pytest.raises(ServiceBusy):
-            await crew.run(calls.double, 1, 0.1)
+            await pool.run(calls.double, 1, 0.1)
         assert await running == 0.5
-        assert (crew.queue_length, crew.restarts) == (0, 0)
+        assert (pool.queue_length, pool.restarts) == (0, 0)
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 @pytest.mark.slow
@@ -359,96 +361,96 @@ def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pyt
         time.sleep(1.0)
         return begin(*arguments)
 
-    monkeypatch.setattr("gelenk.crew.crew.started", slow)
+    monkeypatch.setattr("gelenk.pool.pool.started", slow)
 
     async def run() -> None:
-        crew = Crew(1, 10, MEMORY)
-        starting = asyncio.create_task(crew.start())
+        pool = WorkerPool(1, 10, MEMORY)
+        starting = asyncio.create_task(pool.start())
         await asyncio.sleep(0.0)
-        assert crew.is_starting
-        assert await crew.run(calls.sleep, 0.0, 0.5) == 0.0
+        assert pool.is_starting
+        assert await pool.run(calls.sleep, 0.0, 0.5) == 0.0
         await starting
-        assert not crew.is_starting
-        crew.close()
+        assert not pool.is_starting
+        pool.close()
 
     asyncio.run(run())
 
 
 def test_calls_get_their_turn_in_order() -> None:
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         order: list[int] = []
 
         async def one(number: int) -> None:
-            await crew.run(calls.double, number, LONG)
+            await pool.run(calls.double, number, LONG)
             order.append(number)
 
         await asyncio.gather(*(one(number) for number in range(8)))
         assert order == list(range(8))
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_who_comes_late_need_not_wait_for_who_has_all_processes() -> None:
-    async def test(crew: Crew) -> None:
-        pids = set(crew.pids)
-        heavy = [asyncio.create_task(crew.run(calls.sleep, LONG, LONG, "heavy")) for _ in range(6)]
-        await at_work(crew, 2)
-        assert set(crew.pids) == pids, "one client alone has as many as there are"
-        light = [await crew.run(calls.own_pid, None, LONG, "light") for _ in range(20)]
+    async def test(pool: WorkerPool) -> None:
+        pids = set(pool.pids)
+        heavy = [asyncio.create_task(pool.run(calls.sleep, LONG, LONG, "heavy")) for _ in range(6)]
+        await at_work(pool, 2)
+        assert set(pool.pids) == pids, "one client alone has as many as there are"
+        light = [await pool.run(calls.own_pid, None, LONG, "light") for _ in range(20)]
         assert not any(task.done() for task in heavy)
         assert len(set(light)) == 1, "it is not started anew for each call"
         assert not pids & {*light}
         for task in heavy:
             task.cancel()
         async with asyncio.timeout(LONG):
-            while len(crew.pids) > crew.size:
+            while len(pool.pids) > pool.size:
                 await asyncio.sleep(0.02)
 
-    with_crew(test, 2)
+    with_pool(test, 2)
 
 
 @pytest.mark.slow
 def test_a_process_that_is_kept_for_a_client_who_has_left_is_taken() -> None:
-    async def test(crew: Crew) -> None:
-        assert await crew.run(calls.double, 1, LONG, "light") == 2
-        heavy = [asyncio.create_task(crew.run(calls.sleep, 6.0, LONG, "heavy")) for _ in range(2)]
-        await at_work(crew, 1)
-        assert crew.queue_length == 1
-        await at_work(crew, 2)
+    async def test(pool: WorkerPool) -> None:
+        assert await pool.run(calls.double, 1, LONG, "light") == 2
+        heavy = [asyncio.create_task(pool.run(calls.sleep, 6.0, LONG, "heavy")) for _ in range(2)]
+        await at_work(pool, 1)
+        assert pool.queue_length == 1
+        await at_work(pool, 2)
         assert not any(task.done() for task in heavy)
         for task in heavy:
             task.cancel()
 
-    with_crew(test, 2)
+    with_pool(test, 2)
 
 
 def test_an_error_comes_back_with_its_trace() -> None:
-    async def test(crew: Crew) -> None:
+    async def test(pool: WorkerPool) -> None:
         with pytest.raises(ValueError, match="no such thing") as raised:
-            await crew.run(calls.fail, "no such thing", LONG)
+            await pool.run(calls.fail, "no such thing", LONG)
         assert "in fail" in raised.value.__notes__[0]
         with pytest.raises(RuntimeError, match="Unsendable: 1 and 2"):
-            await crew.run(calls.fail_unsendably, None, LONG)
-        assert crew.restarts == 0
+            await pool.run(calls.fail_unsendably, None, LONG)
+        assert pool.restarts == 0
 
-    with_crew(test, 1)
+    with_pool(test, 1)
 
 
 def test_the_end_breaks_off_what_runs_and_what_waits() -> None:
-    async def test(crew: Crew) -> None:
-        (pid,) = crew.pids
-        running = asyncio.create_task(crew.run(calls.sleep, 60.0, LONG))
-        await at_work(crew, 1)
-        waiting = asyncio.create_task(crew.run(calls.double, 1, LONG))
+    async def test(pool: WorkerPool) -> None:
+        (pid,) = pool.pids
+        running = asyncio.create_task(pool.run(calls.sleep, 60.0, LONG))
+        await at_work(pool, 1)
+        waiting = asyncio.create_task(pool.run(calls.double, 1, LONG))
         await asyncio.sleep(0.05)
         began = time.monotonic()
-        crew.close()
+        pool.close()
         for task in (running, waiting):
             with pytest.raises(ServiceStopping):
                 await task
         assert time.monotonic() - began < 2.0
         assert gone(pid)
         with pytest.raises(ServiceStopping):
-            await crew.run(calls.double, 1, LONG)
+            await pool.run(calls.double, 1, LONG)
 
-    with_crew(test, 1)
+    with_pool(test, 1)

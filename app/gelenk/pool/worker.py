@@ -1,4 +1,4 @@
-"""What a process of the crew runs: one call after the other, within limits of memory and of processor time."""
+"""What a process of the pool runs: one call after the other, within limits of memory and of processor time."""
 
 import math
 import os
@@ -13,9 +13,9 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
-from gelenk.crew import wire
+from gelenk.pool import wire
 from gelenk.processes.copies import load_seldom_needed
-from gelenk.processes.original import SELDOM_NEEDED
+from gelenk.processes.fork_server import SELDOM_NEEDED
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """What came of a call: its result, what it has raised, or that there was not enough memory."""

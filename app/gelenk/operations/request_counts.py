@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
-class Tally:
+class RequestCounts:
     """What was in a call.
 
     Attributes:
@@ -22,5 +22,5 @@ class Tally:
     iterations: int = 0
 
 
-TALLY: ContextVar[Tally | None] = ContextVar("tally", default=None)
+REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("tally", default=None)
 """That of the request which is being answered; None where there is nothing to count."""

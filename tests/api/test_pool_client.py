@@ -12,7 +12,7 @@ from starlette.testclient import TestClient
 
 from gelenk.api.access.keyring import new_key
 from gelenk.api.access.scopes import Scope
-from gelenk.api.remote import client_of
+from gelenk.api.pool_client import client_of
 from gelenk.main import create_app
 from gelenk.settings import Settings
 
@@ -48,7 +48,7 @@ def test_a_client_with_its_share_at_work_is_told_so(tmp_path: Path) -> None:
         )
         slow.start()
         until = time.monotonic() + 60
-        while not one.app.state.crew.busy:  # type: ignore[attr-defined]
+        while not one.app.state.pool.busy:  # type: ignore[attr-defined]
             assert time.monotonic() < until
             time.sleep(0.01)
         refused = one.post("/v1/robots/panda/ik", json={**SLOW, "time_limit": 0.1})
@@ -78,7 +78,7 @@ def test_a_key_with_slow_requests_does_not_hold_up_another(tmp_path: Path) -> No
 
         slow = [pool.submit(ask, 60.0, heavy) for _ in range(4)]
         until = time.monotonic() + 60
-        while client.app.state.crew.queue_length < 2:  # type: ignore[attr-defined]
+        while client.app.state.pool.queue_length < 2:  # type: ignore[attr-defined]
             assert time.monotonic() < until
             time.sleep(0.01)
         for _ in range(3):

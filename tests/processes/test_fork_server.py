@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from gelenk.processes.original import COPY, LOAD, NUMBER, SELDOM_NEEDED, WARM_UP, Original
+from gelenk.processes.fork_server import COPY, LOAD, NUMBER, SELDOM_NEEDED, WARM_UP, Original
 
 
 @contextlib.contextmanager
@@ -60,7 +60,7 @@ def running(is_compiled: bool, part: str, tmp_path: Path) -> Iterator[tuple["sub
 import os, socket, time
 from pathlib import Path
 from types import SimpleNamespace
-from gelenk.processes.original import Original
+from gelenk.processes.fork_server import Original
 def note(what):
     with Path({str(tmp_path / "worked")!r}).open("a") as file: file.write(f"{{os.getpid()}} {{what}}\\n")
 def first():

@@ -18,9 +18,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeAlias, TypeVar
 
-from gelenk.crew import wire
-from gelenk.crew.process import serve
 from gelenk.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from gelenk.pool import wire
+from gelenk.pool.worker import serve
 from gelenk.processes.copies import Copy, ended, started
 from gelenk.processes.turns import Turns
 
@@ -48,7 +48,7 @@ Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
 logger = logging.getLogger("gelenk")
 
 
-class Crew:
+class WorkerPool:
     """The processes; belongs to one event loop.
 
     Args:
@@ -142,7 +142,7 @@ class Crew:
             DeadlineExceeded: It takes longer.
             WorkerCrashed: Its process has died.
             WorkerOutOfMemory: It needs more memory than it may have.
-            ServiceStopping: The crew has been closed.
+            ServiceStopping: The pool has been closed.
             Exception: Whatever the function raises.
         """
         seat = await self._turn(client, seconds)
@@ -312,7 +312,7 @@ class _Seat:
         """The outcome of a call.
 
         Raises:
-            Exception: As `Crew.run`.
+            Exception: As `WorkerPool.run`.
         """
         stream, seconds = self._stream, call[2]
         if stream is None:

@@ -1,4 +1,4 @@
-"""From a request to the crew and back: with a deadline, and for as long as the client waits for the answer."""
+"""From a request to the pool and back: with a deadline, and for as long as the client waits for the answer."""
 
 import asyncio
 from collections import Counter
@@ -9,17 +9,17 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from gelenk.api.errand import Desk, Errand, Inquiry, Reply, Shop, answered
-from gelenk.crew.crew import Crew
+from gelenk.api.task import Context, ContextSource, Reply, TaskRequest, WorkerTask, answered
 from gelenk.model.errors import ServiceStopping, TooManyRequests
-from gelenk.operations.tally import TALLY
+from gelenk.operations.request_counts import REQUEST_COUNTS
+from gelenk.pool.pool import WorkerPool
 from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
-"""A larger body is parsed by the crew: the event loop does nothing that takes longer than about 2 ms.
+"""A larger body is parsed by the pool: the event loop does nothing that takes longer than about 2 ms.
 
-So it compiles nothing either: while the crew is starting, every request goes to the crew.
+So it compiles nothing either: while the pool is starting, every request goes to the pool.
 """
 
 PARSED_HERE_BYTES = 512 * 1024
@@ -30,39 +30,39 @@ _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 _Result = TypeVar("_Result")
 
 
-class Remote:
-    """Has requests answered by the crew.
+class PoolClient:
+    """Has requests answered by the pool.
 
     Args:
-        crew: The processes.
-        shop: What they set their desks up from.
+        pool: The processes.
+        shop: What they set their contexts up from.
         library: The robots of this process.
         seconds: How long a request may wait for its turn, and how long it may then take.
         share: Requests of one client that may wait or be worked on.
     """
 
-    def __init__(self, crew: Crew, shop: Shop, library: Library, seconds: float, share: int) -> None:
-        self.crew, self._shop, self._library, self._seconds = crew, shop, library, seconds
+    def __init__(self, pool: WorkerPool, source: ContextSource, library: Library, seconds: float, share: int) -> None:
+        self.pool, self._source, self._library, self._seconds = pool, source, library, seconds
         self._share = share
         self._requests: Counter[str] = Counter()
 
-    async def answer(self, request: Request, errand: Errand, inquiry: Inquiry) -> Response:
-        """The answer of an errand.
+    async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
+        """The answer of a task.
 
         Raises:
-            ClientDisconnect: The caller has left; the errand is broken off.
-            KinematicsError: As `Crew.run`, and whatever the errand raises.
+            ClientDisconnect: The caller has left; the task is broken off.
+            KinematicsError: As `WorkerPool.run`, and whatever the task raises.
         """
-        reply = await self._reply(request, errand, inquiry)
-        TALLY.set(reply[3])
+        reply = await self._reply(request, task, task_request)
+        REQUEST_COUNTS.set(reply[3])
         return Passed(reply)
 
-    async def told(self, request: Request, errand: Errand, inquiry: Inquiry) -> bytes:
-        """What an errand has to tell this process; raises as `answer` does."""
-        return b"".join((await self._reply(request, errand, inquiry))[2])
+    async def told(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
+        """What a task has to tell this process; raises as `answer` does."""
+        return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """A robot in this process, for quick calls; one from outside has been loaded by the crew before, which lived.
+        """A robot in this process, for quick calls; one from outside has been loaded by the pool before, which lived.
 
         Raises:
             KinematicsError: As `answer`, and as `Library.get`.
@@ -71,15 +71,15 @@ class Remote:
         if found is not None:
             return found
         if not self._library.is_ours(name):
-            await self._reply(request, load, Inquiry(robot=name))
+            await self._reply(request, load, TaskRequest(robot=name))
         return await asyncio.to_thread(self._library.get, name)
 
-    async def _reply(self, request: Request, errand: Errand, inquiry: Inquiry) -> Reply:
+    async def _reply(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Reply:
         client = client_of(request)
         if client and self._requests[client] >= self._share:
-            raise TooManyRequests(self._share, self.crew.retry_after)
-        self.crew.check_room(client)
-        work = self.crew.run(answered, (self._shop, errand, inquiry), self._seconds, client)
+            raise TooManyRequests(self._share, self.pool.retry_after)
+        self.pool.check_room(client)
+        work = self.pool.run(answered, (self._source, task, task_request), self._seconds, client)
         self._requests[client] += 1
         try:
             return await while_wanted(request.receive, work)
@@ -102,9 +102,9 @@ def client_of(request: Request) -> str:
     return "" if address in _OWN_ADDRESSES else address
 
 
-def load(desk: Desk, inquiry: Inquiry) -> Response:
+def load(context: Context, task_request: TaskRequest) -> Response:
     """Load a robot, to see that it can be."""
-    desk.library.get(inquiry.robot)
+    context.library.get(task_request.robot)
     return Response()
 
 
@@ -135,7 +135,7 @@ async def _left(receive: Receive) -> None:
 
 
 class Passed(Response):
-    """An answer from the crew, passed on piece by piece as fast as the caller takes it; others get a turn between."""
+    """An answer from the pool, passed on piece by piece as fast as the caller takes it; others get a turn between."""
 
     def __init__(self, reply: Reply) -> None:
         self.status_code, self.raw_headers, pieces, _ = reply

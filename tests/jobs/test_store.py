@@ -10,113 +10,113 @@ from pathlib import Path
 
 import pytest
 
-from gelenk.jobs import shelf as shelf_module
+from gelenk.jobs import store as shelf_module
 from gelenk.jobs.job import Failure
-from gelenk.jobs.shelf import JOB_FILE, Limits, Shelf
+from gelenk.jobs.store import JOB_FILE, JobStore, Limits
 from gelenk.model import errors
 from gelenk.model.errors import JobExists, TooManyJobs, UnknownJob
 from tests.model.test_errors import CONCRETE, example
 
 
 @contextmanager
-def opened(root: Path, limits: Limits = Limits()) -> Iterator[Shelf]:  # noqa: B008 - frozen
-    shelf = Shelf(root, limits)
+def opened(root: Path, limits: Limits = Limits()) -> Iterator[JobStore]:  # noqa: B008 - frozen
+    store = JobStore(root, limits)
     try:
-        yield shelf
+        yield store
     finally:
-        shelf.close()
+        store.close()
 
 
 @pytest.fixture
-def shelf(tmp_path: Path) -> Iterator[Shelf]:
-    with opened(tmp_path / "jobs") as shelf:
-        yield shelf
+def store(tmp_path: Path) -> Iterator[JobStore]:
+    with opened(tmp_path / "jobs") as store:
+        yield store
 
 
-def test_a_job_is_what_it_was_made(shelf: Shelf) -> None:
-    job, is_new = shelf.add("workspace", "digest", {})
+def test_a_job_is_what_it_was_made(store: JobStore) -> None:
+    job, is_new = store.add("workspace", "digest", {})
     assert is_new
-    assert shelf.get(job.id) == job
+    assert store.get(job.id) == job
     assert (job.state, job.progress, job.started, job.finished, job.failure) == ("queued", 0.0, None, None, None)
     assert abs(job.created - time.time()) < 5.0
-    running = shelf.change(job.id, state="running", started=time.time(), progress=0.25)
-    assert shelf.get(job.id) == running
+    running = store.change(job.id, state="running", started=time.time(), progress=0.25)
+    assert store.get(job.id) == running
     assert (running.state, running.progress) == ("running", 0.25)
 
 
-def test_a_final_state_stays(shelf: Shelf) -> None:
-    job, _ = shelf.add("workspace", "digest", {})
-    cancelled = shelf.change(job.id, state="cancelled")
+def test_a_final_state_stays(store: JobStore) -> None:
+    job, _ = store.add("workspace", "digest", {})
+    cancelled = store.change(job.id, state="cancelled")
     assert cancelled.finished is not None
-    assert shelf.change(job.id, state="succeeded", progress=1.0) == cancelled == shelf.get(job.id)
+    assert store.change(job.id, state="succeeded", progress=1.0) == cancelled == store.get(job.id)
 
 
-def test_a_job_that_has_anothers_name_by_now_is_left_alone(shelf: Shelf) -> None:
-    old, _ = shelf.add("workspace", "digest", {}, "mine")
-    shelf.remove("mine")
-    new, _ = shelf.add("workspace", "digest", {}, "mine")
+def test_a_job_that_has_anothers_name_by_now_is_left_alone(store: JobStore) -> None:
+    old, _ = store.add("workspace", "digest", {}, "mine")
+    store.remove("mine")
+    new, _ = store.add("workspace", "digest", {}, "mine")
     with pytest.raises(UnknownJob):
-        shelf.change(old, state="succeeded")
-    assert shelf.get("mine") == new
+        store.change(old, state="succeeded")
+    assert store.get("mine") == new
 
 
-def test_a_name_is_one_request(shelf: Shelf) -> None:
-    job, _ = shelf.add("workspace", "digest", {}, "mine")
-    assert shelf.add("workspace", "digest", {}, "mine") == (job, False)
+def test_a_name_is_one_request(store: JobStore) -> None:
+    job, _ = store.add("workspace", "digest", {}, "mine")
+    assert store.add("workspace", "digest", {}, "mine") == (job, False)
     with pytest.raises(JobExists):
-        shelf.add("workspace", "another", {}, "mine")
+        store.add("workspace", "another", {}, "mine")
 
 
 @pytest.mark.parametrize("name", ["nobody", "", "..", ".owners", "a/b", "x" * 300, "a\0b", "ü"])
-def test_unknown_names(shelf: Shelf, name: str) -> None:
-    shelf.add("workspace", "digest", {}, "mine")
-    for ask in (shelf.get, shelf.remove, shelf.change):
+def test_unknown_names(store: JobStore, name: str) -> None:
+    store.add("workspace", "digest", {}, "mine")
+    for ask in (store.get, store.remove, store.change):
         with pytest.raises(UnknownJob):
             ask(name)
 
 
-def test_another_process_sees_a_job_and_cancels_it(shelf: Shelf, tmp_path: Path) -> None:
-    job, _ = shelf.add("workspace", "digest", {})
+def test_another_process_sees_a_job_and_cancels_it(store: JobStore, tmp_path: Path) -> None:
+    job, _ = store.add("workspace", "digest", {})
     code = (
-        "import sys; from pathlib import Path; from gelenk.jobs.shelf import *\n"
-        "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
-        "assert shelf.get(sys.argv[2]).state == 'queued'\n"
-        "shelf.change(sys.argv[2], state='cancelled')"
+        "import sys; from pathlib import Path; from gelenk.jobs.store import *\n"
+        "store = JobStore(Path(sys.argv[1]), Limits())\n"
+        "assert store.get(sys.argv[2]).state == 'queued'\n"
+        "store.change(sys.argv[2], state='cancelled')"
     )
     subprocess.run([sys.executable, "-c", code, str(tmp_path / "jobs"), job.id], check=True)
-    assert shelf.get(job.id).state == "cancelled"
+    assert store.get(job.id).state == "cancelled"
 
 
 LEAVES = (
-    "import os, sys; from pathlib import Path; from gelenk.jobs.shelf import *\n"
-    "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
-    "job, _ = shelf.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
-    "shelf.change(shelf.begin(job), progress=0.5)\n"
+    "import os, sys; from pathlib import Path; from gelenk.jobs.store import *\n"
+    "store = JobStore(Path(sys.argv[1]), Limits())\n"
+    "job, _ = store.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
+    "store.change(store.begin(job), progress=0.5)\n"
     "os.kill(os.getpid(), 9)"
 )
 TAKES = (
-    "import sys, time; from pathlib import Path; from gelenk.jobs.shelf import *\n"
-    "shelf = Shelf(Path(sys.argv[1]), Limits())\n"
+    "import sys, time; from pathlib import Path; from gelenk.jobs.store import *\n"
+    "store = JobStore(Path(sys.argv[1]), Limits())\n"
     "print('ready', flush=True); sys.stdin.readline()\n"
-    "print(len(shelf.take_up()), flush=True); sys.stdin.readline()"
+    "print(len(store.take_up()), flush=True); sys.stdin.readline()"
 )
 
 
-def test_a_job_whose_process_is_gone_waits_to_be_taken_up(shelf: Shelf, tmp_path: Path) -> None:
+def test_a_job_whose_process_is_gone_waits_to_be_taken_up(store: JobStore, tmp_path: Path) -> None:
     root = tmp_path / "jobs"
     subprocess.run([sys.executable, "-c", LEAVES, str(root)], check=False)
-    job = shelf.get("left")
+    job = store.get("left")
     assert (job.state, job.progress, job.attempts) == ("queued", 0.5, 1)
-    assert shelf.states() == {"queued": 1}
-    assert shelf.add("workspace", "digest", {}, "left") == (job, False)
+    assert store.states() == {"queued": 1}
+    assert store.add("workspace", "digest", {}, "left") == (job, False)
     assert len(list((root / ".owners").iterdir())) == 2
-    shelf.prepare()
+    store.prepare()
     assert len(list((root / ".owners").iterdir())) == 1
-    taken = shelf.take_up()
+    taken = store.take_up()
     assert [(one.id, one.state, one.progress, one.attempts) for one in taken] == [("left", "queued", 0.5, 1)]
-    assert shelf.take_up() == []
-    assert (shelf.request("left") / "call.json").read_bytes() == b"{}"
-    begun = shelf.begin(taken[0])
+    assert store.take_up() == []
+    assert (store.request("left") / "call.json").read_bytes() == b"{}"
+    begun = store.begin(taken[0])
     assert (begun.state, begun.attempts, begun.started) == ("running", 2, job.started)
 
 
@@ -175,13 +175,13 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
     """Set forward by a year and right again within the day, or set back: what is too old goes, and nothing else."""
     clocks = Clocks()
     monkeypatch.setattr(shelf_module, "time", clocks)
-    with opened(tmp_path, Limits(kept=3, kept_seconds=30 * DAY)) as shelf:
+    with opened(tmp_path, Limits(kept=3, kept_seconds=30 * DAY)) as store:
 
         def done(name: str) -> None:
-            shelf.change(shelf.add("workspace", "x", {}, name)[0].id, state="cancelled")
+            store.change(store.add("workspace", "x", {}, name)[0].id, state="cancelled")
 
         def kept() -> list[str]:
-            shelf.tidy()
+            store.tidy()
             return [name for name in "abcd" if (tmp_path / name).exists()]
 
         done("a")
@@ -192,10 +192,10 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
                 assert kept() == ["a"]
         clocks.wall -= YEAR
         done("b")
-        job = shelf.add("workspace", "x", {}, "c")[0]
+        job = store.add("workspace", "x", {}, "c")[0]
         clocks.wall -= YEAR
-        shelf.begin(job)
-        job = shelf.change("c", state="cancelled")
+        store.begin(job)
+        job = store.change("c", state="cancelled")
         assert job.started is not None
         assert job.finished is not None
         assert job.created <= job.started <= job.finished
@@ -209,89 +209,89 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with opened(tmp_path, Limits(kept_seconds=100.0)) as shelf:
-        old, rested, new = (shelf.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
+    with opened(tmp_path, Limits(kept_seconds=100.0)) as store:
+        old, rested, new = (store.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
         for job in (old, rested, new):
-            shelf.parts(job).write("all-0", b"part")
-            shelf.change(job, state="cancelled")
+            store.parts(job).write("all-0", b"part")
+            store.change(job, state="cancelled")
         for job, age in ((old, 101.0), (rested, 99.0)):
-            aged = replace(shelf.get(job.id), finished=time.time() - age)
+            aged = replace(store.get(job.id), finished=time.time() - age)
             (tmp_path / job.id / JOB_FILE).write_bytes(aged.as_bytes())
-        shelf.tidy()
-        assert shelf.get(old.id)
+        store.tidy()
+        assert store.get(old.id)
         monkeypatch.setattr(shelf_module, "_SURE_SECONDS", 0.0)
-        shelf.tidy()
+        store.tidy()
         with pytest.raises(UnknownJob):
-            shelf.get(old.id)
+            store.get(old.id)
         assert [path.name for path in (tmp_path / rested.id).iterdir()] == [JOB_FILE]
         assert len(list((tmp_path / new.id).iterdir())) == 3
 
 
 def test_no_more_wait_than_may(tmp_path: Path) -> None:
-    with opened(tmp_path, Limits(unfinished=2)) as shelf:
-        first, _ = shelf.add("workspace", "1", {})
-        shelf.add("workspace", "2", {})
+    with opened(tmp_path, Limits(unfinished=2)) as store:
+        first, _ = store.add("workspace", "1", {})
+        store.add("workspace", "2", {})
         with pytest.raises(TooManyJobs) as refused:
-            shelf.add("workspace", "3", {})
+            store.add("workspace", "3", {})
         assert (refused.value.unfinished, refused.value.allowed) == (2, 2)
-        shelf.change(first.id, state="cancelled")
-        shelf.add("workspace", "3", {})
+        store.change(first.id, state="cancelled")
+        store.add("workspace", "3", {})
 
 
 def test_a_client_has_at_most_half_of_the_places_beside_others(tmp_path: Path) -> None:
     """Alone it has all; and who comes then is let in, up to half as many more."""
-    with opened(tmp_path, Limits(unfinished=4)) as shelf:
+    with opened(tmp_path, Limits(unfinished=4)) as store:
 
         def refused_to(client: str) -> tuple[int, int, str]:
             with pytest.raises(TooManyJobs) as refused:
-                shelf.add("workspace", "x", {}, client=client)
+                store.add("workspace", "x", {}, client=client)
             return refused.value.unfinished, refused.value.allowed, refused.value.limit
 
-        first, *_ = (shelf.add("workspace", "x", {}, client="one")[0] for _ in range(4))
+        first, *_ = (store.add("workspace", "x", {}, client="one")[0] for _ in range(4))
         assert refused_to("one") == (4, 4, "client")
-        shelf.add("workspace", "x", {}, client="two")
+        store.add("workspace", "x", {}, client="two")
         assert refused_to("one") == (4, 2, "client")
-        shelf.change(first.id, state="cancelled")
+        store.change(first.id, state="cancelled")
         assert refused_to("one") == (3, 2, "client")
-        shelf.add("workspace", "x", {}, client="two")
+        store.add("workspace", "x", {}, client="two")
         assert refused_to("two") == (2, 2, "client")
-        shelf.add("workspace", "x", {}, client="three")
+        store.add("workspace", "x", {}, client="three")
         assert refused_to("three") == (6, 6, "service")
 
 
 def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
-    with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as shelf:
-        names = [shelf.add("workspace", "x", {}, f"job-{i}")[0].id for i in range(3)]
+    with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as store:
+        names = [store.add("workspace", "x", {}, f"job-{i}")[0].id for i in range(3)]
         for name in names[1:]:
-            shelf.change(name, state="succeeded")
-        shelf.add("workspace", "x", {}, "job-3")
-        assert shelf.get("job-0").state == "queued", "what is not finished stays"
-        assert shelf.get("job-2").state == "succeeded"
+            store.change(name, state="succeeded")
+        store.add("workspace", "x", {}, "job-3")
+        assert store.get("job-0").state == "queued", "what is not finished stays"
+        assert store.get("job-2").state == "succeeded"
         with pytest.raises(UnknownJob):
-            shelf.get("job-1")
-        shelf.write("job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
-        shelf.change("job-3", state="succeeded")
-        shelf.add("workspace", "x", {}, "job-4")
+            store.get("job-1")
+        store.write("job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
+        store.change("job-3", state="succeeded")
+        store.add("workspace", "x", {}, "job-4")
         assert sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith(".")) == ["job-0", "job-4"]
 
 
-def test_what_is_no_job_is_left_aside(shelf: Shelf, tmp_path: Path) -> None:
-    job, _ = shelf.add("workspace", "digest", {})
+def test_what_is_no_job_is_left_aside(store: JobStore, tmp_path: Path) -> None:
+    job, _ = store.add("workspace", "digest", {})
     (tmp_path / "jobs" / job.id / JOB_FILE).write_text("{")
     (tmp_path / "jobs" / "stray").mkdir()
     (tmp_path / "jobs" / "file").touch()
     for name in (job.id, "stray", "file"):
         with pytest.raises(UnknownJob):
-            shelf.get(name)
-    shelf.add("workspace", "digest", {})
+            store.get(name)
+    store.add("workspace", "digest", {})
 
 
 @pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
-def test_a_failure_is_raised_again_as_it_was(shelf: Shelf, cls: type[errors.KinematicsError]) -> None:
+def test_a_failure_is_raised_again_as_it_was(store: JobStore, cls: type[errors.KinematicsError]) -> None:
     error = example(cls)
-    job, _ = shelf.add("workspace", "digest", {})
-    failure = shelf.change(job.id, state="failed", failure=Failure.of(error)).failure
-    again = shelf.get(job.id).failure
+    job, _ = store.add("workspace", "digest", {})
+    failure = store.change(job.id, state="failed", failure=Failure.of(error)).failure
+    again = store.get(job.id).failure
     assert failure is not None
     assert again is not None
     raised = again.error_again()

@@ -1,6 +1,6 @@
-"""What a process of the crew is sent to do: a request as a whole, and the function that answers it there.
+"""What a process of the pool is sent to do: a request as a whole, and the function that answers it there.
 
-An errand is a function of a module, or a frozen dataclass with a `__call__`, because it travels by name.
+A task is a function of a module, or a frozen dataclass with a `__call__`, because it travels by name.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -12,14 +12,14 @@ from typing import Protocol, TypeAlias
 from starlette.responses import Response
 
 from gelenk.api.payloads import JSON
-from gelenk.crew.wire import pieces_of
 from gelenk.operations.outcome import Limits
-from gelenk.operations.tally import TALLY, Tally
+from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
+from gelenk.pool.wire import pieces_of
 from gelenk.store.library import Library
 
 
 @dataclass(frozen=True, slots=True)
-class Inquiry:
+class TaskRequest:
     """A request, as far as an answer depends on it.
 
     Attributes:
@@ -50,8 +50,8 @@ def buffers(pieces: Sequence[bytes]) -> list[PickleBuffer]:
 
 
 @dataclass(frozen=True, slots=True)
-class Desk:
-    """What a process of the crew has at hand.
+class Context:
+    """What a process of the pool has at hand.
 
     Attributes:
         library: All robots.
@@ -62,27 +62,27 @@ class Desk:
     limits: Limits
 
 
-class Shop(Hashable, Protocol):
-    """What a desk is set up from; it is sent along with each errand."""
+class ContextSource(Hashable, Protocol):
+    """What a context is set up from; it is sent along with each task."""
 
-    def desk(self) -> Desk:
-        """Set up the desk that works off the errands."""
+    def context(self) -> Context:
+        """Set up the context that works off the tasks."""
         raise NotImplementedError
 
 
-Errand: TypeAlias = Callable[[Desk, Inquiry], Response]
-Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], Tally | None]
+WorkerTask: TypeAlias = Callable[[Context, TaskRequest], Response]
+Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], RequestCounts | None]
 """Status, headers, the body in pieces, and what the metrics count."""
 
 
-def answered(order: tuple[Shop, Errand, Inquiry]) -> Reply:
-    """Run an errand in a process of the crew."""
-    shop, errand, inquiry = order
-    TALLY.set(None)
-    response = errand(_desk(shop), inquiry)
-    return response.status_code, response.raw_headers, pieces_of(bytes(response.body)), TALLY.get()
+def answered(order: tuple[ContextSource, WorkerTask, TaskRequest]) -> Reply:
+    """Run a task in a process of the pool."""
+    source, task, task_request = order
+    REQUEST_COUNTS.set(None)
+    response = task(_context(source), task_request)
+    return response.status_code, response.raw_headers, pieces_of(bytes(response.body)), REQUEST_COUNTS.get()
 
 
 @lru_cache(maxsize=1)
-def _desk(shop: Shop) -> Desk:
-    return shop.desk()
+def _context(source: ContextSource) -> Context:
+    return source.context()

@@ -8,19 +8,19 @@ from typing import TypeAlias
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from gelenk.api.access.directory import Directory
-from gelenk.api.access.exchange import Exchange
+from gelenk.api.access.audit_log import AuditLog, log_request
 from gelenk.api.access.headers import completed
-from gelenk.api.access.journal import Audit, log_request
 from gelenk.api.access.metrics import Metrics
+from gelenk.api.access.request_context import RequestContext
+from gelenk.api.access.route_table import RouteTable
 from gelenk.logs import REQUEST_ID
-from gelenk.operations.tally import TALLY
+from gelenk.operations.request_counts import REQUEST_COUNTS
 
-Check: TypeAlias = Callable[[Exchange], Response | None]
+AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
 """Checks a request; returns the refusal, or None to let the request pass."""
 
 
-class Door:
+class Middleware:
     """Passes requests through the checks, in their order, to the application; completes the headers of answers.
 
     Args:
@@ -35,11 +35,11 @@ class Door:
     def __init__(
         self,
         app: ASGIApp,
-        directory: Directory,
+        directory: RouteTable,
         root_path: str,
-        checks: Sequence[Check],
+        checks: Sequence[AccessRule],
         metrics: Metrics,
-        audit: Audit,
+        audit: AuditLog,
     ) -> None:
         self._app, self._directory, self._root_path = app, directory, root_path
         self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
@@ -57,9 +57,9 @@ class Door:
         path: str = scope["path"].removeprefix(self._root_path)
         if self._root_path and not path:
             path = "/"  # leads there
-        exchange = Exchange.begun(scope, *self._directory.find(path, scope["method"]))
+        exchange = RequestContext.begun(scope, *self._directory.find(path, scope["method"]))
         REQUEST_ID.set(exchange.request_id)
-        TALLY.set(None)
+        REQUEST_COUNTS.set(None)
 
         async def answer(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -79,11 +79,11 @@ class Door:
                 # Its client has left, or it broke off: what was written may stay.
                 await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
             exchange.seconds = time.perf_counter() - exchange.started
-            exchange.tally = TALLY.get()
+            exchange.counts = REQUEST_COUNTS.get()
             self._metrics.end(exchange)
             log_request(exchange)
 
-    def _refusal(self, exchange: Exchange) -> Response | None:
+    def _refusal(self, exchange: RequestContext) -> Response | None:
         """The answer of the first check that has one."""
         for check in self._checks:
             if (refusal := check(exchange)) is not None:
