@@ -66,7 +66,7 @@ class Body:
 
 
 def locked(description: Description, chain: Chain) -> Description:
-    """The same robot with every joint fixed that the chain's variables do not move.
+    """A copy of the robot in which every joint that the chain's variables do not move is fixed.
 
     These stand at zero; a mimic joint stands where its leader at zero has it. Floating and planar joints are fixed too.
     """
@@ -204,7 +204,7 @@ class Motions:
         return float((self.masses * self._speeds() ** 2 + turning).max(initial=0.0))
 
     def gravity_scale(self, gravity: Array) -> float:
-        """The same of gravity torques, [N m or N]."""
+        """The size of gravity torques, for relative errors, [N m or N]."""
         return float((self.masses * self._speeds()).max(initial=0.0) * np.abs(gravity).max())
 
     def _speeds(self) -> Array:
@@ -219,7 +219,7 @@ class Motions:
 
 
 def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> Motions:
-    """Where bodies are and how they move.
+    """Positions and motions of the bodies.
 
     Args:
         carried: The bodies.

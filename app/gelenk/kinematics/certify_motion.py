@@ -127,7 +127,7 @@ def _pinocchio_derivatives(
 
 
 def _seen(T: pin.SE3, reference: Reference) -> pin.SE3:
-    """What carries a twist from the tip's axes into a reference."""
+    """The map of a twist from the tip's axes into a reference."""
     if reference == "local":
         return pin.SE3.Identity()
     return T if reference == "world" else pin.SE3(T.rotation, np.zeros(3))

@@ -56,7 +56,7 @@ def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
 
 
 def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
-    """The same array, where it is one row of numbers of sensible size a configuration.
+    """The array itself, if it has one row of numbers of sensible size for each configuration.
 
     Raises:
         WrongJointCount: It has not one column a joint.
@@ -84,7 +84,7 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
 
 @compiled
 def _joints_within(drives: Array, joints: Indices, qs: Array, most: float) -> bool:
-    """The same of what each joint on the way makes of its variable."""
+    """Whether no joint, moved by its variable, is beyond a magnitude; NaN is."""
     for i in range(len(joints)):
         for row in range(qs.shape[0]):
             if not abs(drives[i, 0] * qs[row, joints[i, 1]] + drives[i, 1]) <= most:

@@ -325,7 +325,7 @@ def store_frame(frame: Frame, rows: Array) -> None:
 
 @inlined
 def _scatter_pose(pose: Array, lane: int, position: Array, rotation: Array) -> None:
-    """One lane's frame as a row of the results."""
+    """Write one lane's frame into a row of the results."""
     for j in range(3):
         position[j] = pose[(9 + j) * LANES + lane]
         for k in range(3):

@@ -106,26 +106,26 @@ class Lagrangian:
         return max(float(by_mass), float(held), self._bias_scale, self._gravity_scale)
 
     def mass_error(self, Ms: Array | None) -> float | None:
-        """Of an entry of M."""
+        """Largest error of an entry of M."""
         return None if Ms is None else agreed("the mass matrix", Ms - self._Ms, self._mass_scale)
 
     def coriolis_error(self, torques: Array | None) -> float | None:
-        """Of C q̇, [N m or N]."""
+        """Largest error of C q̇, [N m or N]."""
         return None if torques is None else agreed("a Coriolis torque", torques - self._by_speed, self._bias_scale)
 
     def skew_error(self, Cs: Array | None) -> float | None:
-        """Of an entry of C + Cᵀ - Ṁ."""
+        """Largest error of an entry of C + Cᵀ - Ṁ."""
         if Cs is None:
             return None
         M_dots = self._Ss + self._Ss.swapaxes(1, 2)
         return agreed("the mass matrix's derivative", Cs + Cs.swapaxes(1, 2) - M_dots, self._speed_scale)
 
     def gravity_error(self, torques: Array | None) -> float | None:
-        """Of g, [N m or N]."""
+        """Largest error of g, [N m or N]."""
         return None if torques is None else agreed("a gravity torque", torques - self._by_gravity, self._gravity_scale)
 
     def energy_error(self, kinetic: Array | None, potential: Array | None) -> float | None:
-        """Of T and U, [J]."""
+        """Largest error of T and U, [J]."""
         if kinetic is None or potential is None:
             return None
         speeds = self._state.speeds
@@ -136,7 +136,7 @@ class Lagrangian:
         return max(error, agreed("the potential energy", potential - expected, float(weights)))
 
     def torque_error(self, accelerations: Array, torques: Array) -> float:
-        """Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
+        """Largest error of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
         by_mass = (self._Ms @ accelerations[..., None])[..., 0]
         expected = by_mass + self._by_speed + self._by_gravity + self._state.held
         return agreed("a torque", torques - expected, self.scale(accelerations))

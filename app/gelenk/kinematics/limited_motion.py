@@ -40,7 +40,7 @@ class JointBounds:
 
 @dataclass(frozen=True, slots=True)
 class LimitedMotion:
-    """One part at one configuration, in D directions.
+    """The motion within the limits, of one part at one configuration, in D directions.
 
     Attributes:
         velocities: Largest along each direction alone, and largest component; shape (D, 2), None where a joint has no
@@ -66,7 +66,7 @@ def joint_bounds(robot: Robot, chain: Chain) -> JointBounds:
 
 
 def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, directions: Array) -> list[LimitedMotion]:
-    """What the tip can do within the limits, one entry a configuration.
+    """The motion of the tip within the joint limits, one entry a configuration.
 
     Args:
         ellipsoids: Of translation or of rotation.

@@ -115,7 +115,7 @@ class Decomposition:
 
 @dataclass(frozen=True, slots=True)
 class Inversion:
-    """What became of N equations J x = b.
+    """The solutions of N equations J x = b.
 
     Attributes:
         xs: Solutions; shape (N, n); zero where there is none.

@@ -24,7 +24,7 @@ _REPEATED = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class SingularityReport:
-    """What a configuration does to the directions of the tip.
+    """The directions that the tip keeps and loses at a configuration.
 
     Attributes:
         rank: Singular values that count.
@@ -73,7 +73,7 @@ def singularity_report(
     tolerance: float = RANK_TOLERANCE,
     space: TaskSpace = FULL_SPACE,
 ) -> SingularityReport:
-    """What is lost at a configuration.
+    """The report on one configuration.
 
     Where a redundant arm is singular, the directions and motions that it loses or gains there are those that it regains
     or gives up fastest when it moves on; the others are what it lacks or has everywhere.
@@ -145,7 +145,7 @@ def _involved(motions: Array, least: float) -> tuple[int, ...]:
 
 
 def _gradient(parts: Subspaces, H: Array, rank: int, slight: float) -> tuple[Array | None, float]:
-    """Where σ grows at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v of its singular vectors.
+    """The gradient of σ at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v of its singular vectors.
 
     A singular value that is repeated has a kink: its singular vectors are any of a plane, and no such number.
     """
@@ -158,7 +158,7 @@ def _gradient(parts: Subspaces, H: Array, rank: int, slight: float) -> tuple[Arr
 
 
 def _way_out(T: Array, defect: int, slight: float) -> tuple[Array | None, float]:
-    """Where σ grows at a singular configuration, to either side alike.
+    """The direction in which σ grows at a singular configuration, equally on both sides.
 
     To first order what grows along d are the singular values of M(d) = Σ_j d_j Uᵀ ∂J/∂q_j V, U and V those of the two
     kernels; the least of them that can be other than zero counts. Of one lost direction the fastest d is a singular

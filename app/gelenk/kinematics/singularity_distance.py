@@ -51,7 +51,7 @@ class NearestSingularity:
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """What is looked for.
+    """The options of the search.
 
     Attributes:
         radius: How far from the configuration at most, [rad and m].
@@ -250,7 +250,7 @@ def _minima(projection: _Projection, radius: float, seed: int) -> Array:
 
 
 def _measures(projection: _Projection, xs: Array) -> Array:
-    """What vanishes where a direction is lost; shape (N,)."""
+    """Quantities that vanish where a direction is lost; shape (N,)."""
     space, chain = projection.space, projection.chain
     if not space.is_of_the_geometric_rows or projection.rank < min(len(space), len(chain)):
         sigmas = np.linalg.svd(space.jacobians(chain, xs), compute_uv=False)

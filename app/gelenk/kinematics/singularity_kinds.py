@@ -153,7 +153,7 @@ def _has_three_parallel(trials: list[Lines]) -> bool:
 
 
 def _planar(_: Lines) -> dict[SingularityKind | None, float]:
-    """Of a planar arm all singularities are the elbow's: links in line."""
+    """The singularities of a planar arm, all of the elbow: links in line."""
     return {"elbow": 0.0}
 
 

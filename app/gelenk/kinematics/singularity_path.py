@@ -27,7 +27,7 @@ _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where the smallest singular value has a minimum along the path.
+    """A minimum of the smallest singular value along the path.
 
     Attributes:
         start: Where, counted in configurations: 2.5 lies halfway between those of index 2 and 3.
@@ -108,7 +108,7 @@ class _Line:
         return np.asarray(values[:, self.rank - 1]), np.asarray(values[:, 0]), least
 
     def bottoms(self, low: Array, high: Array) -> Array:
-        """Where the smallest singular value is least between some bounds; shape (k,)."""
+        """The places of the minima of the smallest singular value between bounds; shape (k,)."""
         if len(low) == 0:
             return low
         bounds = low, high
@@ -140,7 +140,7 @@ class _Line:
 
 
 def _stations(qs: Array) -> Array:
-    """Where the path is examined, its configurations among them; shape (k,)."""
+    """The places at which the path is examined, its configurations among them; shape (k,)."""
     strides = np.abs(np.diff(qs, axis=0)).max(axis=1, initial=0.0)
     counts = np.clip(np.ceil(strides / _STEP), 1, _MOST_STATIONS).astype(int)
     parts = [i + np.arange(count) / count for i, count in enumerate(counts)]

@@ -73,6 +73,6 @@ def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspac
 
 
 def rounding(Js: Array) -> Array:
-    """What may be none but rounding of the entries of Jacobians; shape (…, 6, n) → (…,)."""
+    """The size of rounding errors in the entries of Jacobians; shape (…, 6, n) → (…,)."""
     largest: Array = _ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0)
     return largest

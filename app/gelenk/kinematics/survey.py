@@ -132,7 +132,7 @@ class Survey:
         return self._voxels
 
     def result(self, robot: Robot, chain: Chain) -> Workspace:
-        """What all of it tells.
+        """The result of the whole survey.
 
         Raises:
             CertificationFailed: Pinocchio's poses, Jacobians or measures differ.

@@ -53,7 +53,7 @@ class TaskSpace:
 
     @cached_property
     def scales(self) -> Array:
-        """What each of them is multiplied by; shape (m,)."""
+        """The factor of each direction; shape (m,)."""
         return np.array([1.0 if row < 3 else self.characteristic_length or 1.0 for row in self.rows])
 
     @cached_property
@@ -165,7 +165,7 @@ def _turned(rotations: Array, rows: Array) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """What is the same at all configurations of a chain but the singular ones.
+    """Properties of a chain that hold at all but its singular configurations.
 
     Attributes:
         rank: The rank of J at random configurations.
@@ -180,7 +180,7 @@ class Structure:
 
 @lru_cache(maxsize=1024)
 def structure(chain: Chain, task: Task, reference: Reference = "local_world_aligned") -> Structure:
-    """What a chain can do at random configurations, the same ones at each call."""
+    """The structure of a chain, from random configurations that are the same at each call."""
     # With one row each, a configuration gives at most one joint velocity that moves the tip.
     trials = _TRIALS + 2 * len(chain)
     space = TaskSpace(task, None, reference)

@@ -21,7 +21,7 @@ _STRUCTURAL = 1e-9
 
 
 class Motion:
-    """Where the tip moves at all: along which directions, and how far, at some configurations.
+    """The directions in which the tip moves at all, and how far, from some configurations.
 
     Args:
         chain: The chain.
@@ -44,7 +44,7 @@ class Motion:
 
     @property
     def dimensions(self) -> int:
-        """Of the smallest line, plane or space that holds all velocities of the tip."""
+        """The dimension of the smallest line, plane or space that holds all velocities of the tip."""
         return self._decomposition[1]
 
     @cached_property
@@ -78,7 +78,7 @@ class Motion:
         return "surface" if self.local_dimensions == 2 else "curve"
 
     def notes(self) -> list[str]:
-        """What is special about where the tip gets."""
+        """Remarks on the places that the tip reaches."""
         if self.dimensions == 0:
             return ["the tip does not move"]
         if self.kept_to is None:
@@ -156,7 +156,7 @@ def plane_axes(normal: Array) -> Array:
 
 
 def turned(flat: FlatChain, axes: Array) -> FlatChain:
-    """The same chain with a base whose axes are the given ones, as columns."""
+    """The chain with a base whose axes are the given columns."""
     first = flat.placements[0]
     rotation, position = axes.T @ first[:9].reshape(3, 3), axes.T @ first[9:]
     placements = flat.placements.copy()

@@ -228,7 +228,7 @@ def _cross_matrices(vectors: Array) -> Array:
 
 
 def _turned(poses: Poses, vectors: Array) -> Array:
-    """Both halves of (N, 6) along the tip's axes."""
+    """Rotate both halves of (N, 6) with the tip's axes."""
     halves = vectors.reshape(-1, 2, 3) @ poses.rotations
     return halves.reshape(-1, 6)
 

@@ -91,7 +91,7 @@ class Grid:
         return keys
 
     def _steps(self) -> list[int]:
-        """From the key of a cell to that of the next one, along each axis."""
+        """The difference between the keys of neighbouring cells, along each axis."""
         return [1 << (_BITS * axis) for axis in range(self.dimensions)]
 
 

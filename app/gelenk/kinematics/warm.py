@@ -95,7 +95,7 @@ def _closed_forms() -> None:
 
 
 def _answers() -> None:
-    """What is left: answers as requests get them."""
+    """Compute answers as requests get them."""
     robot, chain, qs = _small_arm()
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
     for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):

@@ -76,7 +76,7 @@ class Wish:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What a part of the samples is computed from, ready to be sent to another process.
+    """The input from which another process computes a part of the samples.
 
     Attributes:
         flat: The chain, turned so that the rows that count are rows of its Jacobian.
@@ -181,7 +181,7 @@ def _rounded(length: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """What some of the samples come to.
+    """The results of some of the samples.
 
     Attributes:
         first: The number of the first of them.

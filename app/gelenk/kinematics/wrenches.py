@@ -66,7 +66,7 @@ class WrenchFrame:
 
 
 def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
-    """Where a wrench frame is, and the Jacobian there.
+    """The pose of a wrench frame, and the Jacobian there.
 
     Args:
         robot: The robot; joints that the chain does not have stand at zero.

@@ -101,7 +101,7 @@ class Audit:
         min_singular_value: None without joints.
         certificate: How far Pinocchio's poses are from ours at some samples.
         reasons: Why it does not pass.
-        way_error: By how much the peaks of the joints differ from those of the exact way; None without one.
+        way_error: By how much the peaks of the joints differ from those of the exact path; None without one.
     """
 
     velocity: Peak | None

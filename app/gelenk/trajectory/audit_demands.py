@@ -29,7 +29,7 @@ class JointLimits:
 
 @dataclass(frozen=True, slots=True)
 class TipLimits:
-    """What the tip may do; infinite where there is no limit."""
+    """The limits of the tip; infinite where there is none."""
 
     speed: float = math.inf
     angular_speed: float = math.inf
@@ -75,7 +75,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class WayError:
-    """By how much ratios to limits differ at most from those of the exact way of the tip at the same law of time.
+    """By how much ratios to limits differ at most from those of the exact path of the tip at the same law of time.
 
     Attributes:
         velocity: Of the joints; ∞ where it is not known.
@@ -90,7 +90,7 @@ class WayError:
 
 @dataclass(frozen=True, slots=True)
 class Demands:
-    """What a motion has to keep to.
+    """The limits that a motion must keep, and the path it must follow.
 
     Attributes:
         joints: Limits of the joints.
@@ -105,7 +105,7 @@ class Demands:
         keeps_jerk: Whether limits of jerk are kept, or only compared with.
         stated_jerk: Limits of jerk that are kept even so, where acceleration does not jump; shape (n,),
             [rad/s³ or m/s³].
-        way_error: How far the planned motion is from the exact way; None where it follows none.
+        way_error: How far the planned motion is from the exact path; None where it follows none.
         tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
             derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
     """

@@ -28,7 +28,7 @@ _SAME = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Extremes:
-    """Of each joint, the value that is furthest in some sense, and when.
+    """The extreme value of each joint, and its time.
 
     Attributes:
         values: Shape (n,).
@@ -54,17 +54,17 @@ class Pieces:
     scaled: Array
 
     def part(self, first: int, last: int) -> "Pieces":
-        """Those from one number to another."""
+        """The pieces from one number to another."""
         return Pieces(self.starts[first:last], self.widths[first:last], self.scaled[:, first:last])
 
     def between(self, begin: float, end: float) -> "Pieces":
-        """Those whose middle lies between two times, [s]."""
+        """The pieces whose middle lies between two times, [s]."""
         middles = self.starts + 0.5 * self.widths
         return self.part(int(np.searchsorted(middles, begin)), int(np.searchsorted(middles, end)))
 
     @property
     def degree(self) -> int:
-        """Of the positions."""
+        """The degree of the positions."""
         return len(self.scaled) - 1
 
     def on(self, nodes: Array, order: int) -> Array:
@@ -160,7 +160,7 @@ def _powers(tau: Array, order: int, degree: int) -> Array:
 
 
 def _signed(values: Array, sense: Sense) -> Array:
-    """What is to be largest."""
+    """The function to maximise."""
     if sense == "absolute":
         return np.abs(values)
     sign = 1.0 if sense == "highest" else -1.0

@@ -102,7 +102,7 @@ def tip_peaks(
 
 
 def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
-    """The smallest σ of the geometric Jacobian along the way, of its rows that count or of n; metres and radians mixed.
+    """The smallest σ of the geometric Jacobian along the path, of the rows that count or of n; units are mixed.
 
     Eigenvalues of J Jᵀ (Jᵀ J where it is smaller) say where; the decomposition of J itself how much.
     """

@@ -15,7 +15,7 @@ PhaseName: TypeAlias = Literal["accelerate", "coast_before", "blend", "coast_aft
 
 _ROUNDING = 1e-12
 _RESOLVED = 1e-10
-"""Share of the larger speed, and of the way, that the rounding of a time may cost where phases meet."""
+"""Share of the larger speed, and of the path, that the rounding of a time may cost where phases meet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Phase:
 
 @dataclass(frozen=True, slots=True)
 class BlendedMotion:
-    """From rest to rest.
+    """The motion over a blended corner, from rest to rest.
 
     Attributes:
         blend: What replaces the corner.

@@ -1,4 +1,4 @@
-"""A second way to what is said of a motion: its ends, its knots, its joins and its peaks.
+"""A second computation of what is claimed about a motion: its ends, its knots, its joins and its peaks.
 
 Everything is recomputed from Bézier control points, whose differences are the derivatives at the ends of a piece
 and whose repeated means (de Casteljau's) are the values within. Nothing of how motions are evaluated, derived or
@@ -24,7 +24,7 @@ _PARTS = 16
 
 @dataclass(frozen=True, slots=True)
 class Promise:
-    """What is said of a motion.
+    """The claims about a motion that are checked.
 
     Attributes:
         times: When it is at the points, its start and its end among them; shape (K,), [s].

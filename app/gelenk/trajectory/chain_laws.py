@@ -30,15 +30,15 @@ _KEPT = 1e-6
 """Excess over a limit that a last uniform scaling takes away."""
 _ENOUGH = 1.0 + _KEPT
 _NO_LENGTH = 1e-9
-"""Of a line between two blends, in fractions of the way."""
+"""Of a line between two blends, in fractions of the path."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Chain:
-    """What limits say along blended lines.
+    """The limits along blended lines.
 
     Attributes:
-        geometry: The way.
+        geometry: The path.
         middles: Between the places at which slopes are known; shape (N - 1,).
         slopes: Shape (N, …).
         count: How many derivatives a law has given at both ends of a line, the position counted as one; None of phases
@@ -146,7 +146,7 @@ def chain_law(geometry: Geometry, count: int | None) -> PiecewisePolynomial | No
     """s(t) along blended lines; None of a single line, or where one is too short.
 
     Args:
-        geometry: The way, with its blends.
+        geometry: The path, with its blends.
         count: How many derivatives are given at both ends of each line, the position counted as one: 2 to 4. None for
             phases of least jerk.
     """

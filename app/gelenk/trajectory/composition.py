@@ -1,4 +1,4 @@
-"""Joints along a way in time, q(s(t)), as one more polynomial in pieces.
+"""Joints along a path in time, q(s(t)), as one more polynomial in pieces.
 
 Up to degree 10 it is composed exactly: a law of parabolas and q(s) of degree 5, any law along a straight line in joint
 space. Others would be of degree 15 to 35: there each piece is the septic that has the position, velocity, acceleration
@@ -56,7 +56,7 @@ class _Expansion:
         return _chained(derivatives(self.joints, s), rates)
 
     def at_edges(self, joints: PiecewisePolynomial) -> tuple[Array, Array]:
-        """The same where each piece begins and where it ends; shape (4, M, n) each.
+        """The same at the beginning and the end of each piece; shape (4, M, n) each.
 
         Knots of the joints that are too near to each other in time share a piece. Its edges are then those of the
         polynomials that belong there, so that nothing jumps.

@@ -122,5 +122,5 @@ def arc_through(start: Array, via: Array, end: Array) -> Arc:
 
 
 def _angle(arm: Array, x: Array, y: Array) -> float:
-    """Of a point on the circle, in [0, 2π), [rad]."""
+    """The angle of a point on the circle, in [0, 2π), [rad]."""
     return math.atan2(arm @ y, arm @ x) % (2.0 * math.pi)

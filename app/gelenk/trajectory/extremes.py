@@ -17,7 +17,7 @@ _SAME = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Peaks:
-    """Where each coordinate of a motion is furthest from zero.
+    """The value of each coordinate of a motion that is furthest from zero, and its time.
 
     Attributes:
         values: The values there, with their signs; shape (n,).

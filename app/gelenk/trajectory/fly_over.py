@@ -1,4 +1,4 @@
-"""Passing a corner without stopping: the way A-B-C with a parabola instead of B, at constant acceleration.
+"""Passing a corner without stopping: the path A-B-C with a parabola instead of B, at constant acceleration.
 
 From A' = B - d₁ K_AB, at the speed v₁ along AB, to C' = B + d₂ K_BC, at the speed v₂ along BC, in the time ΔT:
 
@@ -31,7 +31,7 @@ _BISECTIONS = 200
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """The way A-B-C, and the speeds on its two legs.
+    """The path A-B-C, and the speeds on its two legs.
 
     Attributes:
         start: A; shape (k,), [m].
@@ -100,12 +100,12 @@ class Blend:
 
     @property
     def coefficients(self) -> Array:
-        """Of p(t) since A', lowest power first; shape (3, k), [m/sᵏ]."""
+        """Coefficients of p(t) since A', lowest power first; shape (3, k), [m/sᵏ]."""
         return np.array([self.entry, self.corner.speed_before * self.corner.direction_before, 0.5 * self.acceleration])
 
     @property
     def motion(self) -> PiecewisePolynomial:
-        """From A' to C'.
+        """The motion from A' to C'.
 
         Raises:
             ValueError: It takes no time.
@@ -116,7 +116,7 @@ class Blend:
 
 
 def corner_of(start: Array, corner: Array, end: Array, speed_before: float, speed_after: float) -> Corner:
-    """The way A-B-C.
+    """The path A-B-C.
 
     Args:
         start: A; shape (k,), [m].
@@ -145,7 +145,7 @@ def blended(corner: Corner, given: Given, value: float) -> Blend:
     """The blend with a given time, distance, radius or acceleration.
 
     Args:
-        corner: The way and its speeds.
+        corner: The path and its speeds.
         given: What `value` is: ΔT, d₁, d₂, the larger of d₁ and d₂, or the acceleration.
         value: More than 0; [s], [m] or [m/s²].
 
@@ -205,7 +205,7 @@ def _too_long(corner: Corner, given: Given, time: float, longest: float) -> str:
 
 
 def _closest_share(corner: Corner) -> float:
-    """Where in [0, 1] the parabola is closest to B.
+    """The place in [0, 1] at which the parabola is closest to B.
 
     With τ = t / ΔT it is p - B = ΔT/2 (v₂ τ² K_BC - v₁ (1 - τ)² K_AB), so the slope of the squared distance has the
     sign of v₂² τ³ - v₁² (1 - τ)³ - v₁ v₂ cos α τ (1 - τ)(1 - 2τ). That has exactly one zero: what the parabola
@@ -226,6 +226,6 @@ def _closest_share(corner: Corner) -> float:
 
 
 def _distance_at(corner: Corner, time: float, share: float) -> float:
-    """From B to the parabola at a share of its time, [m]."""
+    """The distance from B to the parabola at a share of its time, [m]."""
     along = corner.speed_after * share**2 * corner.direction_after
     return 0.5 * time * math.hypot(*(along - corner.speed_before * (1.0 - share) ** 2 * corner.direction_before))

@@ -19,7 +19,7 @@ class BlendCheck:
     """How well a blend and its motion hold together.
 
     Attributes:
-        steps: Of the way from A' to C'; 0 where that takes no time.
+        steps: Of the path from A' to C'; 0 where that takes no time.
         max_position_error: At C', and where phases meet, [m].
         max_velocity_error: Likewise, [m/s].
         closest_distance_error: [m].

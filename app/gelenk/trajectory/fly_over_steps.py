@@ -24,7 +24,7 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
 
 
 def fly_over_warnings(blend: Blend) -> list[str]:
-    """What is to be known before the motion is used."""
+    """Warnings about the motion."""
     warnings, corner = [], blend.corner
     if corner.turn == "straight":
         warnings.append("A, B and C lie on one line: the blend only changes the speed, and passes through B")

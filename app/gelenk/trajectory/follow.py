@@ -1,8 +1,8 @@
-"""The joints' way along a way of the tip: q(s) on one continuous branch of the inverse kinematics.
+"""The joints' path along a path of the tip: q(s) on one continuous branch of the inverse kinematics.
 
 Between exact knots q is a quintic with their q, q' and q'': continuous up to q'' but where the path's own derivatives
 jump. Knots are as near to each other as the tolerances ask for in between, and then nearer (`follow_exact`). Where the
-branch cannot be followed any further the way ends, and a verdict says why (`follow_verdict`); `damp` leaves the way
+branch cannot be followed any further the path ends, and a verdict says why (`follow_verdict`); `damp` leaves the path
 near singularities instead (`follow_damped`).
 """
 
@@ -28,7 +28,7 @@ from gelenk.trajectory.problem import Following
 from gelenk.trajectory.time_laws import hermite_pieces
 
 _STILL = 1e-12
-"""Width of the piece that stands for a way of no length, [m or rad]."""
+"""Width of the piece that stands for a path of no length, [m or rad]."""
 _LOOSE = (1e-3, 1e-2)
 """How far from the path's first pose a start may be, [m and rad]."""
 _PUSHES = (8.0, 40.0)
@@ -37,19 +37,19 @@ _PUSHES = (8.0, 40.0)
 
 @dataclass(frozen=True, slots=True)
 class JointWay:
-    """The joints along a way of the tip.
+    """The joints along a path of the tip.
 
     Attributes:
-        positions: q(s) from 0 to `reached`; its breaks include the path's. Where nothing could be done, or the way has
+        positions: q(s) from 0 to `reached`; its breaks include the path's. Where nothing could be done, or the path has
             no length, one constant piece from 0 to 1e-12.
         reached: Up to where it could be done; the path's extent if all was, [m or rad].
         stop: Why it is not all.
-        path_deviation: Largest distance of the tip from the way between the knots that tolerances ask for, [m].
+        path_deviation: Largest distance of the tip from the path between the knots that tolerances ask for, [m].
         orientation_deviation: Largest angle likewise, [rad].
         min_singular_value: The smallest σ of the rows that count on it, metres and radians mixed.
         min_singular_value_s: Where that is, [m or rad].
-        bend_errors: How far q'' is from that of the exact way at most, in each piece of each joint; shape (M, n). None
-            where nothing moves, or the way is left.
+        bend_errors: How far q'' is from that of the exact path at most, in each piece of each joint; shape (M, n). None
+            where nothing moves, or the path is left.
     """
 
     positions: PiecewisePolynomial
@@ -63,12 +63,12 @@ class JointWay:
 
 
 def follow(robot: Robot, chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
-    """The joints that lead the tip along a way, from a configuration on.
+    """The joints that lead the tip along a path, from a configuration on.
 
     Args:
         robot: The robot.
         chain: Base and tip.
-        path: The way of the tip.
+        path: The path of the tip.
         start: A configuration with the path's first pose; shape (n,), [rad or m].
         following: Which directions count, how closely, and what to do near singularities.
 
@@ -95,7 +95,7 @@ def follow(robot: Robot, chain: Chain, path: Path, start: Array, following: Foll
 def _damped_way(
     robot: Robot, course: Course, tolerances: tuple[float, float], start: Array, threshold: float, trace: Trace
 ) -> JointWay:
-    """The exact way as far as it goes, and from a singularity on the damped one."""
+    """The exact path as far as it goes, and from a singularity on the damped one."""
     inquiry = Inquiry(robot, course, tolerances, threshold, start)
     began_near = bool(trace.pieces) and trace.pieces[0].a.sigma < threshold
     if trace.ending != "threshold" and not began_near:
@@ -109,7 +109,7 @@ def _damped_way(
 
 
 def _exactly(course: Course, way: JointWay) -> JointWay:
-    """The way with as many knots more as its peaks ask for."""
+    """The path with as many knots more as its peaks ask for."""
     if way.reached <= 0.0:
         return way
     positions, bend_errors = refined(course, way.positions)
@@ -141,7 +141,7 @@ def _away_from_limits(
 
 
 def _motionless(chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
-    """Of a way without length, or of a chain without joints."""
+    """The result for a path without length, or for a chain without joints."""
     stop = None
     at = path.at(np.zeros(1))
     if path.extent > 0.0:

@@ -1,4 +1,4 @@
-"""Where a piece of the joints' way leaves the joint limits, or comes too near to a singularity, also between knots.
+"""Where a piece of the joints' path leaves the joint limits, or comes too near to a singularity, also between knots.
 
 A quintic stays between its Bernstein coefficients; where these do not settle it, its roots do. σ, the smallest
 singular value, changes by no more than ‖dJ/ds‖ per unit of s: places are added until no dip below the floor can hide.
@@ -32,7 +32,7 @@ Violation: TypeAlias = Literal["joint_limit", "threshold", "lost"]
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """Where something is violated for the first time.
+    """The first place at which a bound is violated.
 
     Attributes:
         good: The last place that is known to be good, [m or rad].
@@ -50,7 +50,7 @@ class Crossing:
 
 
 def limit_crossing(course: Course, piece: Piece) -> Crossing | None:
-    """Where a joint leaves its limits in a piece."""
+    """The first place in a piece at which a joint leaves its limits."""
     lower, upper = course.chain.lower - SLACK, course.chain.upper + SLACK
     hull = HULL @ piece.data
     found: Crossing | None = None
@@ -78,9 +78,9 @@ def _first_outside(powers: Array, bound: float, side: float) -> tuple[float, flo
 def threshold_crossing(
     course: Course, piece: Piece, threshold: float, best: float, stretch: tuple[float, float]
 ) -> tuple[Crossing | None, float]:
-    """Where σ falls below the threshold in a piece, and the largest σ so far.
+    """The first place in a piece at which σ falls below the threshold, and the largest σ so far.
 
-    Where the way began below the threshold σ has to grow instead, until it is above it.
+    Where the path began below the threshold σ has to grow instead, until it is above it.
 
     Args:
         course: What is followed.
@@ -169,7 +169,7 @@ def _between(good: float, bad: float, room: float, lack: float, closest: float) 
 
 
 def _margin(course: Course, knot: Knot, floor: float) -> float:
-    """What is left until something is violated: of σ, or of a joint's range."""
+    """The margin to a bound: of σ, or of a joint's range."""
     margin = knot.sigma - floor
     if course.limited:
         rooms = np.minimum(knot.q - course.chain.lower, course.chain.upper - knot.q)

@@ -1,4 +1,4 @@
-"""The field of joint rates along a way of the tip, and the exact points of the joints' way in it.
+"""The field of joint rates along a path of the tip, and the exact points of the joints' path in it.
 
 q' = J⁺ξ where the joints are just as many as the directions that count, or more: then it is the shortest q'. Its
 derivative is q'' = J̇ᵀλ + J⁺(ξ' - J̇q' - J J̇ᵀλ) with λ = (JJᵀ)⁻¹ξ. Of an arm with joints to spare the field may have a
@@ -40,7 +40,7 @@ _EDGE = 0.2
 
 @dataclass(frozen=True, slots=True)
 class Knot:
-    """An exact point of the joints' way.
+    """An exact point of the joints' path.
 
     Attributes:
         s: Where, [m or rad].
@@ -65,11 +65,11 @@ class Knot:
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What is followed, and how.
+    """The path to follow, and how.
 
     Attributes:
         chain: Base and tip.
-        path: The way of the tip.
+        path: The path of the tip.
         task: Which directions of it count.
         residuals: Largest distance [m] and angle [rad] of an arm that has too few joints for all directions.
         limited: Whether joints have to keep their limits.
@@ -210,7 +210,7 @@ def taken(at: PathSamples, rows: slice) -> PathSamples:
 
 
 def derivative_along(field: Field, at: PathSamples, q: Array, dq: Array, sigma: float) -> Array:
-    """The derivative by s of a field along its own way, by a difference of fourth order; shape (n,)."""
+    """The derivative by s of a field along its own path, by a difference of fourth order; shape (n,)."""
     step = min(_DIFFERENCE, 0.05 * max(sigma, 1e-6)) / max(
         float(np.abs(dq).max()), float(np.abs(at.first[:, 3:]).max()), 1e-300
     )

@@ -1,8 +1,8 @@
-"""The joints' way near singularities with damping: the tip leaves the way, and returns to it afterwards.
+"""The joints' path near singularities with damping: the tip leaves the path, and returns to it afterwards.
 
 q' = Jᵀ(JJᵀ + λI)⁻¹(ξ + κe), λ = σ₀²(1 - σ²/σ₀²)³ where σ is below σ₀, else 0: gains grow to little more than 1/σ₀, and
-λ and its derivatives up to the second have no jump. The error e to the way is fed back, with a bound, and less in
-directions whose own σ is below σ₀, so that the tip returns. Joint rates stay below some 2 ‖ξ‖/σ₀, however near the way
+λ and its derivatives up to the second have no jump. The error e to the path is fed back, with a bound, and less in
+directions whose own σ is below σ₀, so that the tip returns. Joint rates stay below some 2 ‖ξ‖/σ₀, however near the path
 passes. Beside a singularity that differential equation is stiff: it is solved by an L-stable Rosenbrock method of third
 order [Sandu1997, RODAS3].
 """
@@ -71,7 +71,7 @@ class Damped:
         return dqs, sigmas[:, -1]
 
     def knot(self, s: float, at: PathSamples, q: Array) -> Knot:
-        """The point of the damped way at a configuration; `at` is one sample."""
+        """The point of the damped path at a configuration; `at` is one sample."""
         dqs, sigmas = self.velocities(at, q[None])
         sigma = float(sigmas[0])
         ddq = derivative_along(self, at, q, dqs[0], 0.1 * max(sigma, 0.1 * self.threshold))
@@ -79,7 +79,7 @@ class Damped:
 
 
 def damped(course: Course, tolerances: tuple[float, float], start: Array, threshold: float, since: float) -> Trace:
-    """The damped way from a configuration on, up to a joint limit or the end of the path.
+    """The damped path from a configuration on, up to a joint limit or the end of the path.
 
     Args:
         course: What is followed.
@@ -113,7 +113,7 @@ def damped(course: Course, tolerances: tuple[float, float], start: Array, thresh
 
 
 def _leave_out_what_never_returns(course: Course, tolerances: tuple[float, float], trace: Trace) -> None:
-    """End the way where the tip leaves its tolerances for good, if it does."""
+    """End the path where the tip leaves its tolerances for good, if it does."""
     ends = np.array([piece.b.q for piece in trace.pieces])
     at = course.path.at(np.array([piece.b.s for piece in trace.pieces]))
     errors = course.task.errors(at.poses, Poses(*chain_poses(course.chain.flat, ends)))
@@ -181,7 +181,7 @@ def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tup
 
 
 def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) -> tuple[Array, float]:
-    """One step: where it leads, shape (n,), and the estimate of its error."""
+    """Take one step; return its end, shape (n,), and the estimate of its error."""
     n, at = len(a.q), field.course.samples(np.array([a.s]), *stretch)
     by_q, by_s = _derivatives(field, at, a.q)
     matrix = np.eye(n) / (h * _GAMMA) - by_q

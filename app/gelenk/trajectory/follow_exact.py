@@ -1,7 +1,7 @@
-"""The joints' way brought as near to the exact one in q'' as it is in q, so that its peaks and durations are those.
+"""The joints' path brought as near to the exact one in q'' as it is in q, so that its peaks and durations are those.
 
 Quintics that keep a tolerance of the position are off by far more in q'', and with them peaks of acceleration. Where
-they are they get more knots, many at once: a quintic is a few steps of Newton's method away from the exact way, and
+they are they get more knots, many at once: a quintic is a few steps of Newton's method away from the exact path, and
 where joints are to spare the nearest one is taken.
 """
 
@@ -20,12 +20,12 @@ from gelenk.trajectory.time_laws import hermite_pieces
 from gelenk.trajectory.timing import Timed
 
 TOLERANCE = 1e-6
-"""Largest error of q'', in fractions of the largest q'' of its piece, or of q' over the length of the way."""
+"""Largest error of q'', in fractions of the largest q'' of its piece, or of q' over the length of the path."""
 _PROBES = np.array([0.14, 0.5, 0.86])
 """Where in a piece that error is largest: it goes as the second derivative of τ³(1 - τ)³."""
 _ROUNDS, _MOST_PARTS = 4, 16
 _SHORTEST = 1e-2
-"""Least length of a new piece, in fractions of the way."""
+"""Least length of a new piece, in fractions of the path."""
 _ROUNDING = 1e-13
 """Of q, as a share of it or of 1, [rad or m]."""
 _FIRST, _THIRD = 0.144, 16.0
@@ -36,14 +36,14 @@ _STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
 
 
 def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
-    """A way with more knots where its q'' is not that of the exact one yet, and how far it is from that.
+    """A path with more knots where its q'' is not that of the exact one yet, and how far it is from that.
 
     Args:
         course: What is followed.
         positions: q(s), quintics along it; what is too near to singularities or joint limits stays as it is.
 
     Returns:
-        The way in M pieces, and the largest error of each joint's q'' in each, ∞ where that is not known; (M, n).
+        The path in M pieces, and the largest error of each joint's q'' in each, ∞ where that is not known; (M, n).
     """
     for left in reversed(range(_ROUNDS)):
         off, parts = _errors(course, positions)
@@ -54,7 +54,7 @@ def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePo
 
 
 def way_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: MotionLimits) -> WayError:
-    """By how much a motion's ratios to limits differ at most from those of the exact way.
+    """By how much a motion's ratios to limits differ at most from those of the exact path.
 
     Args:
         joints: q(s), in M pieces.
@@ -120,7 +120,7 @@ def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> 
 
 
 def _exact(course: Course, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
-    """q, q' and q'' of the exact way next to given ones, shape (3, N, n), and whether there is one, else they stay."""
+    """q, q' and q'' of the exact path next to given ones, shape (3, N, n), and whether there is one, else they stay."""
     chain, task, at = course.chain, course.task, course.path.at(s)
     rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
     inverses = _inverses(rows.jacobians)

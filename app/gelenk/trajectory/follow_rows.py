@@ -1,4 +1,4 @@
-"""What a task asks of the joints along a way of the tip: J q' = ξ, in the rows that count, and its derivative by s.
+"""What a task asks of the joints along a path of the tip: J q' = ξ, in the rows that count, and its derivative by s.
 
 Of a task that leaves directions free, the rotation's rows are along the target's axes, as in inverse kinematics. Where
 one rotation alone counts, that is a component of the rotation vector ψ from the tip to the target, whose rate is not
@@ -28,7 +28,7 @@ class Rows:
     """The m rows that count at N configurations.
 
     Attributes:
-        errors: e, the way still to go to the path; shape (N, m), [m, rad].
+        errors: e, the remaining motion onto the path; shape (N, m), [m, rad].
         jacobians: J; shape (N, m, n).
         rates: ξ; shape (N, m), [m, rad per unit of s].
     """

@@ -1,7 +1,7 @@
 """One piece of the joints' way: from knot to knot, checked in between, and where in it something is violated first.
 
 Between two exact knots q is the quintic with the same q, q' and q'' at both. A piece is accepted where its poses are on
-the way within a share of the tolerance, and its rates those of the field.
+the path within a share of the tolerance, and its rates those of the field.
 """
 
 from dataclasses import dataclass
@@ -46,14 +46,14 @@ _SETTLED = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A piece of the way between two knots.
+    """A piece of the path between two knots.
 
     Attributes:
         a: Where it begins.
         b: Where it ends.
         data: q, hq', h²q'' at both; shape (6, n).
         sigmas: The smallest singular value at a, between, and at b; shape (9,).
-        deviations: Largest distance [m] and angle [rad] of the tip from the way.
+        deviations: Largest distance [m] and angle [rad] of the tip from the path.
         ratio: Of the largest error to what is allowed.
     """
 
@@ -66,7 +66,7 @@ class Piece:
 
     @property
     def width(self) -> float:
-        """Of the piece, [m or rad]."""
+        """Width of the piece, [m or rad]."""
         return self.b.s - self.a.s
 
     def at(self, taus: Array) -> Array:
@@ -81,7 +81,7 @@ def rates_of(taus: Array, order: int, data: Array) -> Array:
 
 
 def end_conditions(a: Knot, b: Knot) -> Array:
-    """What a quintic in τ has to meet; shape (6, n)."""
+    """The conditions on a quintic in τ; shape (6, n)."""
     h = b.s - a.s
     return np.array([a.q, h * a.dq, h * h * a.ddq, b.q, h * b.dq, h * h * b.ddq])
 

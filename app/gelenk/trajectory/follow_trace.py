@@ -1,4 +1,4 @@
-"""The joints' way traced from knot to knot, until its end or until it cannot go on."""
+"""The joints' path traced from knot to knot, until its end or until it cannot go on."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -21,15 +21,15 @@ _FIRST_STEP = 0.25
 _FARTHEST = 0.5
 """That a joint may go in one piece, [rad or m]."""
 _SHORTEST = 1e-9
-"""Length of a piece, in fractions of the path or of 1 m or rad, below which the way is lost."""
+"""Length of a piece, in fractions of the path or of 1 m or rad, below which the path is lost."""
 _NOTHING = 1e-2
 """Share of that length at which rounding tells nothing of rates any more."""
 _CLEAR = 1e-2
-"""σ above which a way that is lost is so because of rounding."""
+"""σ above which a path that is lost is so because of rounding."""
 _FASTEST = 1e6
-"""A joint's rate, in [rad or m] per length of the path, above which the way is given up."""
+"""A joint's rate, in [rad or m] per length of the path, above which the path is given up."""
 _CROWD, _CREEP = 200, 1e-5
-"""Pieces, and the length, in fractions of the path or of 1 m or rad, below which they make the way given up."""
+"""Pieces, and the length, in fractions of the path or of 1 m or rad, below which they make the path given up."""
 _KNOTS_OF_END = 6
 _NEAR_END = 1e-3
 """σ above which the end of a branch is too far away to be found."""
@@ -39,7 +39,7 @@ _GROWTH, _SHRINKAGE, _RESERVE = 3.0, 0.25, 0.85
 
 @dataclass(slots=True)
 class Trace:
-    """What was traced, and how it ended.
+    """The traced path, and how it ended.
 
     Attributes:
         pieces: One after the other.
@@ -68,7 +68,7 @@ def traced(
     until_above: float = np.inf,
     most: int | None = None,
 ) -> Trace:
-    """The way from a configuration on.
+    """The path from a configuration on.
 
     Args:
         course: What is followed.
@@ -76,7 +76,7 @@ def traced(
         start: Where it begins; shape (n,).
         threshold: σ at which it ends; 0 goes through singularities as long as there is an exact way.
         since: Where on the path it begins, [m or rad].
-        until_above: σ above which no more is wanted. Where it is given, a way that is about to be lost is given up as
+        until_above: σ above which no more is wanted. Where it is given, a path that is about to be lost is given up as
             soon as it is known where (`_end_of_branch`), instead of on the last nanometre.
         most: Pieces that it may take; `MOST_KNOTS` if None.
 
@@ -113,10 +113,10 @@ def traced(
 
 
 def _end_of_branch(pieces: list[Piece], extent: float) -> float | None:
-    """Where the branch ends, if its last knots tell that exactly.
+    """The end of the branch, if its last knots show it exactly.
 
-    There σ falls as the root of what is left of the way, and the rates grow as 1/σ. So s is a smooth function of σ²:
-    what cubics through four knots each say of it at zero is the same then to the length at which a way counts as lost.
+    There σ falls as the root of what is left of the path, and the rates grow as 1/σ. So s is a smooth function of σ²:
+    what cubics through four knots each say of it at zero is the same then to the length at which a path counts as lost.
     """
     if len(pieces) < _KNOTS_OF_END or pieces[-1].b.sigma > _NEAR_END:
         return None
@@ -174,7 +174,7 @@ def _pieces(
 
 
 def _factor(piece: Piece) -> float:
-    """By what a step is multiplied; the rates' error is of fifth order."""
+    """The factor of the next step; the rates' error is of fifth order."""
     return float(_RESERVE * max(piece.ratio, 1e-6) ** -0.2)
 
 

@@ -1,7 +1,7 @@
-"""Why the joints cannot follow a way any further: reach, a limit, a singularity, or a change of branch.
+"""Why the joints cannot follow a path any further: reach, a limit, a singularity, or a change of branch.
 
-What is out of reach on the rest of the way, at its end above all, no branch can do. Else it is the branch: it ends
-where J loses rank and the way asks for what it has lost, and inverse kinematics from many starts, just beyond that
+What is out of reach on the rest of the path, at its end above all, no branch can do. Else it is the branch: it ends
+where J loses rank and the path asks for what it has lost, and inverse kinematics from many starts, just beyond that
 place, tell whether only what lies beyond joint limits goes on, or another branch. All this is bounded by counts, so
 that a verdict neither takes long nor depends on how busy the machine is.
 """
@@ -50,7 +50,7 @@ class Stop:
         reason: `out_of_reach`: nothing reaches the way's end, or a pose before it. `joint_limit`: a joint is in the
             way. `singularity`: the branch goes on, but too near to a singularity. `branch_change`: the branch ends,
             another one goes on.
-        s: Where the way cannot be followed any more, [m or rad]: a threshold of σ may have ended it a little before.
+        s: Where the path cannot be followed any more, [m or rad]: a threshold of σ may have ended it a little before.
         position: Of the tip there; shape (3,), [m].
         joint: Whose limit it is.
         detail: In a sentence.
@@ -65,7 +65,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class Inquiry:
-    """What a verdict is about.
+    """The problem that a verdict is about.
 
     Attributes:
         robot: The robot.
@@ -100,7 +100,7 @@ def verdict(inquiry: Inquiry, trace: Trace) -> Stop | None:
 
 
 def never_back(inquiry: Inquiry, trace: Trace) -> Stop:
-    """Of a damped way whose tip leaves the path and is still off it at its end."""
+    """The verdict on a damped path whose tip leaves the path and is still off it at its end."""
     stop = _at_end_of_branch(inquiry, trace.reached, trace)
     detail = f"{stop.detail}; the damped tip leaves the path there and is still off it at its end"
     return _with_the_rest(inquiry, replace(stop, detail=detail), trace)
@@ -173,7 +173,7 @@ def _too_fast(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
 
 
 def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
-    """By what inverse kinematics find just beyond."""
+    """The verdict from the solutions of inverse kinematics just beyond."""
     extent = inquiry.course.path.extent
     places = np.minimum(s + _BEYOND * min(extent, 1.0), extent)
     found = _solved(inquiry, places, trace, (_IK_TOLERANCE, _IK_TOLERANCE))
@@ -267,7 +267,7 @@ def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
 
 
 def where(inquiry: Inquiry, s: float) -> str:
-    """That something is at a place on the path."""
+    """Words for a place on the path."""
     return f"at {place(inquiry, s)}"
 
 
@@ -288,6 +288,6 @@ def _last(inquiry: Inquiry, trace: Trace) -> Array:
 
 
 def unit_of(chain: Chain, joint: int) -> str:
-    """Of a variable."""
+    """The unit of a variable."""
     own = chain.flat.joints[chain.flat.joints[:, 1] == joint]
     return "m" if len(own) and own[:, 0].all() else "rad"

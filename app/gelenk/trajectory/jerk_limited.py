@@ -50,7 +50,7 @@ class JointState:
 
 @dataclass(frozen=True, slots=True)
 class JerkLimits:
-    """What each joint may do, to both sides.
+    """The limits of each joint, for both directions.
 
     Attributes:
         velocity: Shape (n,), [rad/s or m/s].

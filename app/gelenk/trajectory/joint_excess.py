@@ -34,7 +34,7 @@ def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess
 
     Args:
         chain: What moves; n variables.
-        motion: Their values in time, or along a way.
+        motion: Their values in time, or along a path.
     """
     if _is_surely_within(chain, motion):
         return None

@@ -147,7 +147,7 @@ def named(field: str, name: str) -> str:
 
 
 class Timings(NamedTuple):
-    """One way at two timings.
+    """One path at two timings.
 
     Attributes:
         uniform_duration: Of the law, scaled so that it just keeps the limits: the larger one of k_vel and √k_acc times
@@ -166,7 +166,7 @@ class Timings(NamedTuple):
 def compared_point_to_point(start: Array, target: Array, law: Law, limits: MotionLimits) -> Timings:
     """A law of time scaled uniformly, and the fastest motion along the same way; all zero where nothing is to move.
 
-    The trapezoid leads along a way of its own. Its slowest joint is as fast as its limits allow at all, so that
+    The trapezoid leads along a path of its own. Its slowest joint is as fast as its limits allow at all, so that
     nothing is left to be gained.
 
     Args:
@@ -186,7 +186,7 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Motio
 
 
 def timings(uniform: PiecewisePolynomial, limits: MotionLimits, optimal: float) -> Timings:
-    """Of a motion of some duration, with the factors that it would need if it lasted 1 s.
+    """The timings of a motion of some duration, with the factors that it would need if it lasted 1 s.
 
     Args:
         uniform: The law, scaled.
@@ -199,7 +199,7 @@ def timings(uniform: PiecewisePolynomial, limits: MotionLimits, optimal: float) 
 
 
 def _check(start: Array, target: Array, limits: MotionLimits, duration: float | None, field: str) -> None:
-    """That all numbers are of magnitudes whose products are numbers."""
+    """Check that all numbers are small enough for their products."""
     for name, values in (("start", start), ("target", target)):
         wrong = ~(np.abs(values) <= LARGEST)
         if wrong.any():
@@ -211,7 +211,7 @@ def _check(start: Array, target: Array, limits: MotionLimits, duration: float | 
 
 
 def check_limits(limits: MotionLimits, field: str = "") -> None:
-    """That limits are numbers which can be reckoned with.
+    """Check that limits are usable numbers.
 
     Raises:
         InvalidField: One is not.
@@ -227,7 +227,7 @@ def check_limits(limits: MotionLimits, field: str = "") -> None:
 
 
 def check_duration(duration: float | None, field: str = "") -> None:
-    """That a duration is one.
+    """Check that a duration is a usable number.
 
     Raises:
         InvalidField: It is not.
@@ -237,7 +237,7 @@ def check_duration(duration: float | None, field: str = "") -> None:
 
 
 def _bounds(steps: Array, limits: MotionLimits) -> tuple[float, float, float]:
-    """What s may do at most: its velocity, acceleration and jerk, [1/s, 1/s², 1/s³]."""
+    """The limits of s: velocity, acceleration and jerk, [1/s, 1/s², 1/s³]."""
     moves = steps != 0.0
     sizes = np.abs(steps[moves])
     velocity, acceleration, jerk = (float((getattr(limits, name)[moves] / sizes).min()) for name in QUANTITIES)

@@ -1,13 +1,13 @@
 """Joints through waypoints along a cubic spline, at rest at both ends.
 
 A clamped spline, and one of assigned ends, is at rest there by itself: it is a motion in time. The others are not; for
-them the spline is a way, q(u), and a law of time s(t) leads from rest to rest along it, q(s(t)). What a law means:
+them the spline is a path, q(u), and a law of time s(t) leads from rest to rest along it, q(s(t)). What a law means:
 
 - `cubic`, `trapezoidal` on a clamped or assigned spline: the spline in time, all times multiplied by the k that just
   keeps the limits of velocity and acceleration. (A trapezoid along such a way would start twice over: the faster it
-  comes to its speed the better, and at once is allowed.) Elsewhere that law along the way.
-- `quintic`, `septic`, `jerk_limited`: that law along the way, limits of jerk kept too.
-- `time_optimal`: the fastest motion along the way under the limits of velocity and acceleration.
+  comes to its speed the better, and at once is allowed.) Elsewhere that law along the path.
+- `quintic`, `septic`, `jerk_limited`: that law along the path, limits of jerk kept too.
+- `time_optimal`: the fastest motion along the path under the limits of velocity and acceleration.
 
 With `times` a clamped or assigned spline takes exactly these. They are the law of time then; what a law promises and
 they cannot keep is refused: `time_optimal` any, `jerk_limited` those of a clamped spline, whose acceleration jumps at
@@ -93,7 +93,7 @@ def spline_way(start: Array, segment: Segment, chain: Chain, *, field: str = "")
 
 
 def compared_spline(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> Timings:
-    """The law of a segment without `times`, and the fastest motion along the same way.
+    """The law of a segment without `times`, and the fastest motion along the same path.
 
     Args:
         start: Its first knot; shape (n,), [rad or m].
@@ -113,7 +113,7 @@ def compared_spline(start: Array, segment: Segment, chain: Chain, *, field: str 
 
 
 class Prefix(NamedTuple):
-    """As much of a spline as stays within the limits of the joints.
+    """The part of a spline that stays within the joint limits.
 
     Attributes:
         motion: To the last waypoint that is reached, at rest there.
@@ -236,7 +236,7 @@ def _at_given_times(points: Knots, segment: Segment, field: str) -> PiecewisePol
 
 
 def _slowed(motion: PiecewisePolynomial, segment: Segment) -> PiecewisePolynomial:
-    """At its times, or where these are too short as fast as the limits allow."""
+    """The motion at its times, or if these are too short, as fast as the limits allow."""
     return motion.scaled(uniform_scaling(motion, _kept_at_times(segment)).course_factor)
 
 
@@ -246,7 +246,7 @@ def _kept_at_times(segment: Segment) -> Limits:
 
 
 def _fastest(way: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
-    """From rest to rest along a way in the least time that the law takes."""
+    """The motion from rest to rest along a path in the least time that the law takes."""
     limits = segment.limits
     if segment.law in _SCALED and _is_at_rest(way):
         factor = uniform_scaling(way, kept(segment.law, limits)).factor

@@ -19,7 +19,7 @@ WITHIN = 1e-9
 
 
 class Knots(NamedTuple):
-    """What is to be passed, the start included, and when.
+    """The waypoints, the start included, and their times.
 
     Attributes:
         times: From 0 on; where none are given those that space the knots; shape (N,), [s].
@@ -84,7 +84,7 @@ def _check_times(times: Array, count: int, name: str) -> None:
 
 
 def check_within(chain: Chain, waypoints: Array, field: str = "") -> None:
-    """That waypoints are within the limits of the joints.
+    """Check that waypoints are within the joint limits.
 
     Args:
         chain: Whose joints.
@@ -106,7 +106,7 @@ def check_within(chain: Chain, waypoints: Array, field: str = "") -> None:
 
 
 def check_closed(positions: Array, boundary: Boundary, field: str = "") -> None:
-    """That a periodic spline ends where it starts.
+    """Check that a periodic spline ends where it starts.
 
     Raises:
         InvalidField: It does not.

@@ -1,7 +1,7 @@
 """Ways from one orientation to another, planned apart from the position: x from 0 to 1 leads along the whole of it.
 
 - Axis and angle, the default: R(x) = R_i Rot(r, x θ) with R_iᵀ R_f = Rot(r, θ), one axis throughout and the shortest
-  way. At θ = 0 there is no axis; at θ = π there are two, and both ways are equally short.
+  way. At θ = 0 there is no axis; at θ = π there are two, and both paths are equally short.
 - ZYZ angles, the course's alternative: `zyz_paths`.
 - Through several orientations: by axis and angle from each to the next, or as a smooth spline (`rotation_splines`).
 
@@ -30,7 +30,7 @@ _INTERVALS = 64
 
 
 class OrientationPath(Protocol):
-    """A way through orientations."""
+    """A path through orientations."""
 
     @property
     def angle(self) -> float:
@@ -45,7 +45,7 @@ class OrientationPath(Protocol):
 
 
 class Turn(OrientationPath, Protocol):
-    """A way from one orientation to another at a constant rate."""
+    """A path from one orientation to another at a constant rate."""
 
     def part(self, begin: float, finish: float) -> "Turn":
         """What is between two values of x."""
@@ -91,12 +91,12 @@ class AxisAngle:
 
 
 def axis_angle(start: Array, end: Array) -> AxisAngle:
-    """The shortest way about one axis; of two that are equally short, the one of `both_ways` that comes first."""
+    """The shortest path about one axis; of two that are equally short, the one of `both_ways` that comes first."""
     return both_ways(start, end)[0]
 
 
 def both_ways(start: Array, end: Array) -> tuple[AxisAngle, ...]:
-    """Both ways about one axis, the shorter first: about r by θ, and about -r by 2π - θ; one alone where θ = 0.
+    """Both paths about one axis, the shorter first: about r by θ, and about -r by 2π - θ; one alone where θ = 0.
 
     At θ = π, within `HALF_TURN`, they are equally short; first comes the one whose axis has a first component that is
     positive (that is not zero), whatever rounding makes of the angle.
@@ -140,7 +140,7 @@ class Through:
         return tuple(self.knots[1:-1].tolist())
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
-        """See `OrientationPath`; at a knot the later way counts."""
+        """See `OrientationPath`; at a knot the later path counts."""
         rotations, rates = np.empty((len(x), 3, 3)), np.empty((len(x), 3))
         part = np.clip(np.searchsorted(self.knots, x, side="right") - 1, 0, len(self.ways) - 1)
         for i, way in enumerate(self.ways):
@@ -152,7 +152,7 @@ class Through:
 
 
 def through(rotations: Array, knots: Sequence[float] | Array) -> Through:
-    """The shortest ways from each orientation to the next.
+    """The shortest paths from each orientation to the next.
 
     Args:
         rotations: Shape (M + 1, 3, 3).

@@ -105,7 +105,7 @@ def _end_blend(length: float, distance: Array, acceleration: Array, ends: int, s
 
 
 def _check_room(lengths: Array, durations: Array, field: str) -> None:
-    """That the blends of each segment fit into it: half of an inner one, all of an end one."""
+    """Check that the blends of each segment fit: half of an inner one, all of an end one."""
     shares = np.full(len(durations), 0.5)
     shares[0] = shares[-1] = 1.0
     parts = durations * shares[:, None]

@@ -64,7 +64,7 @@ class Part:
         )
 
     def noted(self, notes: tuple[str, ...]) -> "Part":
-        """The same with something more to be known of its segments."""
+        """The same with further notes on its segments."""
         if not notes:
             return self
         return replace(self, reports=tuple(replace(one, notes=(*one.notes, *notes)) for one in self.reports))

@@ -1,4 +1,4 @@
-"""A law of time that passes places of a way at given times: a clamped cubic spline s(t) that never goes back."""
+"""A law of time that passes places of a path at given times: a clamped cubic spline s(t) that never goes back."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def passing_at(
     limits: MotionLimits,
     tip_motion: TipMotion | None,
 ) -> Timed:
-    """The motion along a way, from rest to rest, that is at each place at its time; C² where the way is.
+    """The motion along a path, from rest to rest, that is at each place at its time; C² where the path is.
 
     Args:
         path: What the tip follows.

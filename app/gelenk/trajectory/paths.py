@@ -77,19 +77,19 @@ class PathSamples:
 
 
 class Path(Protocol):
-    """A way of the tip through space."""
+    """A path of the tip through space."""
 
     @property
     def unit(self) -> Unit:
-        """Of s."""
+        """The unit of s."""
 
     @property
     def extent(self) -> float:
-        """Where s ends; it is 0 at the start, [m or rad]."""
+        """The value of s at the end, [m or rad]; it is 0 at the start."""
 
     @property
     def length(self) -> float:
-        """Of the way of the position, [m]."""
+        """Of the path of the position, [m]."""
 
     @property
     def angle(self) -> float:
@@ -97,7 +97,7 @@ class Path(Protocol):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of s inside of the way at which ξ_s or dξ_s/ds jumps."""
+        """Values of s inside of the path at which ξ_s or dξ_s/ds jumps."""
 
     def at(self, s: Array) -> PathSamples:
         """Poses and derivatives at places s; shape (N,)."""
@@ -184,7 +184,7 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
 
 
 def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) -> OrientationPath:
-    """A way through several orientations.
+    """A path through several orientations.
 
     Args:
         rotations: At least two; shape (M + 1, 3, 3).
@@ -270,7 +270,7 @@ def sequence(parts: Sequence[Path]) -> PathSequence:
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:
-    """Refuse a corner at which the way leads back along itself.
+    """Refuse a corner at which the path leads back along itself.
 
     Raises:
         InvalidField: It does.

@@ -75,7 +75,7 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
 
 
 def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Halt | None]:
-    """What can be done, from rest to rest each, and why that is not all."""
+    """The parts that can be done, each from rest to rest, and why the rest cannot."""
     parts: list[Part] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
@@ -186,7 +186,7 @@ def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], 
 
 
 def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
-    """That a law does not keep limits of jerk, where that shows."""
+    """The note that a law does not keep limits of jerk, where that matters."""
     jerk = found.jerk
     if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
         return ()

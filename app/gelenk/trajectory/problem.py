@@ -40,7 +40,7 @@ class Segment:
     """One part of a trajectory.
 
     Attributes:
-        type: What kind of way.
+        type: The kind of path.
         law: Of time.
         limits: That hold on it.
         duration: It is to last, [s]; as long as its limits ask for if None.
@@ -50,8 +50,8 @@ class Segment:
         blend_radius: Distance from the end of a line at which it is left for the next, [m]; 0 stops there.
         blend_acceleration: Of the tip in the blend instead of a radius, [m/s²].
         blend_time: Of the blend instead of a radius, [s].
-        orientation: How a way of the tip turns: about an axis, of which one that passes orientations has a smooth
-            spline, or the Euler angles ZYZ each on their way, on either branch.
+        orientation: How a path of the tip turns: about an axis, of which one that passes orientations has a smooth
+            spline, or the Euler angles ZYZ each on their path, on either branch.
         configurations: A joint spline's waypoints after the start; shape (m, n), [rad or m].
         poses: A Cartesian spline's.
         times: When each is to be reached, after the segment's start; shape (m,), [s].
@@ -82,15 +82,15 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Following:
-    """How joints are to follow a way of the tip.
+    """How joints are to follow a path of the tip.
 
     Attributes:
         task: Directions that count; others are left free.
-        position_tolerance: Largest distance from the way, also between samples, [m].
+        position_tolerance: Largest distance from the path, also between samples, [m].
         orientation_tolerance: Largest angle, [rad].
         min_singular_value: σ of the Jacobian's rows that count, metres and radians mixed, below which a pose counts as
             near to a singularity.
-        near_singularity: What to do there: stop; go on with damped joints and leave the way; go on exactly, slowly.
+        near_singularity: What to do there: stop; go on with damped joints and leave the path; go on exactly, slowly.
     """
 
     task: Task = FULL_POSE
@@ -138,17 +138,17 @@ class BlendReport:
 
 @dataclass(frozen=True, slots=True)
 class SegmentReport:
-    """What came of a segment, as far as it was done.
+    """The result of a segment, as far as it was done.
 
     Attributes:
         index: Which, from 0.
-        type: What kind of way.
+        type: The kind of path.
         law: Of time.
         start_time: [s].
         end_time: [s].
-        length: Of the tip's way, [m]; of a joint segment None.
+        length: Of the tip's path, [m]; of a joint segment None.
         angle: By which the tip turns on it, [rad]; of a joint segment None.
-        joint_deviation: From the way at most that damping cost: distance [m] and angle [rad]; None if not damped.
+        joint_deviation: From the path at most that damping cost: distance [m] and angle [rad]; None if not damped.
         blended: Whether it is left for the next without a stop.
         blend: How, if the motion gets that far.
         notes: What else is to be known.
@@ -183,7 +183,7 @@ class SegmentReport:
 
 @dataclass(frozen=True, slots=True)
 class TimingComparison:
-    """One way of a segment (or of blended ones) at two timings.
+    """One path of a segment (or of blended ones) at two timings.
 
     Attributes:
         segments: Which, from 0.
@@ -225,7 +225,7 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """What came of a problem.
+    """The result of a problem.
 
     Attributes:
         motion: Of the joints, from 0 s on.

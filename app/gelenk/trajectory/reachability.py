@@ -22,13 +22,13 @@ _MOST_STEPS = 100
 
 @dataclass(frozen=True, slots=True)
 class Stages:
-    """What a motion may do in each of N intervals.
+    """The constraints of a motion in each of N intervals.
 
     Attributes:
         lengths: Δ; shape (N,).
         upper: Offsets and slopes of lines in x that u stays below, infinite and 0 for none; shape (2, N, m).
         lower: The same of those it stays above.
-        highest: The largest x at the start of each interval from which there is any way on; shape (N,).
+        highest: The largest x at the start of each interval from which the motion can continue; shape (N,).
         kept: The least share of x that is left at the end of each interval; shape (N,).
     """
 

@@ -1,4 +1,4 @@
-"""Smooth ways through orientations: a spline with continuous angular acceleration, and the turn over a corner.
+"""Smooth paths through orientations: a spline with continuous angular acceleration, and the turn over a corner.
 
 Between two knots R(x) = R_k Exp(θ(x)) with θ a cubic. The spline's angular velocities at the knots are those with which
 angular acceleration is continuous too, so it is C² as a cubic spline of positions is; it is the interpolation that

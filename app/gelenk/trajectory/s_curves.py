@@ -1,4 +1,4 @@
-"""Profiles of seven phases along a way of length 1, from rest to rest: many at once, to choose one of them.
+"""Profiles of seven phases along a path of length 1, from rest to rest: many at once, to choose one of them.
 
 Jerk j for t_j, acceleration a for t_a, jerk -j for t_j, coast, and the same mirrored [Biagiotti2008]: from rest to rest
 that is what `jerk_limited` finds too.
@@ -38,7 +38,7 @@ def lasting(caps: Array) -> Array:
 
 
 def planned(caps: Array) -> PiecewisePolynomial:
-    """One of them as s(t), in the time that it takes.
+    """One of them as s(t), with its duration.
 
     Args:
         caps: Largest speed, acceleration and jerk; shape (3,), [1/s, 1/s², 1/s³].

@@ -87,7 +87,7 @@ class PolynomialPath:
 
     @property
     def knots(self) -> Array:
-        """Where along the way each break of the position is, as s; shape (M + 1,), [m]."""
+        """Where along the path each break of the position is, as s; shape (M + 1,), [m]."""
         edges, lengths = self._table
         return lengths[np.searchsorted(edges, self.position.breaks)]
 
@@ -168,7 +168,7 @@ class PolynomialPath:
 def spline(
     waypoints: Poses, boundary: SplineBoundary = "natural", orientation: ViaOrientation = "smooth"
 ) -> PolynomialPath:
-    """A smooth way through poses: C² in position and in orientation, over the length of the chords.
+    """A smooth path through poses: C² in position and in orientation, over the length of the chords.
 
     Args:
         waypoints: At least two.

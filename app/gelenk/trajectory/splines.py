@@ -119,7 +119,7 @@ def _inner_rows(h: Array, slopes: Array) -> tuple[Tridiagonal, Array]:
 
 
 def _clamped(times: Array, knots: Array, ends: Ends) -> Spline:
-    """Both end velocities are known and go to the right side."""
+    """Both end velocities are known, and move to the right-hand side."""
     h = np.diff(times)
     A, b = _inner_rows(h, np.diff(knots, axis=0) / h[:, None])
     velocities = np.empty_like(knots)
@@ -272,7 +272,7 @@ _RESOLVED = 1e-9
 
 
 def checked_times(times: Array, field: str) -> None:
-    """That times increase, by more than rounding.
+    """Check that times increase by more than rounding.
 
     Raises:
         InvalidField: They do not, with the first two that do not.

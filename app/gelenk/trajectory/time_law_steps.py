@@ -113,7 +113,7 @@ def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
 
 
 def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
-    """Where the motion is fastest, and where it is accelerated most."""
+    """The places of the largest velocity and acceleration."""
     lines = []
     for j in range(min(len(velocity.values), SHOWN_JOINTS)):
         index = "" if len(velocity.values) == 1 else f"_{{{j + 1}}}"

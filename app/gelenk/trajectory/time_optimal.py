@@ -34,12 +34,12 @@ SMALLEST, LARGEST = 1e-9, 1e9
 MARGIN = 1e-9
 """The share of each limit that is left for rounding."""
 _LEAST_INTERVALS = 4
-"""In each piece of the path, so that there is a way from corner to corner."""
+"""In each piece of the path, so that there is room from corner to corner."""
 _NO_LENGTH = 1e-13
 _STILL = 1e-12
 _JUMP, _EXACT = 1e-9, 1e-12
 """The jump of q, in fractions of the largest travel, that is no rounding any more; nor is one of less than so many rad
-or m, to which joints follow a way at best."""
+or m, to which joints follow a path at best."""
 _CORNER = 1e-7
 """The jump of q', in fractions of the largest, that is no rounding any more."""
 _CHANGE = 0.25
@@ -190,7 +190,7 @@ def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
 def _speeds(
     field: str, speed: float, length: float, slope: Array, velocity: Array, smallest: float
 ) -> tuple[float, float]:
-    """What ṡ² of the path of length 1 has to be at an end: the least and the largest."""
+    """The least and the largest ṡ² of the path of length 1 at an end."""
     with np.errstate(divide="ignore"):
         most = float((velocity / slope).min())
     if not 0.0 <= speed <= most * length * (1.0 + MARGIN):
@@ -241,7 +241,7 @@ def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
 
 
 def _switches(nodes: Array, x: Array) -> Array:
-    """Where u switches within an interval: where the lines of x(s) on both sides of it meet."""
+    """The place in an interval where u switches: where the lines of x(s) from both sides meet."""
     lengths = np.diff(nodes)
     u = 0.5 * np.diff(x) / lengths
     before, after, inner = u[:-2], u[2:], lengths[1:-1]

@@ -24,7 +24,7 @@ STANDS_STILL = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What each joint may do at most; each > 0, of shape (n,), None where there is no limit.
+    """The limits of each joint; each > 0, of shape (n,), None where there is no limit.
 
     Attributes:
         velocity: [rad/s or m/s].
@@ -67,7 +67,7 @@ class Bound:
 
 @dataclass(frozen=True, slots=True)
 class Scaling:
-    """By how much a motion can be slowed down or sped up.
+    """The factors by which a motion can be slowed down or sped up.
 
     Attributes:
         bounds: One a quantity that is limited.

@@ -1,4 +1,4 @@
-"""The time that joints take along a way, from rest to rest: six laws, each as fast as limits of joints and tip allow.
+"""The time that joints take along a path, from rest to rest: six laws, each as fast as limits of joints and tip allow.
 
 All is motion along s: the law s(t) is chosen, then scaled uniformly until some limit is just reached, the limits asked
 of the joints' polynomials in time and of the tip. Along the way:
@@ -41,7 +41,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Timed:
-    """A motion along a way, from rest to rest.
+    """A motion along a path, from rest to rest.
 
     Attributes:
         motion: Of the joints, from 0 s on; where nothing moves one piece whose two breaks are the same, or which lasts
@@ -79,11 +79,11 @@ def timed(
     both sides of it only.
 
     The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Limits of the tip cost up to 0.25 % more where
-    the way bends (`tip_rows`), and a last uniform scaling by k ≥ 1, mostly by less than 1e-5, for what is between the
+    the path bends (`tip_rows`), and a last uniform scaling by k ≥ 1, mostly by less than 1e-5, for what is between the
     places at which they are checked. Where the trapezoid takes no longer it is that, of fewer pieces.
 
     Args:
-        path: What the tip follows, for its limits and for where it bends; None for a way of the joints alone.
+        path: What the tip follows, for its limits and for where it bends; None for a path of the joints alone.
         joints: q(s), s from 0 on, perhaps not up to the end of the path.
         law: Of time.
         limits: Of joints and tip.

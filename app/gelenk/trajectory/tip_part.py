@@ -1,4 +1,4 @@
-"""Segments along which the tip follows a way: the way, the joints that follow it, and the time they take."""
+"""Segments along which the tip follows a path: the path, the joints that follow it, and the time they take."""
 
 import math
 from collections.abc import Sequence
@@ -40,7 +40,7 @@ from gelenk.trajectory.words import Law
 _DONE = 1e-9
 """Share of a segment that may be missing from one that counts as done."""
 _EARLY = 1e-6
-"""Share of a way by which a motion can end before what ends it, without a word."""
+"""Share of a path by which a motion can end before what ends it, without a word."""
 _ANGLE_SAMPLES = 65
 _SLACK = 1.05
 """The audit looks more closely than what measured the deviation that damping costs."""
@@ -60,7 +60,7 @@ def tip_part(
         problem: Whose segments they are.
 
     Raises:
-        InvalidField: There is no such way, or not in the time that is given.
+        InvalidField: There is no such path, or not in the time that is given.
     """
     following = problem.following
     positions, rotations = chain_poses(chain.flat, start[None])
@@ -105,7 +105,7 @@ def _timed(
     limits: MotionLimits,
     first: int,
 ) -> Timed:
-    """The law of time; of a way that is not done wholly the fastest there is."""
+    """The law of time; of a path that is not done wholly the fastest there is."""
     is_whole = joints.stop is None
     segment = segments[0]
     try:
@@ -128,7 +128,7 @@ def _timed(
 
 
 def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendReport]:
-    """Those that the motion gets into."""
+    """The blends that the motion reaches."""
     blends = []
     for corner in way.corners:
         if corner.begin >= joints.reached:
@@ -156,7 +156,7 @@ def _demands(
     following: Following,
     stretches: tuple[Stretch, ...],
 ) -> Demands:
-    """What the motion has to keep to; the way at equal times is the way that is wanted."""
+    """What the motion must keep; at equal times its path is the wanted one."""
     law = timing.law
     position, orientation = following.position_tolerance, following.orientation_tolerance
     if following.near_singularity == "damp":
@@ -185,7 +185,7 @@ def _way_error(joints: JointWay, timing: Timed, limits: MotionLimits) -> WayErro
 
 
 def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt | None:
-    """Where the way could not go on, as a share of the segment there."""
+    """The place where the path could not continue, as a share of the segment there."""
     stop = joints.stop
     if stop is None:
         return None
@@ -255,7 +255,7 @@ def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
 
 
 def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
-    """Length of the position's way and angle of the orientation's between two places, [m] and [rad]."""
+    """Length of the position's path and angle of the orientation's between two places, [m] and [rad]."""
     s = np.linspace(begin, end, _ANGLE_SAMPLES)
     rates = path.at(s).first
     length = end - begin if path.unit == "m" else 0.0

@@ -1,4 +1,4 @@
-"""What the tip's limits say of u = s̈ and x = ṡ² on each interval of a way, as rows αu + βx ≤ 1 for `reachability`.
+"""What the tip's limits say of u = s̈ and x = ṡ² on each interval of a path, as rows αu + βx ≤ 1 for `reachability`.
 
 Speeds are rows already. An acceleration's norm ‖ξ_s u + ξ_s' x‖ ≤ a is a circle in the plane of ξ_s and ξ_s'; x is
 never negative, so that half of it counts. A polygon is put into it whose corners are at ±ξ_s, so that it takes nothing
@@ -22,7 +22,7 @@ _WITHIN = np.cos(0.5 * np.pi / _SIDES)
 
 
 def tip_rows(geometry: Geometry) -> Callable[[Array], tuple[Array, Array]] | None:
-    """The rows of α and β on the intervals between nodes from 0 to 1 along a way; None where the tip has no limits."""
+    """The rows of α and β on the intervals between nodes from 0 to 1 along a path; None where the tip has no limits."""
     if not geometry.limits_tip:
         return None
     begin, end = geometry.ends

@@ -25,7 +25,7 @@ _MOST = 1e30
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """What one joint is to do, signed along its axis.
+    """The motion of one joint, signed along its axis.
 
     Attributes:
         distance: L, [rad or m].
@@ -82,7 +82,7 @@ class Profile:
 
     @property
     def reverses(self) -> bool:
-        """Whether the joint turns back on its way."""
+        """Whether the joint reverses."""
         return max(self._velocities()) > 0.0 > min(self._velocities())
 
     def phases(self) -> tuple[Phase, Phase, Phase]:
@@ -92,7 +92,7 @@ class Profile:
         return (self.first, rise), (self.coast, 0.0), (self.last, fall)
 
     def slowed(self, factor: float) -> "Profile":
-        """The same way in `factor` times the time: v/k, a/k²."""
+        """The same path in `factor` times the time: v/k, a/k²."""
         v_i, v_p, v_f = (velocity / factor for velocity in self._velocities())
         times = (self.first * factor, self.coast * factor, self.last * factor)
         return Profile(v_i, v_p, v_f, self.acceleration / factor**2, *times)
@@ -233,7 +233,7 @@ _OTHERS = "give another duration, smaller end velocities, or another acceleratio
 
 
 def _check(task: Task, joint: int, may_reverse: bool) -> None:
-    """That the end velocities are within the limit, and reached on the way from start to end."""
+    """Check that the end velocities are within the limit, and reached between start and end."""
     name = f"joint {joint + 1}"
     for field, velocity in (("start_velocity", task.start_velocity), ("end_velocity", task.end_velocity)):
         if abs(velocity) > task.max_velocity:

@@ -1,4 +1,4 @@
-"""What of a way does not depend on time: the joints' derivatives by s, the tip's, and how near to limits they come.
+"""What of a path does not depend on time: the joints' derivatives by s, the tip's, and how near to limits they come.
 
 With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3 q'' ṡ s̈ + q''' ṡ³, and of the tip's twist ξ = ξ_s ṡ,
 ξ̇ = ξ_s s̈ + ξ_s' ṡ². All in fractions of their limits: uniform scaling by k divides a ratio by k, k² or k³.
@@ -65,7 +65,7 @@ def tip_through(chain: Chain) -> TipMotion:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A part of a way on which the tip has limits of its own, beside those that hold everywhere.
+    """A part of a path on which the tip has limits of its own, beside those that hold everywhere.
 
     Attributes:
         begin: s at which it begins.
@@ -80,7 +80,7 @@ class Zone:
 
 @dataclass(frozen=True, slots=True)
 class Slopes:
-    """Derivatives by s at N places of a way.
+    """Derivatives by s at N places of a path.
 
     Attributes:
         first: q'; shape (N, n), [rad or m per unit of s].
@@ -104,7 +104,7 @@ class Slopes:
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """A way with its limits.
+    """A path with its limits.
 
     Attributes:
         joints: q(s), whose breaks are also those of the path.
@@ -124,7 +124,7 @@ class Geometry:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Of s."""
+        """The ends of s."""
         return float(self.joints.breaks[0]), float(self.joints.breaks[-1])
 
     @property
@@ -151,7 +151,7 @@ class Geometry:
         return bounds
 
     def piece_of(self, s: Array) -> Indices:
-        """In which piece of q(s) each place is, the later one at a break; shape (N,)."""
+        """The piece of q(s) that each place is in, the later one at a break; shape (N,)."""
         last = len(self.joints.breaks) - 2
         found: Indices = np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
         return found
@@ -193,14 +193,14 @@ class Geometry:
         )
 
     def bends(self) -> Array:
-        """Where q'' jumps; shape (m,)."""
+        """The places where q'' jumps; shape (m,)."""
         (jumps, bend), (_, slope) = _jumps(self.joints, 2), _jumps(self.joints, 1)
         scale = max(bend, _BEND * slope / self.joints.duration)
         found: Array = self.joints.breaks[1:-1][jumps > _BEND * scale]
         return found
 
     def parts(self) -> tuple["Geometry", ...]:
-        """The way cut where q' jumps: there it has to stop."""
+        """The path cut where q' jumps: there it has to stop."""
         jumps, scale = _jumps(self.joints, 1)
         inner = 1 + np.flatnonzero(jumps > _CORNER * scale)
         ends = [0, *inner.tolist(), len(self.joints.breaks) - 1]
@@ -219,7 +219,7 @@ def geometry_of(
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> Geometry:
-    """A way whose joints' breaks are also those of the path."""
+    """A path of the joints that has the breaks of the tip's path too."""
     breaks = joints.breaks
     extra = np.array([] if path is None else path.breaks)
     nearest = np.abs(extra[:, None] - breaks).min(axis=1) if len(extra) else extra

@@ -1,4 +1,4 @@
-"""Time laws s(t) along a whole way from rest to rest: polynomials, bang-coast-bang and the seven phases of least jerk.
+"""Time laws s(t) along a whole path from rest to rest: polynomials, bang-coast-bang and the seven phases of least jerk.
 
 What has to be known of a law is its shape; how long it takes follows by uniform scaling. A polynomial has one shape. Of
 the others that one is looked for which takes the least time under the limits along this way: where joints bend much, a
@@ -90,7 +90,7 @@ def bang_coast_bang(geometry: Geometry, ramp: float, speed: float) -> PiecewiseP
 
 
 def _bounds(geometry: Geometry, piece: Indices, s: Array) -> Array:
-    """What the limits say at each place, in fractions of them.
+    """What a law demands at each place, in fractions of the limits.
 
     Returns:
         Its distance m from the nearer end, an acceleration per s̈ on a ramp, a velocity squared per ṡ²/m, and the larger
@@ -110,7 +110,7 @@ def _bounds(geometry: Geometry, piece: Indices, s: Array) -> Array:
 
 
 def _ramps(rows: Array, length: float) -> tuple[Array, Array, Array]:
-    """Lengths of ramps, the largest cruise speed with each, and how long the way then takes; shape (N,) each."""
+    """Lengths of ramps, the largest cruise speed with each, and how long the path then takes; shape (N,) each."""
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
     d = rows[:, 0]
     on_ramp, gained = np.maximum.accumulate(rows[:, 1]), np.maximum.accumulate(rows[:, 2])
@@ -126,7 +126,7 @@ def _ramps(rows: Array, length: float) -> tuple[Array, Array, Array]:
 def s_curve(geometry: Geometry) -> PiecewisePolynomial:
     """The seven phases of least jerk, with the speed, acceleration and jerk along s that take the least time found.
 
-    Searched from the largest that the limits allow each by itself: these are the best where the way is straight in
+    Searched from the largest that the limits allow each by itself: these are the best where the path is straight in
     joint space.
     """
     begin, end = geometry.ends

@@ -1,4 +1,4 @@
-"""How near a motion along a way comes to its limits: exactly for the joints, for the tip on samples that are refined.
+"""How near a motion along a path comes to its limits: exactly for the joints, for the tip on samples that are refined.
 
 A polynomial lies between its least and its largest Bernstein coefficient. So only the pieces and joints are examined
 closely whose coefficients reach beyond what is found anyway.
@@ -64,7 +64,7 @@ class Peaks:
         return float(self.ratios[of_order(order)].max())
 
     def binding(self, limits: MotionLimits, *, in_blends: bool = False) -> str:
-        """What reaches its limit first, in words; blends may have limits of their own."""
+        """The limit that is reached first, in words; blends may have their own."""
         i = int(self._factors().argmax())
         if i < JOINTS:
             joint = int(self.joints[i])
@@ -92,7 +92,7 @@ def peaks_of(
     """The largest ratios of a motion.
 
     Args:
-        geometry: The way and its limits.
+        geometry: The path and its limits.
         motion: q(s(t)); its breaks are also those of the law.
         law: s(t).
         with_jerk: Whether jerk counts.
@@ -167,7 +167,7 @@ def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high:
 
 
 def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: Array) -> Ratios:
-    """Of limits in each piece; shape (M, 4)."""
+    """Ratios of the tip's motion to its limits, through the joints; bounds of shape (M, 4)."""
 
     def ratios(piece: Indices, local: Array) -> Array:
         rates = derivatives(motion.coefficients[piece], local[:, None])
@@ -177,7 +177,7 @@ def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: 
 
 
 def _along_path(geometry: Geometry, path: Path, law: Array, places: Indices) -> Ratios:
-    """Of a law that is expanded about the start of each piece, and the way's pieces; shapes (M, d + 1, 1) and (M,)."""
+    """Of a law that is expanded about the start of each piece, and the path's pieces; shapes (M, d + 1, 1) and (M,)."""
     bounds = geometry.tip_bounds(places)
 
     def ratios(piece: Indices, local: Array) -> Array:

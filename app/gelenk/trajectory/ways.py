@@ -1,4 +1,4 @@
-"""Ways of the tip from the segments of a trajectory: lines, circles, splines, and lines blended into one way."""
+"""Paths of the tip from the segments of a trajectory: lines, circles, splines, and lines blended into one path."""
 
 import math
 from collections.abc import Sequence
@@ -39,10 +39,10 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A way of the tip.
+    """A path of the tip.
 
     Attributes:
-        path: The way.
+        path: The path.
         ends: s at which each of its segments ends, in the middle of the blend where there is one; the last is
             `path.extent`.
         corners: Its blends, of each what the acceleration may be in it.
@@ -56,7 +56,7 @@ class Way:
 
     @property
     def edges(self) -> tuple[tuple[float, float], ...]:
-        """Where each blend begins and ends."""
+        """The beginning and the end of each blend."""
         return tuple((corner.begin, corner.end) for corner in self.corners)
 
     def zones(self, segments: Sequence[Segment]) -> tuple[Zone, ...]:
@@ -79,7 +79,7 @@ class Way:
 
 
 def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
-    """The way of one segment, or of lines that are blended.
+    """The path of one segment, or of lines that are blended.
 
     Args:
         start: T_base_tip at its beginning; shape (4, 4).
@@ -116,7 +116,7 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
 
 
 def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
-    """A way has a tangent at its ends; that the tip rests there is up to the law of time."""
+    """A path has a tangent at its ends; that the tip rests there is up to the law of time."""
     if segment.boundary in {"clamped", "assigned"}:
         note = (
             f"boundary {segment.boundary} of a tip's spline: the law of time brings the tip to rest at its ends; the "
@@ -127,7 +127,7 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
 
 
 def _via(segment: Segment) -> ViaOrientation:
-    """How a way through several orientations turns."""
+    """How a path through several orientations turns."""
     return "smooth" if segment.orientation == "axis_angle" else segment.orientation
 
 
@@ -167,7 +167,7 @@ def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequenc
 
 
 def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
-    """Where each blend begins and ends."""
+    """The beginning and the end of each blend."""
     ends, s = [], 0.0
     for part in path.parts:
         if isinstance(part, PolynomialPath):

@@ -106,11 +106,11 @@ def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
 
 
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
-    """From each orientation to the next, beginning where the one before ends, in angles too.
+    """The turns from each orientation to the next, each starting with the angles at which the one before ends.
 
     Args:
         rotations: Shape (M + 1, 3, 3).
-        flips: On which of the M ways θ changes its sign.
+        flips: On which of the M paths θ changes its sign.
     """
     triples = zyz_triples(rotations, flips)
     flat = _degenerate(rotations)
@@ -128,7 +128,7 @@ def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurv
     Args:
         rotations: At least two; shape (M + 1, 3, 3).
         knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
-        flips: On which of the M ways θ changes its sign.
+        flips: On which of the M paths θ changes its sign.
     """
     return ZyzCurve(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
 
@@ -152,7 +152,7 @@ def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
 
     Args:
         rotations: Shape (M + 1, 3, 3).
-        flips: On which of the M ways θ changes its sign.
+        flips: On which of the M paths θ changes its sign.
     """
     triples = zyz_from_rotations(rotations)
     other = np.logical_xor.accumulate(np.array([False, *flips]))
@@ -165,7 +165,7 @@ def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
 
 
 def _degenerate(rotations: Array) -> Flags:
-    """Where only φ + ψ or φ - ψ is determined; shape (N,)."""
+    """Whether only φ + ψ or φ - ψ is determined; shape (N,)."""
     flat: Flags = np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE
     return flat
 

@@ -174,7 +174,7 @@ def test_many_writers_lose_no_line(tmp_path: Path) -> None:
 import sys
 from pathlib import Path
 from gelenk.api.access.audit_log import AuditLog
-from tests.api.access.test_journal import written_by
+from tests.api.access.test_audit_log import written_by
 for i in range(50):
     AuditLog(Path(sys.argv[1]), 4000, 100).write(written_by(f"{sys.argv[2]}-{i}"), None)
 """

@@ -126,7 +126,7 @@ def every(
     *,
     sample: bool,
 ) -> InverseKinematics:
-    """Of each target all branches within the limits, nearest to the seed first.
+    """All branches of each target within the limits, nearest to the seed first.
 
     Args:
         question: The targets.
@@ -274,7 +274,7 @@ def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: fl
 
 
 def _near_singular(Js: Array, directions: int, least: float) -> Flags:
-    """Of which Jacobians the smallest singular value is below a bound; shape (N,)."""
+    """Whether the smallest singular value of each Jacobian is below a bound; shape (N,)."""
     rows = np.arange(len(Js))
     if Js.shape[1] == Js.shape[2]:
         # The others' product is at most what equal ones would have: most are cleared without decomposing them.

@@ -480,7 +480,7 @@ def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
 
 @inlined
 def _copy(kept: _Kept, source: int, place: int) -> None:
-    """One row of the solutions into another."""
+    """Copy one row of the solutions into another."""
     for j in range(kept.qs.shape[1]):
         kept.qs[place, j] = kept.qs[source, j]
     kept.distances[place], kept.errors[place] = kept.distances[source], kept.errors[source]

@@ -256,7 +256,7 @@ def wound(
 
 
 def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
-    """By how many full turns a variable may be moved within its limits."""
+    """The numbers of full turns by which a variable may be moved within its limits."""
     lower, upper = chain.lower[j], chain.upper[j]
     if not (turning and np.isfinite(lower) and np.isfinite(upper)):
         return range(1)

@@ -122,7 +122,7 @@ class ClosedForm:
 
     @property
     def method(self) -> str:
-        """What its solutions are said to be found by."""
+        """The name of the method in answers."""
         return "elimination" if self.plan.kind == GENERAL else "analytic"
 
     @property
@@ -164,7 +164,7 @@ class ClosedForm:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """What one of two roots means.
+    """The meaning of one of two roots.
 
     Attributes:
         name: `shoulder`, `elbow` or `wrist`; `arm` where roots are numbered.
@@ -206,7 +206,7 @@ def look_at(chain: Chain, task: Task, found: ClosedForm | None) -> None:
 
 @lru_cache(maxsize=1024)
 def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: ARG001
-    """Where what is recognised is kept: empty until then."""
+    """The cache of recognised closed forms; empty at first."""
     return []
 
 

@@ -96,7 +96,7 @@ class Plan(NamedTuple):
 
 
 class Candidates(NamedTuple):
-    """What a composition finds of one target.
+    """The solutions that a composition finds for one target.
 
     Attributes:
         values: Joint values, in solving order; shape (MOST, n), [rad or m].
@@ -388,7 +388,7 @@ def _total(f: Quadratic, factor: float, g: Quadratic) -> Quadratic:
 
 @inlined
 def _basis(slides: int, q: float) -> Coefficients:
-    """What a function of a joint is a sum of."""
+    """The functions of a joint of which others are sums."""
     if slides:
         return 1.0, q, q * q
     return 1.0, math.cos(q), math.sin(q)

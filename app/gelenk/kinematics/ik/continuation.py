@@ -181,7 +181,7 @@ class _Ends(NamedTuple):
         return _Ends(np.empty((0, JOINTS), dtype=complex), np.empty(0), np.zeros(0, dtype=bool))
 
     def joined(self, qs: ComplexArray, steps: Array, slides: Indices) -> "_Ends":
-        """These and others, one of each; at a real target the conjugate of a solution is one too."""
+        """Two sets of solutions without duplicates; at a real target with their conjugates."""
         good = np.isfinite(steps)
         qs, steps = qs[good], steps[good]
         order = np.argsort(np.concatenate((self.steps, steps, steps)), kind="stable")
@@ -215,7 +215,7 @@ def counted(question: Question, i: int, system: Continuation, search: Callable[[
 
 
 def within_limits(question: Question, i: int, qs: Array) -> Array:
-    """Those of some solutions that full turns bring within the limits; shape (k, n)."""
+    """The solutions that full turns bring within the limits; shape (k, n)."""
     lower, upper = limits_of(question.chain, question.respect_limits)
     qs = wound_near(question.chain, qs, question.seed(i), lower, upper)
     return np.asarray(qs[((qs >= lower) & (qs <= upper)).all(axis=1)])

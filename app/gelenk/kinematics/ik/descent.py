@@ -35,7 +35,7 @@ _SINGULAR = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Iterate:
-    """One configuration on the way.
+    """One configuration of the iteration.
 
     Attributes:
         joint_positions: q; shape (n,), [rad or m].
@@ -54,7 +54,7 @@ class Iterate:
 
 @dataclass(frozen=True, slots=True)
 class Descent:
-    """Where a method came to and how.
+    """The end of a method, and how it got there.
 
     Attributes:
         joint_positions: The last configuration; shape (n,), [rad or m].

@@ -33,7 +33,7 @@ _DEFICIENT = 1e-3
 
 
 def _to_bernstein() -> Array:
-    """From powers of t on [-1, 1] to Bernstein's polynomials; shape (_TERMS, _TERMS)."""
+    """The map from powers of t on [-1, 1] to Bernstein polynomials; shape (_TERMS, _TERMS)."""
     degree = _TERMS - 1
     table = np.zeros((_TERMS, _TERMS))
     for m in range(_TERMS):
@@ -217,7 +217,7 @@ def _fill(space: Space, q3: float) -> None:
 
 @unmanaged
 def _determinant(space: Space, q3: float) -> float:
-    """Of the matrix at a value of joint 3, by elimination with partial pivoting."""
+    """The determinant at a value of joint 3, by elimination with partial pivoting."""
     _fill(space, q3)
     M = space.matrix
     product = 1.0
@@ -304,7 +304,7 @@ def _roots_on_circle(space: Space) -> int:
 
 @unmanaged
 def _turning_points(space: Space) -> int:
-    """Where the slope vanishes, in ascending order, into `turns`; how many there are.
+    """Write the zeros of the slope, ascending, into `turns`; return their number.
 
     On each of a few arcs the slope is a polynomial up to rounding. Written by Bernstein's, its coefficients change
     their sign as often as it vanishes, or oftener by an even number, which halving the arc brings down [Lane1981].
@@ -515,7 +515,7 @@ def _null_vectors(space: Space) -> int:
 
 @unmanaged
 def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
-    """Where the largest entry of the lower right block of a square matrix is, and its size."""
+    """The place and size of the largest entry of the lower right block of a square matrix."""
     at, best = first * order + first, 0.0
     for k in range(first, order):
         for m in range(first, order):

@@ -59,7 +59,7 @@ class Room(NamedTuple):
 def follow(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, starts: ComplexArray, longest: float, far: float
 ) -> tuple[ComplexArray, Array]:
-    """Where the solutions of one arm and target go as both become others.
+    """Follow the solutions of one arm and target while both change into others.
 
     Args:
         screws: Axes, then points, of the arm at either end; shape (2, 12, 3).
@@ -98,7 +98,7 @@ def follow(
 def _followed(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, longest: float, far: float, room: Room
 ) -> float:
-    """One path, from `q` to `q`; the length of Newton's last step, infinite if it was lost."""
+    """Follow one path in place, from `q`; return the length of Newton's last step, infinite if the path was lost."""
     t, h, t_before = 0.0, _FIRST, -1.0
     _rates(screws, targets, slides, t, room)
     for _ in range(_STEPS):
@@ -184,7 +184,7 @@ def _is_far(slides: Indices, far: float, q: ComplexArray) -> bool:
 
 @unmanaged
 def _newton(slides: Indices, q: ComplexArray, room: Room) -> float:
-    """One step; its length."""
+    """Take one step of Newton's method; return its length."""
     _close(slides, q, True, room)
     length = _solve(room.system)
     if length < 1e3:

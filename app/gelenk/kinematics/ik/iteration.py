@@ -47,7 +47,7 @@ KEPT = 64
 
 
 class Goal(NamedTuple):
-    """What a search is to reach, and within which bounds.
+    """The target of a search, and its bounds.
 
     Attributes:
         bounds: Lower and upper bound of each variable, infinite where it turns freely; the interval from which starts

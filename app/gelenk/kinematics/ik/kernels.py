@@ -86,7 +86,7 @@ def search(
 
 
 def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
-    """Where each start of one target converges, in the order in which they do; shape (k, n).
+    """The configurations to which the starts of one target converge, in that order; shape (k, n).
 
     Args:
         flat: The chain.
@@ -499,7 +499,7 @@ def uniform(random_seed: int, start: int, variable: int) -> float:
 
 @inlined
 def _iterate(flat: FlatChain, goal: Goal, work: Work) -> int:
-    """One iteration of every lane: judge where it stands, then step.
+    """Take one iteration in every SIMD lane: judge the state, then step.
 
     Returns:
         Bits 0 to LANES - 1: the lane's start has ended; the next LANES bits: because it has converged, and then

@@ -24,7 +24,7 @@ _AT_LIMIT = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Objective:
-    """What is to become small along the self-motion.
+    """A function to minimise along the self-motion.
 
     Attributes:
         name: `posture`: ½‖q - posture‖². `mid_range`: ½ Σ ((q - middle) / range)² of the joints with limits. `limits`:

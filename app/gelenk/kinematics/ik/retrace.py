@@ -52,7 +52,7 @@ def retrace(
         return es[0], Js[0]
 
     def shortened_error(e: Array, J: Array) -> tuple[Array, Array]:
-        """What the step sees of an error where loose tolerances are made use of."""
+        """The error that the step sees where loose tolerances are used."""
         parts = zip((e[: task.positions], e[task.positions :]), tolerances, strict=True)
         factors = [
             max(0.0, 1.0 - slack * allowed / max(float(np.linalg.norm(part)), 1e-150)) for part, allowed in parts

@@ -32,7 +32,7 @@ _CHUNK = 128
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What a search came to, one entry a target.
+    """The results of a search, one entry a target.
 
     Attributes:
         qs: The solution, within the limits and as near to the seed as full turns allow; of an unsolved target the
@@ -121,7 +121,7 @@ def make_goal(
     random_seed: int,
     slack: float = 0.0,
 ) -> Goal:
-    """What the kernels need to know, arguments as of `search`."""
+    """The input of the kernels; arguments as of `search`."""
     return Goal(
         search_bounds(chain, respect_limits),
         task.weights,

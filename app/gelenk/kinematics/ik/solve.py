@@ -104,7 +104,7 @@ class Options:
 
     @property
     def tolerances(self) -> tuple[float, float]:
-        """Of position [m] and orientation [rad]."""
+        """Tolerances of position [m] and orientation [rad]."""
         return self.position_tolerance, self.orientation_tolerance
 
 
@@ -209,7 +209,7 @@ def _analytic(question: Question, options: Options, form: ClosedForm, deadline: 
 def solve_quickly(
     question: Question, starts: int, random_seed: int, *, by_form: bool = False
 ) -> InverseKinematics | None:
-    """The same for one solution a target where that takes but tens of microseconds; else None.
+    """One solution a target, if that takes only tens of microseconds; else None.
 
     Args:
         question: The targets; a few.
@@ -534,7 +534,7 @@ def _descent(question: Question, i: int, start: Array, rule: Rule, deadline: flo
 
 
 def _end(descent: Descent) -> Array:
-    """Where a method stopped, or if it was cut off the best that it came by."""
+    """The configuration at which a method stopped; if it was cut off, the best one that it visited."""
     if descent.stop_reason in {"diverged", "time_limit", "iterations"}:
         return min(descent.trace, key=lambda iterate: iterate.error).joint_positions
     return descent.joint_positions

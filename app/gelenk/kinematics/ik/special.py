@@ -130,7 +130,7 @@ def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) ->
 
 
 def _twists(screws: ComplexArray, qs: ComplexArray) -> ComplexArray:
-    """Of turning joints, rotation before velocity of the origin, as columns; shape (N, 6, n)."""
+    """Twists of revolute joints as columns, rotation before velocity of the origin; shape (N, 6, n)."""
     n = qs.shape[1]
     Js = np.empty((len(qs), 6, n), dtype=complex)
     R, p = np.tile(np.eye(3, dtype=complex), (len(qs), 1, 1)), np.zeros((len(qs), 3), dtype=complex)
@@ -163,7 +163,7 @@ def _step(angle: float, length: float, axis: int) -> Array:
 
 
 def _frame(x: Array, z: Array, p: Array) -> Array:
-    """At p, its axis z along the one and x as near to the other as may be; shape (4, 4)."""
+    """The frame at p with its z axis along one vector and x as near to the other as possible; shape (4, 4)."""
     T = np.eye(4)
     x = x - z * (z @ x)
     x = x / np.linalg.norm(x)

@@ -128,7 +128,7 @@ def _quadratic_at(f: Quadratic, c: float, s: float) -> float:
 
 @unmanaged
 def slides_of_quadratic(f: Quadratic, reach: float, roots: Array) -> int:
-    """The same where the joint slides, for values within ±reach [m]."""
+    """The same for a prismatic joint, for values within ±reach [m]."""
     return roots_of_quartic(f[5], f[4], f[2] + f[3], f[1], f[0], reach, roots)
 
 

@@ -56,16 +56,16 @@ class Question:
         return len(self.targets)
 
     def seed(self, i: int) -> Array:
-        """Of one target; shape (n,)."""
+        """The seed of one target; shape (n,)."""
         return cast(Array, self.seeds[i if len(self.seeds) > 1 else 0])
 
     def target(self, i: int) -> Poses:
-        """One of the targets alone."""
+        """One of the targets."""
         return self.part(slice(i, i + 1))[0]
 
     @property
     def reach(self) -> Reach | None:
-        """What distance alone allows."""
+        """The reach that distance alone allows."""
         return reach_of(self.chain, self.task, self.respect_limits)
 
     def too_far(self) -> Flags:
@@ -83,7 +83,7 @@ class Question:
         return targets, self.seeds[rows] if len(self.seeds) > 1 else self.seeds
 
     def taken(self, rows: Indices) -> "Question":
-        """The same question for some of the targets."""
+        """The question for some of the targets only."""
         targets, seeds = self.part(rows)
         return Question(self.robot, self.chain, targets, seeds, self.task, self.tolerances, self.respect_limits)
 
