@@ -3,7 +3,7 @@
 The fields of a call are those of the request in the API's reference, by name; types come from the same models.
 """
 
-from typing import Concatenate, ParamSpec, TypeVar
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -40,6 +40,7 @@ from gelenk.contract import (
 )
 from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import ENDPOINTS
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.pose import pose_fields
 from gelenk.contract.robots import NewRobot, RobotReplacement
@@ -127,3 +128,13 @@ class Operations:
     time_law = _calculator(time_law.ENDPOINT)
     spline = _calculator(spline.ENDPOINT)
     time_scaling = _calculator(time_scaling.ENDPOINT)
+
+
+# A line above only gives a method its types: an operation without one is a method all the same.
+for _endpoint in ENDPOINTS:
+    if not hasattr(Operations, _endpoint.name):
+        _sent: Sent[Any, Any] = (
+            _operation(_endpoint) if isinstance(_endpoint, RobotEndpoint) else _calculator(_endpoint)
+        )
+        _sent.__set_name__(Operations, _endpoint.name)
+        setattr(Operations, _endpoint.name, _sent)

@@ -12,7 +12,7 @@ from gelenk.contract.common import Answer
 P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
-Tag: TypeAlias = Literal["Kinematics", "DH tables", "Course"]
+Tag: TypeAlias = Literal["DH tables", "Course", "Kinematics"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

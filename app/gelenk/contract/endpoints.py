@@ -1,64 +1,29 @@
-"""The table of all operations: what server, client, command line, workers and reference know of them."""
+"""The table of all operations: what server, client, command line, workers and reference know of them.
 
-from typing import Any
+It is made of the modules of this package that have an `ENDPOINT`.
+"""
 
-from gelenk.contract import (
-    compare_dh,
-    convert_dh,
-    dc_motor,
-    derive,
-    dh_from_urdf,
-    dh_to_urdf,
-    dynamics,
-    encoder,
-    fk,
-    fly_over,
-    gear,
-    ik,
-    jacobian,
-    manipulability,
-    mobility,
-    orientation,
-    planar_workspace,
-    pulse_width_modulation,
-    singularities,
-    spline,
-    statics,
-    time_law,
-    time_scaling,
-    trajectory,
-    velocity,
+import pkgutil
+from importlib import import_module
+from typing import Any, get_args
+
+from gelenk import contract
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint, Tag
+
+
+def _declared() -> list[Endpoint[Any, Any]]:
+    names = [module.name for module in pkgutil.iter_modules(contract.__path__) if module.name != "endpoints"]
+    modules = [import_module(f"{contract.__name__}.{name}") for name in names]
+    return [module.ENDPOINT for module in modules if hasattr(module, "ENDPOINT")]
+
+
+_TAGS = get_args(Tag)
+
+ENDPOINTS: tuple[Endpoint[Any, Any], ...] = tuple(
+    sorted(_declared(), key=lambda endpoint: (_TAGS.index(endpoint.tag), endpoint.name))
 )
-from gelenk.contract.endpoint import Endpoint, RobotEndpoint
-
-ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = (
-    fk.ENDPOINT,
-    jacobian.ENDPOINT,
-    ik.ENDPOINT,
-    statics.ENDPOINT,
-    dynamics.ENDPOINT,
-    manipulability.ENDPOINT,
-    velocity.ENDPOINT,
-    singularities.ENDPOINT,
-    trajectory.ENDPOINT,
-)
-ENDPOINTS: tuple[Endpoint[Any, Any], ...] = (
-    dh_to_urdf.ENDPOINT,
-    dh_from_urdf.ENDPOINT,
-    convert_dh.ENDPOINT,
-    compare_dh.ENDPOINT,
-    derive.ENDPOINT,
-    dc_motor.ENDPOINT,
-    gear.ENDPOINT,
-    pulse_width_modulation.ENDPOINT,
-    encoder.ENDPOINT,
-    planar_workspace.ENDPOINT,
-    fly_over.ENDPOINT,
-    mobility.ENDPOINT,
-    orientation.ENDPOINT,
-    time_law.ENDPOINT,
-    spline.ENDPOINT,
-    time_scaling.ENDPOINT,
-    *ROBOT_ENDPOINTS,
+"""By tag and name."""
+ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = tuple(
+    endpoint for endpoint in ENDPOINTS if isinstance(endpoint, RobotEndpoint)
 )
 BY_NAME = {endpoint.name: endpoint for endpoint in ENDPOINTS}

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
-from gelenk.contract.endpoints import ENDPOINTS
+from gelenk.contract.endpoints import BY_NAME
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.warm_up import WarmUp
 from gelenk.store.records import LoadedRobot
@@ -39,7 +39,7 @@ class Operation:
 @cache
 def operation(name: str) -> Operation:
     """The operation of an endpoint; raises KeyError where there is none."""
-    endpoint = _BY_NAME[name]
+    endpoint = BY_NAME[name]
     module = import_module(f"gelenk.operations.{name}")
     is_heavy = getattr(module, "is_heavy", _never)
     return Operation(endpoint, module.run, is_heavy, getattr(module, "attempt", None), getattr(module, "WARM_UP", None))
@@ -47,6 +47,3 @@ def operation(name: str) -> Operation:
 
 def _never(_: object) -> bool:
     return False
-
-
-_BY_NAME = {endpoint.name: endpoint for endpoint in ENDPOINTS}
