@@ -26,7 +26,7 @@ from tests.jobs.test_resume import opened
 if __name__ == "__main__":
     runner = opened(Path(sys.argv[1]))
     runner.begin()
-    while runner.shelf.get("mine").progress < float(sys.argv[2]):
+    while runner.store.get("mine").progress < float(sys.argv[2]):
         time.sleep(0.01)
     os.kill(os.getpid(), 9)
 """
