@@ -3,7 +3,7 @@
 - `endpoint`: what an operation is. `endpoints`: the table of all, from which routes, client, command line, scopes and
   reference are made. A module of an operation's name has its request, its answer and its `ENDPOINT`.
 - `common`: the strict base of all payloads, names, chains. `kinematics`: configurations, matrices, certificates.
-- `pose`: poses in every notation; `pose_arrays`: the same as arrays. `dh`: Denavit-Hartenberg tables.
+- `pose`: poses in every notation. `dh`: Denavit-Hartenberg tables.
 - `quantities`, `course_motion`, `formulas`: what several calculators of the course share.
 - `robots`: robots, as listed, described and uploaded; the `robot.json` of a folder; `shapes`: what is drawn of links
   without visuals. `jobs`: long work. `problem`: an error. `health`: what a monitor gets.

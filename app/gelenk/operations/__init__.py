@@ -6,5 +6,6 @@
 - `WARM_UP`: what has to be known about a robot before the event loop can answer.
 
 `operation` finds these by the endpoint's name. `outcome`: what `run` returns. `rows`: numbers as JSON and CSV.
+`pose_arrays`: poses on the wire as arrays.
 The other modules read and shape what several of these share.
 """

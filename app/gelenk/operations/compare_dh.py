@@ -6,7 +6,6 @@ import numpy as np
 
 from gelenk.contract.compare_dh import CompareRequest
 from gelenk.contract.pose import PoseFormat
-from gelenk.contract.pose_arrays import pose_list
 from gelenk.kinematics.compare import Comparison, compare
 from gelenk.kinematics.comparison.alignment import Freedom
 from gelenk.kinematics.comparison.numbers import Difference
@@ -17,6 +16,7 @@ from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.operations.pose_arrays import pose_list
 from gelenk.store.records import LoadedRobot
 
 

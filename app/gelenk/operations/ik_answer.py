@@ -7,7 +7,6 @@ import numpy as np
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
-from gelenk.contract.pose_arrays import pose_list
 from gelenk.kinematics.ik.fixed import narrowed
 from gelenk.kinematics.ik.result import COUNTED, Failure, InverseKinematics, Path, SolutionBranches
 from gelenk.kinematics.kernels import chain_poses
@@ -15,6 +14,7 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
 from gelenk.operations.ik_request import task_of
+from gelenk.operations.pose_arrays import pose_list
 
 _ROWS_NAMED = 200
 """Unsolved rows that a header names: proxies allow headers of a few kilobytes."""

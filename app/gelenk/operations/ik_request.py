@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
-from gelenk.contract.pose_arrays import poses_from
 from gelenk.kinematics.configuration import MAX_MAGNITUDE, configurations, one_configuration
 from gelenk.kinematics.ik.descent import Rule
 from gelenk.kinematics.ik.null_space import Objective
@@ -17,6 +16,7 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, TooLarge, counted, quoted
 from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
+from gelenk.operations.pose_arrays import poses_from
 
 
 @dataclass(frozen=True, slots=True)

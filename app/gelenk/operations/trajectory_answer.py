@@ -9,10 +9,10 @@ import numpy as np
 import orjson
 
 from gelenk.contract.pose import PoseFormat
-from gelenk.contract.pose_arrays import pose_list
 from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
+from gelenk.operations.pose_arrays import pose_list
 from gelenk.operations.rows import json_list, json_rows
 from gelenk.operations.trajectory_limits import Bounds
 from gelenk.trajectory.audit import DERIVATIVES, Audit, Margin, Peak

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gelenk.contract.pose import Pose
-from gelenk.contract.pose_arrays import poses_from
 from gelenk.contract.trajectory_request import (
     MAX_WAYPOINTS,
     CircleSegment,
@@ -23,6 +22,7 @@ from gelenk.model.arrays import Array, Configuration
 from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
 from gelenk.model.robot import Robot
+from gelenk.operations.pose_arrays import poses_from
 from gelenk.operations.trajectory_limits import Bounds, Layer, OwnVelocities, bounds_of, own_velocities
 from gelenk.trajectory.problem import Following, Problem
 from gelenk.trajectory.problem import Segment as Part
