@@ -1,16 +1,28 @@
-"""What a process that answers requests is set up from."""
+"""What a process that answers requests has at hand, and what that is set up from."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gelenk.api.task import Context
 from gelenk.operations.outcome import Limits
 from gelenk.store.library import Library, Quota
 
 
 @dataclass(frozen=True, slots=True)
+class Context:
+    """What a process that answers requests has at hand.
+
+    Attributes:
+        library: All robots.
+        limits: What an answer may take.
+    """
+
+    library: Library
+    limits: Limits
+
+
+@dataclass(frozen=True, slots=True)
 class ContextSetup:
-    """What answers depend on beside the request.
+    """What answers depend on beside the request; it is sent along with each task.
 
     Attributes:
         catalogue: Folder of the robots that come with the project.

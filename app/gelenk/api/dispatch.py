@@ -12,6 +12,7 @@ from typing import Any, cast
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
+from gelenk.api.context import Context
 from gelenk.api.long_work import submitted
 from gelenk.api.long_works import LONG_WORK
 from gelenk.api.npy import npy_response, read_npy
@@ -43,7 +44,7 @@ from gelenk.api.pool_client import INLINE_BYTES, PoolClient
 from gelenk.api.preference import wants_answer_later
 from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.routes import DocumentedRoute, Handler
-from gelenk.api.task import Context, TaskRequest, buffers
+from gelenk.api.task import TaskRequest, buffers
 from gelenk.contract.endpoint import Endpoint, RobotEndpoint
 from gelenk.contract.endpoints import BY_NAME
 from gelenk.jobs.runner import Runner
@@ -100,7 +101,7 @@ def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runne
             return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
 
         if can_be_job and wants_answer_later(request.scope["headers"]):
-            planned = await pool_client.told(request, plan_job, task_request())
+            planned = await pool_client.content(request, plan_job, task_request())
             return await submitted(runner, endpoint.name, request, planned)
         if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
             call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
@@ -126,7 +127,7 @@ async def _on_the_loop(
         return found.run(None, call, limits)
     robot = await pool_client.resident(request, request.path_params["robot"])
     if found.warm_up is not None and not found.warm_up.is_known(robot, call):
-        content = await pool_client.told(request, find, task_request())
+        content = await pool_client.content(request, find, task_request())
         known = pickle.loads(content)  # noqa: S301 - from a process of ours
         await asyncio.to_thread(found.warm_up.keep, robot, call, known)
     return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)

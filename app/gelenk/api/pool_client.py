@@ -9,7 +9,8 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from gelenk.api.task import Context, ContextSource, Reply, TaskRequest, WorkerTask, answered
+from gelenk.api.context import Context, ContextSetup
+from gelenk.api.task import Reply, TaskRequest, WorkerTask, answered
 from gelenk.model.errors import ServiceStopping, TooManyRequests
 from gelenk.operations.request_counts import REQUEST_COUNTS
 from gelenk.pool.pool import WorkerPool
@@ -35,14 +36,14 @@ class PoolClient:
 
     Args:
         pool: The processes.
-        shop: What they set their contexts up from.
+        setup: What they set their contexts up from.
         library: The robots of this process.
         seconds: How long a request may wait for its turn, and how long it may then take.
         share: Requests of one client that may wait or be worked on.
     """
 
-    def __init__(self, pool: WorkerPool, source: ContextSource, library: Library, seconds: float, share: int) -> None:
-        self.pool, self._source, self._library, self._seconds = pool, source, library, seconds
+    def __init__(self, pool: WorkerPool, setup: ContextSetup, library: Library, seconds: float, share: int) -> None:
+        self.pool, self._setup, self._library, self._seconds = pool, setup, library, seconds
         self._share = share
         self._requests: Counter[str] = Counter()
 
@@ -57,8 +58,8 @@ class PoolClient:
         REQUEST_COUNTS.set(reply[3])
         return Passed(reply)
 
-    async def told(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
-        """What a task has to tell this process; raises as `answer` does."""
+    async def content(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
+        """The body of a task's answer, for this process; raises as `answer` does."""
         return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
@@ -79,7 +80,7 @@ class PoolClient:
         if client and self._requests[client] >= self._share:
             raise TooManyRequests(self._share, self.pool.retry_after)
         self.pool.check_room(client)
-        work = self.pool.run(answered, (self._source, task, task_request), self._seconds, client)
+        work = self.pool.run(answered, (self._setup, task, task_request), self._seconds, client)
         self._requests[client] += 1
         try:
             return await while_wanted(request.receive, work)

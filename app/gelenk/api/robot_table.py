@@ -6,11 +6,12 @@ from fastapi import Query
 from starlette.datastructures import QueryParams
 from starlette.responses import Response
 
+from gelenk.api.context import Context
 from gelenk.api.openapi import RobotPath, problem_responses
 from gelenk.api.payloads import BoundedRequest, json_response, read_query
 from gelenk.api.pool_client import PoolClient
 from gelenk.api.routes import DocumentedRoute
-from gelenk.api.task import Context, TaskRequest
+from gelenk.api.task import TaskRequest
 from gelenk.contract.common import FrameName
 from gelenk.contract.dh import Convention, SnapTolerance
 from gelenk.contract.dh_from_urdf import FromUrdfAnswer, FromUrdfOptions

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Request, Response
 from starlette.datastructures import UploadFile
 
+from gelenk.api.context import Context
 from gelenk.api.meshes import MEDIA_TYPES, SANDBOXED, mesh_response
 from gelenk.api.openapi import BY_THE_CREW, RobotPath, UploadedRobotPath, json_example, problem_responses, without_null
 from gelenk.api.payloads import JSON, BoundedRequest, json_response, read_json
@@ -16,7 +17,7 @@ from gelenk.api.pool_client import PoolClient
 from gelenk.api.problems import UnsupportedMediaType
 from gelenk.api.routes import DocumentedRoute
 from gelenk.api.skeleton import skeleton_of
-from gelenk.api.task import Context, TaskRequest, buffers
+from gelenk.api.task import TaskRequest, buffers
 from gelenk.contract.common import ChainEnds
 from gelenk.contract.dh import DhTablePayload, table_content
 from gelenk.contract.pose import Pose
@@ -147,7 +148,7 @@ class Listed:
     """
 
     def __init__(self, library: Library, pool_client: PoolClient) -> None:
-        self._library, self._remote = library, pool_client
+        self._library, self._pool_client = library, pool_client
         self._kept: tuple[int, float, bytes] | None = None
 
     async def answer(self, request: Request) -> Response:
@@ -155,7 +156,7 @@ class Listed:
         state, now = self._library.state(), time.monotonic()
         if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
             return Response(self._kept[2], media_type=JSON)
-        content = await self._remote.told(request, _listed, TaskRequest())
+        content = await self._pool_client.content(request, _listed, TaskRequest())
         self._kept = None if state is None else (state, now, content)
         return Response(content, media_type=JSON)
 

@@ -1,21 +1,20 @@
 """What a process of the pool is sent to do: a request as a whole, and the function that answers it there.
 
-A task is a function of a module, or a frozen dataclass with a `__call__`, because it travels by name.
+A task is a function of a module, because it travels by name.
 """
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pickle import PickleBuffer
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
 from starlette.responses import Response
 
+from gelenk.api.context import Context, ContextSetup
 from gelenk.api.payloads import JSON
-from gelenk.operations.outcome import Limits
 from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
 from gelenk.pool.wire import pieces_of
-from gelenk.store.library import Library
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,40 +48,19 @@ def buffers(pieces: Sequence[bytes]) -> list[PickleBuffer]:
     return [PickleBuffer(piece) for piece in pieces]
 
 
-@dataclass(frozen=True, slots=True)
-class Context:
-    """What a process of the pool has at hand.
-
-    Attributes:
-        library: All robots.
-        limits: What an answer may take.
-    """
-
-    library: Library
-    limits: Limits
-
-
-class ContextSource(Hashable, Protocol):
-    """What a context is set up from; it is sent along with each task."""
-
-    def context(self) -> Context:
-        """Set up the context that works off the tasks."""
-        raise NotImplementedError
-
-
 WorkerTask: TypeAlias = Callable[[Context, TaskRequest], Response]
 Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], RequestCounts | None]
 """Status, headers, the body in pieces, and what the metrics count."""
 
 
-def answered(order: tuple[ContextSource, WorkerTask, TaskRequest]) -> Reply:
+def answered(order: tuple[ContextSetup, WorkerTask, TaskRequest]) -> Reply:
     """Run a task in a process of the pool."""
-    source, task, task_request = order
+    setup, task, task_request = order
     REQUEST_COUNTS.set(None)
-    response = task(_context(source), task_request)
+    response = task(_context(setup), task_request)
     return response.status_code, response.raw_headers, pieces_of(bytes(response.body)), REQUEST_COUNTS.get()
 
 
 @lru_cache(maxsize=1)
-def _context(source: ContextSource) -> Context:
-    return source.context()
+def _context(setup: ContextSetup) -> Context:
+    return setup.context()

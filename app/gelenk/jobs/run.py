@@ -56,7 +56,7 @@ class Run:
         order: What its parts have in common.
         executor: Computes them.
         workers: The processes of this machine.
-        shelf: Where the job is kept.
+        store: Where the job is kept.
         parts: Those that are finished.
     """
 

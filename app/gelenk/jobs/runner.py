@@ -48,7 +48,7 @@ class Runner:
     """The jobs of this process of the service, and the results of all.
 
     Args:
-        shelf: Where jobs are kept.
+        store: Where jobs are kept.
         kinds: What does a job, by its kind.
         workers: Processes of this machine, which put results together and draw pictures of them.
         running: How many jobs are done at a time; see `Turns` for when there are more.

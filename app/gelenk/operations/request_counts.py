@@ -22,5 +22,5 @@ class RequestCounts:
     iterations: int = 0
 
 
-REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("tally", default=None)
+REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("request_counts", default=None)
 """That of the request which is being answered; None where there is nothing to count."""

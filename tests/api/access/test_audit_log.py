@@ -150,7 +150,7 @@ def test_a_disk_that_refuses_does_not_refuse_the_write(
 
 def written_by(name: str) -> RequestContext:
     scope = {"type": "http", "method": "POST", "path": "/v1/robots", "headers": [], "client": ("192.0.2.7", 1)}
-    exchange = RequestContext.begun(scope, Operation("add_robot", Scope.WRITE), None)
+    exchange = RequestContext.of(scope, Operation("add_robot", Scope.WRITE), None)
     exchange.key, exchange.status, exchange.was_let_in = name, 201, True
     return exchange
 

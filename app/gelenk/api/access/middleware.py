@@ -57,7 +57,7 @@ class Middleware:
         path: str = scope["path"].removeprefix(self._root_path)
         if self._root_path and not path:
             path = "/"  # leads there
-        exchange = RequestContext.begun(scope, *self._directory.find(path, scope["method"]))
+        exchange = RequestContext.of(scope, *self._directory.find(path, scope["method"]))
         REQUEST_ID.set(exchange.request_id)
         REQUEST_COUNTS.set(None)
 

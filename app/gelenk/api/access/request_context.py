@@ -49,7 +49,7 @@ class RequestContext:
     counts: RequestCounts | None = None
 
     @classmethod
-    def begun(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "RequestContext":
+    def of(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "RequestContext":
         """A request that has just come in; problems find its id in the scope."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id", b"")
