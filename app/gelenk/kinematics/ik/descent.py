@@ -1,4 +1,4 @@
-"""The course's methods from one start, step by step, with what happened on the way."""
+"""The course's methods from one start, step by step, with a trace of the iterations."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,24 +25,24 @@ DEFAULT_ITERATIONS: dict[StepMethod, int] = {
     "gradient_then_newton": 5000,
     "damped_least_squares": 500,
 }
-"""Where a call sets no bound: the gradient converges linearly and needs hundreds."""
+"""Iterations if a call sets no bound: the gradient converges linearly and needs hundreds."""
 
 _KERNEL = 1e-8
 """Share of σ_max‖e‖ below which Jᵀe counts as zero: e lies in ker Jᵀ."""
 _SINGULAR = 1e-12
-"""Share of σ_max below which σ_min counts as zero: Newton's step is not defined."""
+"""Share of σ_max below which σ_min counts as zero, and Newton's step as undefined."""
 
 
 @dataclass(frozen=True, slots=True)
 class Iterate:
-    """One configuration of the iteration.
+    """One configuration of an iteration.
 
     Attributes:
         joint_positions: q; shape (n,), [rad or m].
-        error: ‖e‖ of the directions that count, [m and rad mixed].
+        error: ‖e‖ in the directions that count, [m and rad mixed].
         min_singular_value: σ_min of J in these directions, [m or rad per rad or m, mixed].
-        step_length: ‖Δq‖ of the step that led on from here; None where the method stopped.
-        method: Which step that was; None where it stopped.
+        step_length: ‖Δq‖ of the step taken from here; None at the last configuration.
+        method: Method of that step; None at the last configuration.
     """
 
     joint_positions: Array
@@ -54,12 +54,12 @@ class Iterate:
 
 @dataclass(frozen=True, slots=True)
 class Descent:
-    """The end of a method, and how it got there.
+    """The result of one method from one start.
 
     Attributes:
         joint_positions: The last configuration; shape (n,), [rad or m].
-        stop_reason: Why it went no further.
-        trace: Every configuration, the first and the last included.
+        stop_reason: Why the method stopped.
+        trace: All configurations, including the first and the last.
     """
 
     joint_positions: Array
@@ -69,14 +69,14 @@ class Descent:
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """How a method steps.
+    """A method and its parameters.
 
     Attributes:
-        method: Which.
-        step_size: α of the gradient; None searches along the line.
-        damping: λ of damped least squares; None takes it in proportion to the squared error.
-        switch_error: ‖e‖ at which `gradient_then_newton` changes over.
-        max_iterations: Bound on the steps; None for the method's default.
+        method: Name of the method.
+        step_size: α of the gradient; None for a line search.
+        damping: λ of damped least squares; None for an adaptive λ, which starts in proportion to ‖e‖².
+        switch_error: ‖e‖ at which `gradient_then_newton` switches to Newton.
+        max_iterations: Largest number of steps; None for the method's default.
     """
 
     method: StepMethod
@@ -97,19 +97,19 @@ def descend(
     respect_limits: bool = True,
     deadline: float | None = None,
 ) -> Descent:
-    """Follow one method from one start.
+    """Run one method from one start.
 
-    With limits, joints are kept within them after each step, and the damped method leaves those out that it would
-    push further; joints that turn freely may leave them on the way, since a full turn brings them back.
+    With limits, each step is clipped to them, and the damped method excludes joints that it would push further. Joints
+    that turn freely may leave their limits on the way, since full turns bring them back.
 
     Args:
         chain: Base and tip.
-        target: The pose wanted; one.
-        seed: Where to start; shape (n,), [rad or m].
-        rule: The method.
+        target: The desired T_base_tip; one pose.
+        seed: Initial configuration; shape (n,), [rad or m].
+        rule: The method and its parameters.
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether joint limits hold.
+        respect_limits: Whether to respect joint limits.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
     """
     bounds = search_bounds(chain, respect_limits)[:2]
@@ -162,7 +162,7 @@ def stop_reason(
     linear: int,
     tolerances: tuple[float, float],
 ) -> StopReason | None:
-    """Why a method goes no further from here, if it does not; the first `linear` rows of e are the position's."""
+    """Return why a method stops here, or None to go on; the first `linear` rows of e belong to the position."""
     if np.linalg.norm(e[:linear]) <= tolerances[0] and np.linalg.norm(e[linear:]) <= tolerances[1]:
         return "converged"
     slope = J.T @ e
@@ -177,7 +177,7 @@ def stop_reason(
 
 
 def blocked(slope: Array, q: Array, bounds: Array) -> Flags:
-    """Which joints are at a bound and would be pushed further; shape (n,)."""
+    """Flag the joints that are at a bound and that the slope would push further; shape (n,)."""
     outwards: Flags = ((q <= bounds[0]) & (slope < 0.0)) | ((q >= bounds[1]) & (slope > 0.0))
     return outwards
 
@@ -197,7 +197,7 @@ def _step(
 
 
 def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array]) -> Array:
-    """A damped step, damped ten times more until it makes the error smaller [Marquardt1963]."""
+    """Damped step, with the damping raised tenfold until the error falls [Marquardt1963]."""
     damping = error_damping(e)
     step = np.zeros_like(q)
     for _ in range(20):
@@ -209,12 +209,12 @@ def _adaptive_step(J: Array, e: Array, q: Array, bounds: Array, error_at: Callab
 
 
 def shortened(step: Array, most: float) -> Array:
-    """A step of which no joint goes further than allowed, in the same direction; shape (n,)."""
+    """Scale a step down so that no joint moves further than `most`; shape (n,)."""
     return step * (most / max(float(np.abs(step).max(initial=0.0)), most))
 
 
 def _line_search(J: Array, e: Array, q: Array, bounds: Array, error_at: Callable[[Array], Array]) -> float:
-    """α by halving from the minimum of the linear model until H = ½‖e‖² falls enough [Nocedal2006, 3.1]."""
+    """Find α by halving from the minimum of the linear model until ½‖e‖² falls enough [Nocedal2006, 3.1]."""
     slope = J.T @ e
     along = J @ slope
     size = float(slope @ slope) / max(float(along @ along), 1e-300)

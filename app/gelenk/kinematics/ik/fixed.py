@@ -1,4 +1,4 @@
-"""Joints that are held: the chain that remains without them, and its answers as configurations of the whole chain."""
+"""Held joints: the chain that remains without them, and its answers converted to the whole chain."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -15,12 +15,12 @@ from gelenk.model.chain import Chain, FlatChain
 
 @dataclass(frozen=True, eq=False)
 class HeldChain(Chain):
-    """A chain some of whose joints are held: each of them is part of a constant placement.
+    """A chain with some joints held: each held joint becomes part of a constant placement.
 
     Attributes:
         whole: The chain with all its joints.
-        held: A configuration of it that has the held values; shape (n,), [rad or m].
-        free: Which of its variables are left, base to tip.
+        held: Configuration of the whole chain with the held values, else zeros; shape (n,), [rad or m].
+        free: Indices of the remaining variables in the whole chain, base to tip.
     """
 
     whole: Chain
@@ -29,7 +29,7 @@ class HeldChain(Chain):
 
 
 def held_chain(chain: Chain, fixed: Mapping[str, float]) -> Chain:
-    """The chain that remains where some joints are held; the same object for the same values, while it is kept."""
+    """Return the chain that remains with some joints held; equal values give the same object while cached."""
     return _held_chain(chain, tuple(sorted(fixed.items()))) if fixed else chain
 
 
@@ -41,7 +41,7 @@ def _held_chain(chain: Chain, fixed: tuple[tuple[str, float], ...]) -> HeldChain
     flat = chain.flat
     moving = np.isin(flat.joints[:, 1], free)
     placements, first = [], 0
-    # A held joint's motion and the placements on either side of it make one.
+    # Merge a held joint's motion with the placements on either side of it.
     for last in [*np.flatnonzero(moving).tolist(), len(moving)]:
         stretch = slice(first, last)
         part = FlatChain(flat.placements[first : last + 1], flat.joints[stretch], flat.drives[stretch])
@@ -65,12 +65,12 @@ def _held_chain(chain: Chain, fixed: tuple[tuple[str, float], ...]) -> HeldChain
 
 
 def narrowed(chain: Chain, qs: Array) -> Array:
-    """Configurations of the whole chain → those of what remains of it; shape (N, n)."""
+    """Reduce configurations of the whole chain to the free variables; shape (N, n), [rad or m]."""
     return np.ascontiguousarray(qs[:, chain.free]) if isinstance(chain, HeldChain) else qs
 
 
 def widened(chain: Chain, qs: Array) -> tuple[Chain, Array]:
-    """The whole chain, and its configurations: those of what remains with the held values between; shape (N, n)."""
+    """Return the whole chain, and the configurations with the held values inserted; shape (N, n), [rad or m]."""
     if not isinstance(chain, HeldChain):
         return chain, qs
     full = np.tile(chain.held, (len(qs), 1))
@@ -79,7 +79,7 @@ def widened(chain: Chain, qs: Array) -> tuple[Chain, Array]:
 
 
 def widened_answer(chain: Chain, answer: InverseKinematics) -> InverseKinematics:
-    """The answer for what remains of a chain as one for the whole chain."""
+    """Convert the answer for a held chain to one for the whole chain."""
     if not isinstance(chain, HeldChain):
         return answer
 

@@ -1,4 +1,4 @@
-"""Whether configurations are solutions, recomputed through Pinocchio."""
+"""Checks that configurations are solutions, by recomputing their poses with Pinocchio."""
 
 import numpy as np
 
@@ -12,20 +12,20 @@ from gelenk.model.compilation import compiled
 from gelenk.model.poses import Poses
 
 _WITHIN = 1e-9
-"""How far beyond a limit rounding may put a joint, [rad or m]."""
+"""Allowance for rounding at a joint limit, [rad or m]."""
 
 
 def judged(question: Question, qs: Array, claimed: Flags, worth: Flags | None = None) -> tuple[Flags, Array, Array]:
-    """Which configurations solve their targets, recomputed through Pinocchio and within the limits; and the errors.
+    """Check which configurations solve their targets within the limits, by Pinocchio, and return the errors.
 
     Args:
-        question: The targets, one a configuration.
-        qs: Shape (N, n).
-        claimed: Which of them are said to; shape (N,).
-        worth: Which of them are worth recomputing; all if left out. Of the others the kernels tell the errors.
+        question: The problem, with one target per configuration.
+        qs: Configurations; shape (N, n), [rad or m].
+        claimed: Which of them the solver claims as solutions; shape (N,).
+        worth: Which of them Pinocchio recomputes, default all; our own kernels compute the others; shape (N,).
 
     Returns:
-        Flags, shape (N,); distances [m] and angles [rad], shape (N,).
+        Flags, distances [m] and angles [rad]; shape (N,) each.
     """
     chain = question.chain
     whole, full = widened(chain, qs)
@@ -51,7 +51,7 @@ def accepted(
     lower: Array,
     upper: Array,
 ) -> Flags:
-    """Which of the configurations that are said to be solutions are within the tolerances and the limits."""
+    """Check which of the claimed solutions are within the tolerances and the limits; shape (N,)."""
     good = claimed.copy()
     for i in range(len(qs)):
         good[i] &= errors[0, i] <= position_tolerance and errors[1, i] <= orientation_tolerance

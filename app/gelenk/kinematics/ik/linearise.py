@@ -1,4 +1,4 @@
-"""The error to a target and its Jacobian, in the directions that count."""
+"""Error to a target and its Jacobian, in the directions that count."""
 
 import numpy as np
 
@@ -13,21 +13,21 @@ from gelenk.model.poses import Poses
 
 
 def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bool = False) -> tuple[Array, Array]:
-    """Errors e and Jacobians J with e(q + Δq) ≈ e(q) - J Δq, the rows that count alone.
+    """Errors e and Jacobians J with e(q + Δq) ≈ e(q) - J Δq, reduced to the rows that count.
 
-    e is the way still to go: the position's difference, and the rotation vector from the tip to the target, in the
-    base's axes where the whole orientation counts, else about the target's. J is the geometric Jacobian in the same
-    axes. With one axis to be aligned, the rotation is the shortest one that does it.
+    e points from tip to target: the position difference in the base's axes, and the rotation vector, in the base's
+    axes for a full pose, else in the target's. J is the geometric Jacobian in the same axes. If one axis is to be
+    aligned, the rotation is the shortest one that aligns it.
 
     Args:
         chain: Base and tip.
-        targets: T_base_tip wanted; N.
+        targets: Desired T_base_tip; N of them.
         qs: Configurations; shape (N, n), [rad or m].
         task: Which directions count; m of them.
-        chords: Whether a rotation counts 2 sin(θ/2), as in the kernels, instead of its angle θ.
+        chords: Whether to scale rotation errors to length 2 sin(θ/2), as the kernels do, instead of θ.
 
     Returns:
-        e, shape (N, m), [m, rad], and J, shape (N, m, n).
+        e, shape (N, m), [m and rad], and J, shape (N, m, n).
     """
     positions, Rs, Js = chain_jacobians(chain.flat, qs)
     errors = np.empty((len(qs), 6))
@@ -49,11 +49,11 @@ def linearise(chain: Chain, targets: Poses, qs: Array, task: Task, *, chords: bo
 
 
 def _swings(axes: Array, goals: Array) -> Array:
-    """The rotation vector of the shortest rotation of each axis onto its goal; shape (N, 3) each."""
+    """Rotation vectors of the shortest rotation from each axis to its goal; shape (N, 3), [rad]."""
     normals = np.cross(axes, goals)
     sines = np.linalg.norm(normals, axis=1)
     cosines = np.sum(axes * goals, axis=1)
-    # Opposite axes have no shortest rotation: any square to them will do.
+    # Opposite axes have no unique shortest rotation: any perpendicular axis will do.
     opposite = (sines < 1e-12) & (cosines < 0.0)
     spare = np.cross(axes, np.eye(3)[np.argmin(np.abs(axes), axis=1)])
     normals = np.where(opposite[:, None], spare, normals)

@@ -1,7 +1,7 @@
-"""What comes nearest to a target out of reach, brought to the bottom of its valley.
+"""Refinement of the configuration nearest to an unreachable target, down to a local minimum of the error.
 
-Damped least squares leaves the curvature of the error out, and so creeps where an error stays: Newton's method with the
-whole second derivative does not.
+Damped least squares ignores the curvature of the error, so it converges slowly where an error remains. Newton's method
+with the full Hessian does not.
 """
 
 import numpy as np
@@ -14,26 +14,26 @@ from gelenk.model.arrays import Array
 
 _STEPS, _HALVINGS = 20, 6
 _LONGEST = 0.2
-"""Of a step in any joint, [rad or m]."""
+"""Longest step of any joint, [rad or m]."""
 _STATIONARY, _GAIN = 1e-7, 1e-12
-"""Shares of σ_max‖e‖ below which a slope counts as none, and of the error that a step gains at least."""
+"""Share of ‖J‖‖e‖ below which the gradient counts as zero, and least share of the error that a step must gain."""
 _DIFFERENCE, _FLAT = 1e-5, 1e-9
-"""Of a joint, for the second derivatives, [rad or m]; and the share of the largest of these that all are raised to."""
+"""Joint step of the finite differences, [rad or m]; least curvature, as a share of the largest."""
 
 
 def polished(question: Question, i: int, q: Array) -> Array:
-    """The least error near a configuration, which is as near to the target or nearer; shape (n,).
+    """Descend from a configuration to a nearby minimum of the error, never to a larger one; shape (n,).
 
     Args:
         question: The targets.
-        i: Which of them.
-        q: Where a search ended; shape (n,), [rad or m].
+        i: Index of the target.
+        q: End of a search; shape (n,), [rad or m].
     """
     chain, target = question.chain, question.taken(np.array([i]))
     bounds = search_bounds(chain, question.respect_limits)
 
     def slopes(qs: Array) -> tuple[Array, Array, Array]:
-        """½‖e‖², its slope -Jᵀe and σ_max‖e‖, which it is small beside; shapes (k,), (k, n), (k,)."""
+        """Return ½‖e‖², its gradient -Jᵀe, and ‖J‖‖e‖ to compare that with; shapes (k,), (k, n), (k,)."""
         es, Js = linearise(chain, target.taken(np.zeros(len(qs), dtype=np.int64)).targets, qs, question.task)
         sizes = np.linalg.norm(Js, axis=(1, 2)) * np.linalg.norm(es, axis=1)
         return 0.5 * np.sum(es * es, axis=1), -np.einsum("kmn,km->kn", Js, es), sizes
@@ -57,7 +57,7 @@ def polished(question: Question, i: int, q: Array) -> Array:
 
 
 def _newton(second: Array, slope: Array) -> Array:
-    """Newton's step, downhill also where the second derivative is not positive: there its size counts."""
+    """Newton step by absolute eigenvalues, so that it goes downhill even where the Hessian is indefinite."""
     values, vectors = np.linalg.eigh(0.5 * (second + second.T))
     sizes = np.maximum(np.abs(values), _FLAT * np.abs(values).max())
     step: Array = -vectors @ ((vectors.T @ slope) / sizes)

@@ -1,4 +1,4 @@
-"""What distance alone tells: how near to its first joint a chain can bring its tip or wrist, and how far."""
+"""Bounds on reach by distance alone: how near to and far from its first joint a chain can bring its tip or wrist."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -13,17 +13,17 @@ from gelenk.model.poses import Poses
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """The shell around the first joint outside which no target lies that can be reached.
+    """A spherical shell around the first joint that contains all reachable targets.
 
-    Where a direction of the position is free, distances are taken along the others: none is longer than the whole.
+    If a position direction is free, distances are measured along the others, which never makes them longer.
 
     Attributes:
-        center: A point on the first joint's axis, in the base; shape (3,), [m].
-        offset: The point that is measured, in the tip: where the last joint stands if the whole orientation counts,
-            else the tip itself; shape (3,), [m].
-        weights: 1 for each direction of the position that counts, else 0; shape (3,).
-        nearest: Radius of the hole, [m]; 0 where a direction is free.
-        farthest: Radius of the whole, [m]; infinite with a sliding joint without limits.
+        center: A point on the first joint's axis, in the base frame; shape (3,), [m].
+        offset: The measured point in the tip frame: the last joint's origin if the whole pose counts, else the tip's;
+            shape (3,), [m].
+        weights: 1 for each position direction that counts, else 0; shape (3,).
+        nearest: Inner radius, [m]; 0 if a position direction is free.
+        farthest: Outer radius, [m]; infinite for a prismatic joint without limits.
     """
 
     center: Array
@@ -33,19 +33,19 @@ class Reach:
     farthest: float
 
     def excess(self, targets: Poses) -> Array:
-        """How far each target is outside the shell, negative inside; shape (N,), [m]."""
+        """Distance of each target from the shell, positive outside and negative inside; shape (N,), [m]."""
         distances = self.distances(targets)
         excess: Array = np.maximum(distances - self.farthest, self.nearest - distances)
         return excess
 
     def distances(self, targets: Poses) -> Array:
-        """How far the measured point of each target is from the center; shape (N,), [m]."""
+        """Distance of each target's measured point from the center; shape (N,), [m]."""
         points = targets.positions + targets.rotations @ self.offset
         distances: Array = np.sqrt(np.square((points - self.center) * self.weights).sum(axis=1))
         return distances
 
     def describe(self, target: Poses) -> str:
-        """Why distance alone rules a single target out."""
+        """Explain why a single target is out of reach by distance alone."""
         distance = float(self.distances(target)[0])
         what = "the last joint" if self.offset.any() else "the tip"
         far = distance > self.farthest
@@ -58,11 +58,11 @@ class Reach:
 
 @lru_cache(maxsize=256)
 def reach_of(chain: Chain, task: Task, respect_limits: bool) -> Reach | None:
-    """The shell of a chain for a task; None where no position counts or no joint moves.
+    """Compute the shell of a chain for a task; None if no position direction counts or no joint moves.
 
-    Between the first and the last joint lie links of constant length; a sliding joint makes its link as short or long
-    as its limits allow. By the triangle inequality the farthest is their sum, and the nearest what the longest has
-    over the sum of the others.
+    Links of constant length connect the first joint to the last; a prismatic joint varies its link's length within its
+    limits. By the triangle inequality the outer radius is the sum of the longest lengths, and the inner radius the
+    largest excess of one link's shortest length over the longest lengths of all others.
     """
     weights = task.weights[:3]
     if not weights.any() or len(chain.flat.joints) == 0:
@@ -92,7 +92,7 @@ def _link_lengths(chain: Chain, respect_limits: bool, *, with_last: bool) -> Arr
         ends = [-np.inf, np.inf]
         if respect_limits:
             ends = sorted((multiplier * chain.lower[variable] + offset, multiplier * chain.upper[variable] + offset))
-        # The slide goes along z before the link does: its length is that of (t_x, t_y, t_z + d).
+        # The joint slides along z before the link: the total length is that of (t_x, t_y, t_z + d).
         aside = float(np.hypot(t[0], t[1]))
         along = float(np.clip(0.0, t[2] + ends[0], t[2] + ends[1]))
         lengths.append((float(np.hypot(aside, along)), float(np.hypot(aside, max(abs(t[2] + end) for end in ends)))))

@@ -1,4 +1,4 @@
-"""What inverse kinematics answers with."""
+"""Result types of inverse kinematics."""
 
 from dataclasses import dataclass, field
 
@@ -8,7 +8,7 @@ from gelenk.kinematics.ik.words import Status, StopReason
 from gelenk.model.arrays import Array, Indices
 
 COUNTED = -2
-"""The code of a solution that no closed form, but following all solutions of six joints has found."""
+"""Branch code of a solution that continuation found instead of a closed form."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,11 +16,11 @@ class BlockingJoint:
     """A joint whose limit keeps a target from being reached.
 
     Attributes:
-        name: Of the joint.
-        position: Where it would have to be, [rad or m].
-        lower: Its lower limit.
-        upper: Its upper limit.
-        excess: How far beyond the limit that is.
+        name: Joint name.
+        position: Position that the target requires, [rad or m].
+        lower: Lower limit, [rad or m].
+        upper: Upper limit, [rad or m].
+        excess: Distance of the position beyond the limit, [rad or m].
     """
 
     name: str
@@ -32,17 +32,17 @@ class BlockingJoint:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why a target is not solved, and what comes nearest.
+    """The reason why a target is unsolved, and the nearest configuration found.
 
     Attributes:
-        reason: In a sentence.
-        nearest: The configuration that comes nearest, within the limits where they count; shape (n,).
-        position_error: Its distance from the target, [m].
-        orientation_error: Its angle from the target, [rad].
-        blocking_joints: With `outside_limits`, the joints and by how much.
+        reason: Explanation in words.
+        nearest: Nearest configuration, within the limits if they count; shape (n,), [rad or m].
+        position_error: Distance of its pose from the target, [m].
+        orientation_error: Angle of its pose to the target, [rad].
+        blocking_joints: For `outside_limits`, the joints beyond their limits.
         unserved_directions: Unit twists in the base's axes, linear before angular, that the tip cannot follow there;
             shape (k, 6).
-        is_late: Whether time ran out before it was solved or explained.
+        is_late: Whether time ran out before the target was solved or explained.
     """
 
     reason: str
@@ -56,10 +56,10 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """How a single method got to where it stopped.
+    """The path of one iterative method to where it stopped.
 
     Attributes:
-        stop_reason: Why it went no further.
+        stop_reason: Why the method stopped.
         trace: Every configuration of the iteration, if requested.
     """
 
@@ -69,13 +69,12 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class SolutionBranches:
-    """The branches of M solutions of a closed form, or of all of six joints.
+    """Branch labels of M solutions, from a closed form or from continuation of six joints.
 
     Attributes:
-        form: The closed form; None of six joints without one.
-        codes: Which roots it took; `COUNTED` where continuation has found the solution, -1 where a search has;
-            shape (M,).
-        free: Bit j where variable j was free and has kept the seed's value; shape (M,).
+        form: The closed form; None for six joints without one.
+        codes: Bits of the roots chosen; `COUNTED` for a solution from continuation, -1 from a search; shape (M,).
+        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
     """
 
     form: ClosedForm | None
@@ -84,19 +83,19 @@ class SolutionBranches:
 
     @property
     def name(self) -> str:
-        """How they are found, in words."""
+        """Name of the method that found the branches, in words."""
         return self.form.name if self.form else "six joints, by continuation"
 
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Solutions that are joined by a motion of some joints, the others standing still.
+    """A continuum of solutions, connected by a motion of some joints while the others stay still.
 
     Attributes:
         free_joints: Names of the joints that move, base to tip.
-        relation: Which sums of them stay, q_k being the chain's k-th joint; None where there is none.
-        text: The same in words.
-        sweep: Some of the configurations, in the order of the motion; shape (k, n), [rad or m].
+        relation: Sums of these joints that stay constant, q_k being the chain's k-th joint; None if there are none.
+        text: Description of the motion in words.
+        sweep: Sample configurations in the order of the motion; shape (k, n), [rad or m].
     """
 
     free_joints: tuple[str, ...]
@@ -107,23 +106,23 @@ class Family:
 
 @dataclass(frozen=True, slots=True)
 class InverseKinematics:
-    """Solutions of N targets, all of them in one table: those of target i are its rows firsts[i] to firsts[i + 1].
+    """Solutions of N targets in one table: rows firsts[i] up to, but not including, firsts[i + 1] belong to target i.
 
     Attributes:
         qs: Solutions; shape (M, n), [rad or m].
-        position_errors: Recomputed through Pinocchio; shape (M,), [m].
+        position_errors: Errors of the poses recomputed with Pinocchio; shape (M,), [m].
         orientation_errors: Likewise; shape (M,), [rad].
-        iterations: Of the start that led there; shape (M,).
-        restarts: How many starts had failed before; shape (M,).
-        method: What found them.
-        firsts: Where each target's solutions begin; shape (N + 1,).
-        statuses: The verdict on each target; N.
-        failures: Of each unsolved target, by its number.
-        complete: Whether these are all solutions, of each target; None where one was requested.
-        doubts: Of targets that are solved, by their number, why these may not be all solutions.
-        paths: Of each target, where a single method was followed or a trace was requested.
-        branches: Of each solution, where a closed form was used.
-        families: Of targets with infinitely many solutions, by their number, where all were requested.
+        iterations: Iterations of the start that led to each solution; shape (M,).
+        restarts: Number of starts that failed before it; shape (M,).
+        method: Name of the iterative method.
+        firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
+        statuses: Verdict on each target; N of them.
+        failures: Failure of each unsolved target, by its index.
+        complete: Whether each target's solutions are all there are; None if one was requested.
+        doubts: Why a solved target may have other solutions, by its index.
+        paths: Path of each target, if a single method was run or a trace requested.
+        branches: Branch labels, if a closed form or continuation was used.
+        families: Families of targets with infinitely many solutions, by index, if all were requested.
     """
 
     qs: Array

@@ -1,4 +1,4 @@
-"""What the search did, step by step: its kernels again, in NumPy and one configuration at a time."""
+"""Step-by-step repetition of the search for a trace: its kernels in NumPy, one configuration at a time."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -19,7 +19,7 @@ from gelenk.model.poses import Poses
 _Linearised: TypeAlias = Callable[[Array], tuple[Array, Array]]
 _Seen: TypeAlias = Callable[[Array, Array], tuple[Array, Array]]
 _Steps: TypeAlias = Iterator[tuple[Array, Array, Array, Array]]
-"""Configuration, error, Jacobian, and the step that is taken from there."""
+"""Configuration, error, Jacobian, and the step taken from there."""
 
 
 def retrace(
@@ -33,17 +33,17 @@ def retrace(
     respect_limits: bool,
     slack: float = 0.0,
 ) -> Descent:
-    """The way of a start through the search, to where it is within the tolerances or was given up.
+    """Trace one start of the search until it is within the tolerances or given up.
 
     Args:
         chain: Base and tip.
-        target: The pose wanted; one.
-        start: Where it set out; shape (n,), [rad or m].
+        target: The desired T_base_tip; one pose.
+        start: Initial configuration; shape (n,), [rad or m].
         followed: See `Found.followed`.
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether joint limits held.
-        slack: Share of the tolerances that the errors were made smaller by.
+        respect_limits: Whether the search respected joint limits.
+        slack: Share of the tolerances that the search subtracted from the errors.
     """
     bounds = search_bounds(chain, respect_limits)[:2]
 
@@ -52,7 +52,7 @@ def retrace(
         return es[0], Js[0]
 
     def shortened_error(e: Array, J: Array) -> tuple[Array, Array]:
-        """The error that the step sees where loose tolerances are used."""
+        """Shorten the error and scale the Jacobian, as the search does to use loose tolerances."""
         parts = zip((e[: task.positions], e[task.positions :]), tolerances, strict=True)
         factors = [
             max(0.0, 1.0 - slack * allowed / max(float(np.linalg.norm(part)), 1e-150)) for part, allowed in parts
@@ -69,7 +69,7 @@ def retrace(
     for q, e, J, step in steps:
         sigmas = np.linalg.svd(J, compute_uv=False).astype(np.float64)
         reason = stop_reason(e, J, sigmas, q, bounds, "damped_least_squares", task.positions, tolerances)
-        # The search takes one step more than it needs, unless the first was close enough.
+        # After convergence the search takes one more step, unless the error is small enough already.
         on = reason == "converged" and not reached and not _is_close(e, task.positions, tolerances)
         reached = reason == "converged"
         error, smallest = _error(chain, target, q, task), float(sigmas[-1]) if len(sigmas) else 0.0
@@ -83,18 +83,18 @@ def retrace(
 
 
 def _is_close(e: Array, linear: int, tolerances: tuple[float, float]) -> bool:
-    """Whether an error is so far within the tolerances that no further step is taken."""
+    """Check whether an error is so far within the tolerances that the search takes no further step."""
     parts = np.linalg.norm(e[:linear]), np.linalg.norm(e[linear:])
     return all(part <= CLOSE * tolerance for part, tolerance in zip(parts, tolerances, strict=True))
 
 
 def _error(chain: Chain, target: Poses, q: Array, task: Task) -> float:
-    """‖e‖ as the course's methods measure it, with angles."""
+    """Error norm ‖e‖ with angles instead of chords, as the course's methods measure it."""
     return float(np.linalg.norm(linearise(chain, target, q[None], task)[0]))
 
 
 def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:
-    """Damping in proportion to the squared error, and no step is taken back."""
+    """Yield the steps of a search: damping proportional to the squared error, no step undone."""
     for _ in range(LONGEST):
         e, J = at(q)
         f, K = seen(e, J)
@@ -104,7 +104,7 @@ def _searched(at: _Linearised, q: Array, bounds: Array, seen: _Seen) -> _Steps:
 
 
 def _followed(at: _Linearised, q: Array, bounds: Array, damping: float) -> _Steps:
-    """Small steps with a damping that follows success; a step that makes it worse is undone and not reported."""
+    """Yield small steps with adaptive damping; steps that increase the error are undone and not reported."""
     least, before = np.inf, q
     for _ in range(APPROACHES):
         e, J = at(q)

@@ -1,7 +1,7 @@
-"""Many starts of damped least squares for each target: the solver behind `auto`, without its verdicts.
+"""Damped least squares from many starts for each target: the solver behind `auto`, without its verdicts.
 
-The answer is deterministic: it depends on the chain, the target, the seed and the random seed, not on the batch it
-comes in, nor on the number of threads.
+The answer is deterministic: it depends on the chain, the target, the seed and the random seed, not on the rest of the
+batch or the number of threads.
 """
 
 import os
@@ -21,27 +21,27 @@ from gelenk.model.compilation import clock
 from gelenk.model.poses import Poses
 
 MAX_ITERATIONS = 20_000
-"""Default budget for a target: of 78,000 targets on 39 arms the hardest needed an eighth of it."""
+"""Default budget for a target: the hardest of 78,000 targets on 39 arms needed an eighth of it."""
 ITERATIONS_PER_START = 20
-"""What a start costs on average, so that a budget in iterations becomes a number of starts."""
+"""Average cost of a start, which converts a budget in iterations to a number of starts."""
 
 _TURN = 2.0 * np.pi
 _CHUNK = 128
-"""Targets of seven joints that one thread takes at once; the clock is checked before the next."""
+"""Targets of a seven-joint chain that one thread solves between two checks of the clock."""
 
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """The results of a search, one entry a target.
+    """The results of a search, one entry per target.
 
     Attributes:
-        qs: The solution, within the limits and as near to the seed as full turns allow; of an unsolved target the
-            nearest that was found; shape (N, n), [rad or m].
+        qs: Solutions, within the limits and as near to the seed as full turns allow; for an unsolved target the
+            nearest configuration found; shape (N, n), [rad or m].
         solved: Whether the errors are within the tolerances; shape (N,).
-        restarts: How many starts failed before; shape (N,).
-        iterations: Of the start that converged; shape (N,).
-        followed: Where the seed had to be followed closely: by how many powers of ten the damping began below 1, else
-            -1; shape (N,).
+        restarts: Number of starts that failed before; shape (N,).
+        iterations: Iterations of the start that converged; shape (N,).
+        followed: k if the search followed the path from the seed in small steps with initial damping 10⁻ᵏ, else -1;
+            shape (N,).
         in_time: Whether the target was tried before time ran out; shape (N,).
         slack: See `Goal.slack`; shape (N,).
     """
@@ -55,14 +55,14 @@ class Found:
     slack: Array
 
     def put(self, rows: Flags, other: "Found") -> None:
-        """Put what another search found of some targets in the place of what was found before."""
+        """Replace the results of some targets by those of another search."""
         self.qs[rows], self.solved[rows], self.in_time[rows] = other.qs, other.solved, other.in_time
         self.restarts[rows], self.iterations[rows] = other.restarts, other.iterations
         self.followed[rows], self.slack[rows] = other.followed, other.slack
 
 
 def nothing_found(count: int, n: int) -> Found:
-    """No answer yet to so many targets of a chain with n variables."""
+    """Create results in which no target is solved or tried, with `qs` uninitialised."""
     flags, integers = np.zeros((2, count), dtype=bool), np.zeros((3, count), dtype=np.int64)
     return Found(np.empty((count, n)), flags[0], integers[0], integers[1], integers[2], flags[1], np.zeros(count))
 
@@ -82,21 +82,21 @@ def search(
     deadline: float | None = None,
     threads: int | None = None,
 ) -> Found:
-    """Solve each target by the first of its starts that converges; start 0 is the seed, the others are random.
+    """Solve each target by its first start that converges; start 0 is the seed, the others are random.
 
     Args:
         chain: Base and tip.
-        targets: T_base_tip wanted, N of them.
-        seeds: One configuration for all or one each, not necessarily within the limits; shape (1 or N, n).
+        targets: Desired T_base_tip; N of them.
+        seeds: One configuration for all targets or one each, perhaps outside the limits; shape (1 or N, n).
         task: Which directions count.
-        position_tolerance: [m].
-        orientation_tolerance: [rad].
-        respect_limits: Whether a solution is to be within the joint limits.
+        position_tolerance: Largest position error, [m].
+        orientation_tolerance: Largest orientation error, [rad].
+        respect_limits: Whether solutions must be within the joint limits.
         max_iterations: Budget for each target.
-        random_seed: Of the starts.
-        slack: Share of the tolerances that errors are made smaller by, see `Goal.slack`.
+        random_seed: Seed of the random starts.
+        slack: Share of the tolerances subtracted from the errors, see `Goal.slack`.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
-        threads: How many share a large batch; by default as many as there are processors.
+        threads: Threads for a large batch; by default one per processor.
     """
     goal = make_goal(
         chain, task, position_tolerance, orientation_tolerance, respect_limits, max_iterations, random_seed, slack
@@ -121,7 +121,7 @@ def make_goal(
     random_seed: int,
     slack: float = 0.0,
 ) -> Goal:
-    """The input of the kernels; arguments as of `search`."""
+    """Create the kernels' input; the arguments are those of `search`."""
     return Goal(
         search_bounds(chain, respect_limits),
         task.weights,
@@ -136,14 +136,14 @@ def make_goal(
 
 
 def _chord(tolerance: float, task: Task) -> float:
-    """A tolerance as the kernels measure it: 2 sin(θ/2), of which some components may be as little as 2/π of θ."""
+    """Convert an angle θ [rad] to the kernels' chord 2 sin(θ/2); components of it may be as small as 2/π of θ."""
     if task.kind == SOME:
         return tolerance * 2.0 / np.pi
     return float(2.0 * np.sin(0.5 * min(tolerance, np.pi)))
 
 
 def target_rows(targets: Poses) -> Array:
-    """Poses as the kernels take them: rotation row by row, then position; shape (N, 12)."""
+    """Convert poses to the kernels' rows: rotation row by row, then position [m]; shape (N, 12)."""
     rows = np.empty((len(targets), 12))
     rows[:, :9] = targets.rotations.reshape(-1, 9)
     rows[:, 9:] = targets.positions
@@ -151,7 +151,7 @@ def target_rows(targets: Poses) -> Array:
 
 
 def start_of(chain: Chain, seed: Array, respect_limits: bool, random_seed: int, start: int) -> Array:
-    """The configuration from which a start sets out; shape (n,)."""
+    """Return the initial configuration of a start; shape (n,), [rad or m]."""
     bounds = search_bounds(chain, respect_limits)
     q: Array = np.array(seed, dtype=float)
     if start > 0:
@@ -163,7 +163,7 @@ def start_of(chain: Chain, seed: Array, respect_limits: bool, random_seed: int, 
 
 @lru_cache(maxsize=256)
 def mid_range(chain: Chain) -> Array:
-    """The middle of the joint limits, 0 where a joint turns without end; shape (n,), [rad or m]."""
+    """Middle of the joint limits; the value nearest to 0 if a limit is missing; shape (n,), [rad or m]."""
     lower, upper = chain.lower, chain.upper
     middle = np.zeros(len(chain))
     bounded = np.isfinite(lower) & np.isfinite(upper)
@@ -174,7 +174,7 @@ def mid_range(chain: Chain) -> Array:
 
 @lru_cache(maxsize=256)
 def limits_of(chain: Chain, respect_limits: bool) -> tuple[Array, Array]:
-    """Lower and upper limit of each variable, infinite where none are to be respected; shape (n,) each."""
+    """Lower and upper limits of the variables, infinite if they are not respected; shape (n,) each, [rad or m]."""
     if respect_limits:
         return chain.lower, chain.upper
     return np.full(len(chain), -np.inf), np.full(len(chain), np.inf)
@@ -182,7 +182,7 @@ def limits_of(chain: Chain, respect_limits: bool) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=256)
 def free_variables(chain: Chain) -> Flags:
-    """Which variables come to the same pose after a full turn: joints that turn, geared 1:1 or by whole numbers."""
+    """Flag the variables whose full turn leaves the pose unchanged: revolute, with integer gear ratios; shape (n,)."""
     free = np.ones(len(chain), dtype=bool)
     for (prismatic, variable), (multiplier, _) in zip(chain.flat.joints, chain.flat.drives, strict=True):
         if prismatic or multiplier != np.rint(multiplier):
@@ -192,9 +192,9 @@ def free_variables(chain: Chain) -> Flags:
 
 @lru_cache(maxsize=256)
 def search_bounds(chain: Chain, respect_limits: bool) -> Array:
-    """See `Goal.bounds`.
+    """Compute `Goal.bounds`; shape (6, n), [rad or m].
 
-    A joint with a full turn or more between its limits turns freely, and is wound back at the end.
+    A joint whose limits are a full turn or more apart turns freely, and is wound back into them at the end.
     """
     n = len(chain)
     lower, upper = limits_of(chain, respect_limits)
@@ -210,9 +210,9 @@ def search_bounds(chain: Chain, respect_limits: bool) -> Array:
 
 
 def _spreads(chain: Chain) -> Array:
-    """How far from its middle a variable without limits is drawn; shape (n,), [rad or m].
+    """Half-width of the interval from which starts of a variable without limits are drawn; shape (n,), [rad or m].
 
-    Half a turn of what it turns slowest, or a slide as long as the chain's constant parts, at least a metre.
+    Half a turn of the slowest joint it drives, or the total length of the chain's constant parts, at least a metre.
     """
     length = max(1.0, float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum()))
     spreads = np.zeros(len(chain))
@@ -225,7 +225,7 @@ def _spreads(chain: Chain) -> Array:
 def _in_parts(
     chain: Chain, goal: Goal, rows: Array, seeds: Array, untried: Array, deadline: float | None, threads: int
 ) -> Found:
-    """A large batch, shared by threads and in pieces where time is limited; targets never tried keep `untried`."""
+    """Search a large batch piece by piece in threads; targets that are never tried keep `untried`."""
     count, n = len(rows), len(chain)
     qs, winners, iterations, followed = np.empty((count, n)), *np.full((3, count), -1)
     in_time = np.zeros(count, dtype=bool)
@@ -243,28 +243,28 @@ def _in_parts(
 
 
 def processors() -> int:
-    """How many processors this process may use."""
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0))
 
 
 def is_over(deadline: float | None) -> bool:
-    """Whether time has run out."""
+    """Check whether the deadline has passed."""
     return deadline is not None and clock() > deadline
 
 
 def chunk_of(chain: Chain) -> int:
-    """Targets that one thread takes at once; a tenth of a second even if none of them can be solved."""
+    """Number of targets in a piece of work, which takes at most a tenth of a second even if none can be solved."""
     return max(1, _CHUNK * 7 // max(7, len(chain)))
 
 
 def pieces(count: int, threads: int, chunk: int, small: bool) -> Iterator[slice]:
-    """A batch in pieces: a few for each thread, or many small ones to look at the clock between them."""
+    """Split a batch into a few pieces per thread, or into small ones if the clock is checked between them."""
     size = chunk if small else max(chunk, -(-count // (4 * threads)))
     return (slice(first, min(first + size, count)) for first in range(0, count, size))
 
 
 def shared(work: Callable[[slice], None], parts: Iterator[slice], threads: int) -> None:
-    """Do the parts of a batch, in so many threads."""
+    """Run the parts of a batch in a number of threads."""
     if threads == 1:
         for part in parts:
             work(part)

@@ -1,4 +1,4 @@
-"""Inverse kinematics: solutions, each recomputed through Pinocchio, or a verdict why there is none."""
+"""Inverse kinematics of a robot: solutions recomputed with Pinocchio, or a verdict on why there are none."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -52,37 +52,37 @@ from gelenk.model.robot import Robot
 Method: TypeAlias = Literal["auto", "analytic"] | StepMethod
 
 _FAR_ITERATIONS = 320
-"""Budget for a target that is out of reach by distance: only the nearest configuration is wanted."""
+"""Budget for a target out of reach by distance, for which only the nearest configuration is needed."""
 _LOOSE, _SLACK = 1e-4, 0.9
-"""Tolerances from which on a target that is not met exactly is tried again, and what share of them is used then."""
+"""Tolerance above which an unsolved target is tried again, and the share of the tolerances used then as slack."""
 _SETTLED_TOGETHER = 4096
-"""Solutions that are moved along their self-motion at once: each needs a Hessian of its own."""
+"""Solutions moved along their self-motion at once: each needs its own Hessian."""
 _INTERPRETED_TARGETS, _INTERPRETED_STARTS = 8, 30
-"""Of a call that is answered while the kernels are compiled."""
+"""Most targets of a call, and starts of each, solved by interpreted code while the kernels are being compiled."""
 
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How inverse kinematics are wanted.
+    """Options of an inverse kinematics call.
 
     Attributes:
         task: Which directions of the pose count.
-        position_tolerance: [m].
-        orientation_tolerance: [rad].
-        respect_limits: Whether solutions are to be within the joint limits.
-        every: Whether all solutions are wanted.
+        position_tolerance: Largest position error, [m].
+        orientation_tolerance: Largest orientation error, [rad].
+        respect_limits: Whether solutions must be within the joint limits.
+        every: Whether to find all solutions.
         most: Largest number of solutions of one target.
         windings: Whether solutions that differ by full turns count as different.
         method: `auto`; `analytic`, a closed form, an elimination or a continuation; or one of the course's methods from
             the seed alone.
-        rule: How that steps.
+        rule: Parameters of the course's method.
         max_iterations: Budget for a target; None for the method's default.
-        time_limit: For all targets, [s]; compiling does not count.
-        random_seed: Of the starts.
-        objective: What the freedom of a redundant arm is used for.
-        elbow_angle: Where a free elbow is to be, [rad]; of a closed form that has one.
+        time_limit: Time for all targets without compilation, [s].
+        random_seed: Seed of the random starts.
+        objective: Function that a redundant arm minimises by its freedom.
+        elbow_angle: Desired angle of a free elbow, [rad]; only for a closed form that has one.
         trace: Whether to report each iteration.
-        fixed_joints: Variables of the chain that are held, and where, [rad or m].
+        fixed_joints: Values of the held variables by name, [rad or m].
     """
 
     task: Task = FULL_POSE
@@ -104,22 +104,22 @@ class Options:
 
     @property
     def tolerances(self) -> tuple[float, float]:
-        """Tolerances of position [m] and orientation [rad]."""
+        """Tolerances of position [m] and orientation [rad], as a pair."""
         return self.position_tolerance, self.orientation_tolerance
 
 
 def inverse_kinematics(robot: Robot, chain: Chain, targets: Poses, seeds: Array, options: Options) -> InverseKinematics:
-    """Configurations that bring the tip to each target.
+    """Solve for the configurations that bring the tip to each target.
 
     Args:
         robot: The robot.
         chain: Base and tip.
-        targets: T_base_tip wanted; N of them.
-        seeds: Where to start, and what solutions are to be near to; one for all or one each, shape (1 or N, n).
-        options: What counts and how.
+        targets: Desired T_base_tip; N of them.
+        seeds: Initial configurations, to which solutions shall be near; one for all or one each, shape (1 or N, n).
+        options: Task, method and bounds.
 
     Raises:
-        InvalidField: A closed form is requested, and none is known.
+        InvalidField: An option needs a closed form that the chain does not have.
     """
     chain = held_chain(chain, options.fixed_joints)
     seeds = narrowed(chain, seeds)
@@ -147,7 +147,7 @@ def _answered(question: Question, options: Options, deadline: float | None) -> I
 
 
 def _without_form(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
-    """By counting all solutions of six joints, where all are wanted or nothing else will do, or by a search."""
+    """Solve by continuation if it is available and all solutions or `analytic` are requested, else by search."""
     if options.every:
         return _every(question, options, deadline)
     if options.method == "analytic" and _system(question):
@@ -156,14 +156,14 @@ def _without_form(question: Question, options: Options, deadline: float | None) 
 
 
 def _system(question: Question) -> Continuation | None:
-    """How all solutions are counted; None where they cannot be."""
+    """Return the continuation that counts all solutions; None if the chain or the task has none."""
     return continuation(question.chain) if len(question.task) == len(FULL_POSE) else None
 
 
 def _with_families(
     question: Question, options: Options, answer: InverseKinematics, deadline: float | None
 ) -> InverseKinematics:
-    """The answer with the families to which its solutions belong; where all are listed there is none."""
+    """Add the families to which the solutions belong, for targets whose solutions may not be all."""
     doubts, families = dict(answer.doubts), {}
     for i in answer.doubts:
         qs = answer.qs[answer.firsts[i] : answer.firsts[i + 1]]
@@ -176,7 +176,7 @@ def _with_families(
 
 
 def _form(question: Question, options: Options) -> ClosedForm | None:
-    """The closed form that answers the question, unless an option needs another method."""
+    """Return the closed form that answers the question; None if an option needs another method."""
     if options.method not in {"auto", "analytic"}:
         return None
     form = closed_form(question.chain, options.task)
@@ -190,7 +190,7 @@ def _form(question: Question, options: Options) -> ClosedForm | None:
 
 
 def _analytic(question: Question, options: Options, form: ClosedForm, deadline: float | None) -> InverseKinematics:
-    """By the closed form; what it leaves unsolved goes to a search, which also knows the reason if there is none."""
+    """Solve by the closed form, then by `_without_form` for the rest, which also explains unsolved targets."""
     if options.every:
         most, angle = options.most, options.elbow_angle
         sample = options.method == "auto"
@@ -209,13 +209,13 @@ def _analytic(question: Question, options: Options, form: ClosedForm, deadline: 
 def solve_quickly(
     question: Question, starts: int, random_seed: int, *, by_form: bool = False
 ) -> InverseKinematics | None:
-    """One solution a target, if that takes only tens of microseconds; else None.
+    """Return one solution per target if that takes only tens of microseconds, else None.
 
     Args:
-        question: The targets; a few.
-        starts: Of each target.
-        random_seed: Of the starts.
-        by_form: Whether a closed form is requested, and nothing else will do.
+        question: The problem, with a few targets.
+        starts: Starts of each target.
+        random_seed: Seed of the random starts.
+        by_form: Whether to accept solutions of a closed form alone.
     """
     chain = question.chain
     if not is_looked_at(chain, question.task):
@@ -236,7 +236,7 @@ def solve_quickly(
     )
     rows = target_rows(question.targets)
     qs, winners, iterations, _ = kernels.search(chain.flat, goal, rows, question.seeds, all_or_none=True)
-    # Lists, because of a few numbers they tell quicker than arrays.
+    # For a few numbers, lists are faster than arrays.
     if -1 in winners.tolist():
         return None
     solved, position_errors, orientation_errors = judged(question, qs, np.ones(len(qs), dtype=np.bool_))
@@ -256,7 +256,7 @@ def solve_quickly(
 
 
 def _one(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
-    """One solution a target, by many starts."""
+    """Find one solution per target from many starts."""
     found, too_far, relaxed = _searched(question, options, deadline)
     if options.objective is not None and found.solved.any():
         found = _settled(question, options.objective, found, deadline)
@@ -299,7 +299,7 @@ def _assembled(
     failures: dict[int, Failure],
     paths: list[Path] | None,
 ) -> InverseKinematics:
-    """The answer where each target has one configuration or none."""
+    """Build the answer from one configuration per target, dropping those that are no solutions."""
     return InverseKinematics(
         qs[solved],
         errors[0][solved],
@@ -315,11 +315,11 @@ def _assembled(
 
 
 def _searched(question: Question, options: Options, deadline: float | None) -> tuple[Found, Flags, dict[int, Array]]:
-    """What a search finds, which targets are beyond reach by distance alone, and what would solve others.
+    """Search for one solution per target.
 
     Returns:
-        The findings; flags, shape (N,); and of some unsolved targets the configuration that solves them beyond the
-        joint limits, as near to these as one is found, by their numbers.
+        The results; flags of the targets beyond reach by distance alone, shape (N,); and, by the index of an unsolved
+        target, the configuration found that solves it with the least excess over the joint limits.
     """
     budget = options.max_iterations or MAX_ITERATIONS
 
@@ -352,11 +352,11 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
     for i in unsolved.tolist():
         if not is_over(deadline):
             found.qs[i] = polished(question, i, found.qs[i])
-    # What comes nearest may come near enough.
+    # The nearest configuration may be near enough.
     near_enough = judged(question.taken(unsolved), found.qs[unsolved], np.ones(len(unsolved), dtype=bool))[0]
     found.solved[unsolved[near_enough]], found.iterations[unsolved[near_enough]] = True, 0
     relaxed: dict[int, Array] = {}
-    # What a few starts have not solved may well be solved within the limits.
+    # If only a few starts have failed, there may well be a solution within the limits.
     with_limits = question.respect_limits and budget >= ENOUGH_STARTS * ITERATIONS_PER_START
     for i in np.flatnonzero(~found.solved & ~too_far & found.in_time & with_limits).tolist():
         if is_over(deadline):
@@ -365,13 +365,13 @@ def _searched(question: Question, options: Options, deadline: float | None) -> t
         if q is not None and beyond_limits(question.chain, q):
             relaxed[i] = q
         elif q is not None:
-            # Starts that do not heed the limits have come to a solution within them.
+            # Starts that ignore the limits have reached a solution within them.
             found.qs[i], found.solved[i], found.iterations[i] = q, True, 0
     return found, too_far, relaxed
 
 
 def _settled(question: Question, objective: Objective, found: Found, deadline: float | None) -> Found:
-    """The solutions moved along their self-motion; what an objective is no use for stays."""
+    """Move the solutions along their self-motion to reduce the objective; non-redundant ones stay."""
     if objective.name == "posture" and objective.posture is None:
         objective = Objective("posture", question.seeds)
     qs = found.qs.copy()
@@ -394,7 +394,7 @@ def _settled(question: Question, objective: Objective, found: Found, deadline: f
 
 
 def _every(question: Question, options: Options, deadline: float | None) -> InverseKinematics:
-    """All solutions of each target; what has none is explained as for one."""
+    """Find all solutions of each target; targets without any are searched again by `_one`, which explains failures."""
     rows, count = target_rows(question.targets), len(question)
     tables, doubts = [np.empty((0, len(question.chain)))] * count, [SEARCHED] * count
     codes, system = np.full(count, -1), _system(question)
@@ -434,7 +434,7 @@ def _every(question: Question, options: Options, deadline: float | None) -> Inve
     statuses: list[Status] = ["solved"] * count
     failures: dict[int, Failure] = {}
     missing = np.array([i for i in range(count) if len(tables[i]) == 0], dtype=np.int64)
-    # The search for one tries harder, and knows the reason if there is none.
+    # The search for one solution tries harder, and explains failures.
     single = _one(question.taken(missing), replace(options, every=False), deadline)
     if alone:
         single = analytic.unmet(single, None)
@@ -469,7 +469,7 @@ def _every(question: Question, options: Options, deadline: float | None) -> Inve
 
 
 def _by_method(question: Question, options: Options, method: StepMethod, deadline: float | None) -> InverseKinematics:
-    """One of the course's methods from each seed, and from no other start."""
+    """Run one of the course's methods from each seed, without other starts."""
     rule = options.rule or Rule(method)
     if options.max_iterations is not None:
         rule = replace(rule, max_iterations=options.max_iterations)
@@ -498,9 +498,9 @@ def _by_method(question: Question, options: Options, method: StepMethod, deadlin
 
 
 def _interpreted(question: Question, options: Options, deadline: float | None) -> InverseKinematics | None:
-    """Solutions of a few targets without the kernels of a search, in milliseconds each.
+    """Solve a few targets without the search kernels, in milliseconds each.
 
-    Only where all of them are solved: what cannot be reached, and whether there are others, the kernels have to tell.
+    Return None unless all are solved: only the kernels can find that a target is unreachable or list all solutions.
     """
     is_plain = options.method == "auto" and options.objective is None and options.elbow_angle is None
     if not is_plain or options.every or options.trace or len(question) > _INTERPRETED_TARGETS:
@@ -534,14 +534,14 @@ def _descent(question: Question, i: int, start: Array, rule: Rule, deadline: flo
 
 
 def _end(descent: Descent) -> Array:
-    """The configuration at which a method stopped; if it was cut off, the best one that it visited."""
+    """Return the last configuration of a method; if it diverged or was cut off, the best one of its trace."""
     if descent.stop_reason in {"diverged", "time_limit", "iterations"}:
         return min(descent.trace, key=lambda iterate: iterate.error).joint_positions
     return descent.joint_positions
 
 
 def _retraced(question: Question, options: Options, found: Found, i: int) -> Path:
-    """The way of the start that converged, or of the seed; none of a solution that no single start led to."""
+    """Retrace the start that converged, or the seed; the trace is empty if no single start led to the solution."""
     if found.solved[i] and found.iterations[i] == 0:
         return Path("converged", [])
     if not found.in_time[i]:

@@ -1,4 +1,4 @@
-"""Which directions of a pose count, and how far a pose is from a target in these."""
+"""The pose directions that count in a task, and the errors of poses in these directions."""
 
 import math
 from dataclasses import dataclass
@@ -16,37 +16,36 @@ from gelenk.model.poses import Poses
 
 @dataclass(frozen=True)
 class Task:
-    """The directions that count: x y z along the base's axes, rx ry rz about the target's axes.
+    """The pose directions that count: x y z along the base's axes, rx ry rz about the target's axes.
 
-    With two of the rotations the third is free: the tip's axis of that name is to point as the target's does
-    (`x y z rx ry` is a position and an approach axis). With one, that component of the rotation vector from target to
-    tip is to vanish.
+    With two rotations, the tip's axis of the missing name must point like the target's (`x y z rx ry` means a position
+    and an approach axis). With one, that component of the rotation vector from target to tip must vanish.
     """
 
     directions: tuple[Direction, ...] = DIRECTIONS
 
     @cached_property
     def weights(self) -> Array:
-        """1 for each direction that counts, else 0; shape (6,)."""
+        """Weights: 1 for each direction that counts, else 0; shape (6,)."""
         return np.array([float(direction in self.directions) for direction in DIRECTIONS])
 
     @cached_property
     def kind(self) -> int:
-        """`FULL`, `AXIS` or `SOME`, as the kernels know it."""
+        """Kind of task in the kernels: `FULL`, `AXIS` or `SOME`."""
         if len(self.directions) == len(DIRECTIONS):
             return FULL
         return AXIS if self._rotations == 2 else SOME
 
     @cached_property
     def axis(self) -> int:
-        """Which axis is to be aligned where two rotations count; else 0."""
+        """Index of the axis to align if two rotations count; else 0."""
         if self._rotations != 2:
             return 0
         return next(i for i in range(3) if DIRECTIONS[3 + i] not in self.directions)
 
     @cached_property
     def positions(self) -> int:
-        """How many directions of the position count."""
+        """Number of position directions that count."""
         return len(self.directions) - self._rotations
 
     @cached_property
@@ -57,7 +56,7 @@ class Task:
         return len(self.directions)
 
     def errors(self, targets: Poses, poses: Poses) -> Array:
-        """Distance [m] and angle [rad] from each pose to its target, of what counts; shape (2, N)."""
+        """Distance [m] and angle [rad] from each pose to its target in the directions that count; shape (2, N)."""
         errors: Array = task_errors(
             self.weights,
             self.kind,
@@ -77,7 +76,7 @@ FULL_POSE = Task()
 def task_errors(
     weights: Array, kind: int, axis: int, goals: Array, goal_Rs: Array, positions: Array, Rs: Array
 ) -> Array:
-    """Distances and angles; shape (2, N). See `Task.errors`."""
+    """Compute distances [m] and angles [rad] for `Task.errors`; shape (2, N)."""
     errors = np.empty((2, len(goals)))
     vectors = vectors_from_rotations(_relative(goal_Rs, Rs))
     for i in range(len(goals)):
@@ -105,7 +104,7 @@ def _relative(Rs: Array, others: Array) -> Array:
 
 @compiled
 def _angle_between(a: Array, b: Array) -> float:
-    """Angle of two unit vectors, right to rounding at 0 and π too."""
+    """Angle between two unit vectors, accurate to rounding even near 0 and π."""
     difference, total = 0.0, 0.0
     for k in range(3):
         difference += (a[k] - b[k]) ** 2

@@ -1,4 +1,4 @@
-"""Why a target has no solution: beyond reach, beyond the limits, at a singularity, or only not found."""
+"""Verdicts on unsolved targets: beyond reach, beyond the limits, at a singularity, or merely not found."""
 
 from dataclasses import dataclass
 from typing import cast
@@ -21,27 +21,27 @@ from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
 
 ENOUGH_STARTS = 100
-"""Starts after which a target that none of them reached counts as unreachable rather than unlucky."""
+"""Number of failed starts after which a target may count as unreachable rather than unlucky."""
 _RELAXED_STARTS = 128
-"""Starts without limits that look for what would be solved without them."""
+"""Number of starts in the search for a solution beyond the limits."""
 _STATIONARY = 1e-3
-"""Share of σ_max‖e‖ below which the free part of Jᵀe shows a nearest configuration."""
+"""Share of σ_max‖e‖ below which Jᵀe, over the free joints, marks a minimum of the error."""
 _LOST = 1e-3
-"""Share of σ_max below which a direction counts as one that the tip cannot follow."""
+"""Share of σ_max below which the tip counts as unable to follow a direction."""
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """The problem: targets for a chain, and what counts as reaching them.
+    """A problem: targets for a chain, and the conditions for reaching them.
 
     Attributes:
         robot: The robot.
         chain: Base and tip.
-        targets: T_base_tip wanted; N.
-        seeds: One for all or one each; shape (1 or N, n).
+        targets: Desired T_base_tip; N of them.
+        seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether solutions are to be within the limits.
+        respect_limits: Whether solutions must be within the joint limits.
     """
 
     robot: Robot
@@ -56,39 +56,39 @@ class Question:
         return len(self.targets)
 
     def seed(self, i: int) -> Array:
-        """The seed of one target; shape (n,)."""
+        """Return the seed of one target; shape (n,)."""
         return cast(Array, self.seeds[i if len(self.seeds) > 1 else 0])
 
     def target(self, i: int) -> Poses:
-        """One of the targets."""
+        """Return one of the targets, as poses of length 1."""
         return self.part(slice(i, i + 1))[0]
 
     @property
     def reach(self) -> Reach | None:
-        """The reach that distance alone allows."""
+        """The bounds on reach by distance alone; None if there are none."""
         return reach_of(self.chain, self.task, self.respect_limits)
 
     def too_far(self) -> Flags:
-        """Which targets are beyond reach by distance alone; shape (N,)."""
+        """Flag the targets beyond reach by distance alone; shape (N,)."""
         reach = self.reach
         if reach is None:
             return np.zeros(len(self), dtype=bool)
-        # What the orientation may be off moves the wrist; and sums of lengths round.
+        # The orientation tolerance lets the wrist move, and the sums of lengths are rounded.
         room = self.tolerances[0] + self.tolerances[1] * float(np.linalg.norm(reach.offset)) + 1e-9
         return reach.excess(self.targets) > room
 
     def part(self, rows: Flags | Indices | slice) -> tuple[Poses, Array]:
-        """Some of the targets, with their seeds."""
+        """Return some of the targets, with their seeds."""
         targets = Poses(self.targets.positions[rows], self.targets.rotations[rows])
         return targets, self.seeds[rows] if len(self.seeds) > 1 else self.seeds
 
     def taken(self, rows: Indices) -> "Question":
-        """The question for some of the targets only."""
+        """Return the question for some of the targets only."""
         targets, seeds = self.part(rows)
         return Question(self.robot, self.chain, targets, seeds, self.task, self.tolerances, self.respect_limits)
 
     def wound(self, qs: Array) -> Array:
-        """Configurations, one a target, turned by full turns into the limits and near to the seeds."""
+        """Turn configurations, one per target, by full turns into the limits and towards the seeds; shape (N, n)."""
         lower, upper = limits_of(self.chain, self.respect_limits)
         rows = [wound_near(self.chain, q[None], self.seed(i), lower, upper)[0] for i, q in enumerate(qs)]
         return np.array(rows).reshape(qs.shape)
@@ -106,18 +106,18 @@ def explain(
     tried: bool,
     late: bool,
 ) -> tuple[Status, Failure]:
-    """The verdict on a target that a search of many starts has not solved.
+    """Return the verdict on a target that a search from many starts has not solved.
 
     Args:
-        question: The targets.
-        i: Which of them.
-        nearest: The nearest configuration that was found; shape (n,).
-        errors: Its distance [m] and angle [rad].
+        question: The problem.
+        i: Index of the target.
+        nearest: Nearest configuration found; shape (n,), [rad or m].
+        errors: Its distance [m] and angle [rad] from the target.
         too_far: Whether the target is beyond reach by distance alone.
-        beyond_limits: What would solve it without limits; shape (n,).
-        budget: Iterations that the search was given.
+        beyond_limits: A solution beyond the limits, if one was found; shape (n,), [rad or m].
+        budget: Iteration budget of the search.
         tried: Whether there was time for a search.
-        late: Whether time has run out by now, and is not to be spent on further reasons.
+        late: Whether time has run out, so that no further reason is sought.
     """
     if not tried:
         return "not_converged", Failure("the time limit ended the call before this target's turn", nearest, *errors)
@@ -166,14 +166,14 @@ def explain(
 def verdict_on_path(
     question: Question, i: int, end: Array, errors: tuple[float, float], descent: Descent | None, *, too_far: bool
 ) -> tuple[Status, Failure]:
-    """The verdict on a target that one method from one start has not solved.
+    """Return the verdict on a target that one method from one start has not solved.
 
     Args:
-        question: The targets.
-        i: Which of them.
-        end: Where the method stopped, within a full turn of the limits; shape (n,).
-        errors: Its distance [m] and angle [rad].
-        descent: The way there; None if there was no time for it.
+        question: The problem.
+        i: Index of the target.
+        end: Last configuration, turned by full turns towards the limits and the seed; shape (n,), [rad or m].
+        errors: Its distance [m] and angle [rad] from the target.
+        descent: The iteration that led there; None if there was no time for it.
         too_far: Whether the target is beyond reach by distance alone.
     """
     if descent is None:
@@ -215,9 +215,9 @@ def verdict_on_path(
 
 
 def unserved_directions(question: Question, i: int, q: Array) -> Array:
-    """Unit twists in the base that the tip cannot follow at a configuration, of those that count; shape (k, 6).
+    """Unit twists in the base that count but that the tip cannot follow at a configuration; shape (k, 6).
 
-    The left singular vectors of J whose singular values vanish; joints held at a limit do not help.
+    They are the left singular vectors of J for vanishing singular values, without the joints blocked at a limit.
     """
     e, J = _linearised(question, i, q)
     held = blocked(J.T @ e, q, search_bounds(question.chain, question.respect_limits))
@@ -243,7 +243,7 @@ def _at_limits(question: Question, i: int, q: Array) -> Indices:
 
 
 def _is_stationary(question: Question, i: int, q: Array) -> bool:
-    """Whether no joint that is free to move reduces the error."""
+    """Check that no motion of the unblocked joints reduces the error to first order."""
     e, J = _linearised(question, i, q)
     slope = J.T @ e
     held = blocked(slope, q, search_bounds(question.chain, question.respect_limits))
@@ -252,7 +252,7 @@ def _is_stationary(question: Question, i: int, q: Array) -> bool:
 
 
 def solved_without_limits(question: Question, i: int, random_seed: int) -> Array | None:
-    """The configuration that solves a target and exceeds the limits least, if one is found; shape (n,)."""
+    """Search for solutions without limits and return the one that exceeds them least, if any; shape (n,)."""
     chain = question.chain
     goal = make_goal(
         chain, question.task, *question.tolerances, False, _RELAXED_STARTS * ITERATIONS_PER_START, random_seed
@@ -267,12 +267,12 @@ def solved_without_limits(question: Question, i: int, random_seed: int) -> Array
 
 
 def beyond_limits(chain: Chain, q: Array) -> bool:
-    """Whether a joint is beyond its limits."""
+    """Check whether any joint is beyond its limits."""
     return bool(((q < chain.lower) | (q > chain.upper)).any())
 
 
 def blocking_joints(chain: Chain, q: Array) -> tuple[BlockingJoint, ...]:
-    """The joints that are beyond their limits, and by how much."""
+    """List the joints that are beyond their limits, and by how much."""
     bounds = zip(chain.joint_names, q.tolist(), chain.lower.tolist(), chain.upper.tolist(), strict=True)
     return tuple(
         BlockingJoint(name, value, lower, upper, max(lower - value, value - upper))
@@ -282,7 +282,7 @@ def blocking_joints(chain: Chain, q: Array) -> tuple[BlockingJoint, ...]:
 
 
 def refused(q: Array, position_error: float, orientation_error: float) -> Failure:
-    """Why a configuration that was found is not sent as a solution."""
+    """Return the failure for a configuration that Pinocchio does not confirm as a solution."""
     reason = "what was found misses the tolerances when it is recomputed: they are near rounding, allow more"
     return Failure(reason, q, float(position_error), float(orientation_error))
 
@@ -293,7 +293,7 @@ def _excess_text(joint: BlockingJoint) -> str:
 
 
 def _far(task: Task, errors: tuple[float, float]) -> str:
-    """Errors in words, of what counts."""
+    """Format the errors that count in words."""
     parts = []
     if {"x", "y", "z"} & set(task.directions):
         parts.append(f"{errors[0]:.3g} m")

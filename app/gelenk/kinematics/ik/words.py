@@ -1,4 +1,4 @@
-"""The terms of requests and answers of inverse kinematics, without the code that computes it."""
+"""Names used in requests and answers of inverse kinematics, importable without the solver code."""
 
 from typing import Literal, TypeAlias, get_args
 
