@@ -1,4 +1,4 @@
-"""The pool for code that is not a coroutine: part of a request runs elsewhere while a thread waits for it."""
+"""Access to the worker pool for code outside coroutines: a thread waits while a worker runs part of its request."""
 
 import asyncio
 import threading
@@ -14,11 +14,11 @@ _Result = TypeVar("_Result")
 
 
 class BlockingPoolClient:
-    """Has functions run by the pool on behalf of one request; to be made on the event loop, and ended there.
+    """Runs functions in the worker pool for one request; create it and end it on the event loop.
 
     Args:
-        pool: Who runs them.
-        client: Whose request it is.
+        pool: Worker pool that runs them.
+        client: Client that sent the request.
     """
 
     def __init__(self, pool: WorkerPool, client: str = "") -> None:
@@ -28,17 +28,17 @@ class BlockingPoolClient:
         self._is_over = False
 
     def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
-        """The function's result; for one thread at a time, which is not the event loop's.
+        """Run a function in a worker and return its result. Call it from one thread at a time, not the event loop's.
 
         Args:
-            function: Of a module, with an argument and a result that can be sent to another process.
-            argument: What it is called with.
-            seconds: How long the caller waits, for its turn and for the result.
+            function: Function of a module, with an argument and a result that can be sent to another process.
+            argument: Argument of the function.
+            seconds: Longest wait for a worker and the result together, [s].
 
         Raises:
-            TimeoutError: It takes longer.
-            ChildProcessError: Its process died, or the result is no longer needed.
-            KinematicsError: As `WorkerPool.run` where the pool takes no more calls.
+            TimeoutError: The result takes longer.
+            ChildProcessError: The worker died, or the result is no longer needed.
+            KinematicsError: The pool accepts no more calls, as for `WorkerPool.run`.
             Exception: Whatever the function raises.
         """
 
@@ -60,7 +60,7 @@ class BlockingPoolClient:
             raise ChildProcessError("the client no longer waits") from error
 
     def end(self) -> None:
-        """Break off what is under way; later calls are refused."""
+        """Cancel the current call, and refuse later ones."""
         with self._lock:
             self._is_over = True
             if self._under_way is not None:

@@ -1,31 +1,31 @@
-"""How many bytes of request bodies a process holds at a time."""
+"""Limit on the bytes of request bodies that a process holds at a time."""
 
 from gelenk.model.errors import NoRoomForBody
 
 SMALL = 64 * 1024
-"""A smaller body is not counted: connections are, and the server holds as much of each anyway."""
+"""Smaller bodies are not counted: connections are limited, and the server buffers as much for each anyway."""
 
 
 class Bodies:
-    """The large bodies that have arrived or are arriving, until their requests are answered.
+    """Counts the bytes of large bodies, from their arrival until their requests are answered.
 
-    Received bytes count, not announced ones: a client that announces much and sends nothing takes no room from others.
+    Received bytes count, not announced ones: a client that announces many and sends none takes no room from others.
 
     Args:
-        allowed: Bytes of all of them.
+        allowed: Maximum number of bytes over all bodies.
 
     Attributes:
-        held: Bytes that are held now.
+        held: Bytes held now.
     """
 
     def __init__(self, allowed: int) -> None:
         self._allowed, self.held = allowed, 0
 
     def check_room(self, count: int) -> None:
-        """See whether there is room for so many bytes more.
+        """Check that there is room for `count` more bytes.
 
         Raises:
-            NoRoomForBody: There is none.
+            NoRoomForBody: There is not enough room.
         """
         if self.held + count > self._allowed:
             raise NoRoomForBody(self._allowed)

@@ -1,4 +1,4 @@
-"""What a process that answers requests has at hand, and what that is set up from."""
+"""Robots and limits that a process needs to answer requests, and the settings they come from."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,11 +9,11 @@ from gelenk.store.library import Library, Quota
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What a process that answers requests has at hand.
+    """What a process needs to answer requests.
 
     Attributes:
         library: All robots.
-        limits: What an answer may take.
+        limits: Limits on the work for an answer.
     """
 
     library: Library
@@ -22,13 +22,13 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class ContextSetup:
-    """What answers depend on beside the request; it is sent along with each task.
+    """Settings that answers depend on besides the request; sent along with each task.
 
     Attributes:
         catalogue: Folder of the robots that come with the project.
-        uploads: Folder of all others.
-        limits: What an answer may take.
-        quota: What one client may keep.
+        uploads: Folder of all other robots.
+        limits: Limits on the work for an answer.
+        quota: What one client may store.
     """
 
     catalogue: Path
@@ -37,9 +37,9 @@ class ContextSetup:
     quota: Quota = field(default_factory=Quota)
 
     def library(self) -> Library:
-        """All robots."""
+        """Open the library of all robots."""
         return Library(self.catalogue, self.uploads, self.quota)
 
     def context(self) -> Context:
-        """What a process needs to answer with."""
+        """Set up what a process needs to answer requests."""
         return Context(self.library(), self.limits)

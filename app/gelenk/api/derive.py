@@ -1,4 +1,4 @@
-"""The worked solution of a table: formulas from the pool, numbers from here."""
+"""Handler of the worked solution of a DH table: workers derive the formulas, this process computes the numbers."""
 
 import time
 from concurrent.futures import Executor
@@ -23,13 +23,13 @@ from gelenk.model.errors import InvalidField
 from gelenk.pool.pool import WorkerPool
 
 SECONDS = 8.0
-"""Time for the symbolic part from the request's arrival; what is not done by then stays numeric."""
+"""Time limit of the symbolic part, from the request's arrival, [s]; what is not done by then stays numeric."""
 _AT_ONCE = 2
-"""Requests that are worked on in threads of this process at a time, while the pool writes their formulas."""
+"""Maximum number of requests handled in threads of this process at a time, while the pool derives their formulas."""
 
 
 def derive_handler(pool: WorkerPool, executor: Executor) -> Handler:
-    """What answers `ENDPOINT`: a thread of this process, with formulas from workers."""
+    """Return the handler of the derive endpoint: a thread of this process answers, with formulas from workers."""
     places = Places(_AT_ONCE)
 
     async def handle(request: BoundedRequest) -> Response:

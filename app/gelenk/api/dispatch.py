@@ -1,7 +1,7 @@
-"""Routes and answers of all operations, made of the table of endpoints.
+"""Routes and handlers of all operations, built from the table of endpoints.
 
-A request is answered on the event loop where that is fast, else by a worker, or by a job. What is sent to a worker is
-the endpoint's name with the request as it came.
+The event loop answers fast requests itself; a worker or a job answers the others. A worker receives the endpoint's
+name and the request as it arrived.
 """
 
 import asyncio
@@ -59,33 +59,33 @@ _PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
 
 
 def answer(context: Context, task_request: TaskRequest) -> Response:
-    """The answer to any request, in a worker, however long it takes."""
+    """Answer any request, in a worker, however long it takes."""
     found = operation(task_request.endpoint)
     robot, call = _robot_and_call(context.library, found.endpoint, task_request)
     return _answered(found.endpoint, call, found.run(robot, call, context.limits), task_request.wanted)
 
 
 def plan_job(context: Context, task_request: TaskRequest) -> Response:
-    """The files that a job is computed from, packed into one; the request is checked."""
+    """Check the request for a job, and return the files that the job is computed from, packed into one."""
     robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
     return Response(LONG_WORK[task_request.endpoint].planned(cast(LoadedRobot, robot), call, context.limits))
 
 
 def find(context: Context, task_request: TaskRequest) -> Response:
-    """What has to be known about a robot before requests of this kind are fast."""
+    """Find what has to be known about a robot before requests of this kind are fast, and return it pickled."""
     warm_up = operation(task_request.endpoint).warm_up
     robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
     return Response(b"" if warm_up is None else pickle.dumps(warm_up.find(cast(LoadedRobot, robot), call)))
 
 
 def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
-    """What answers the requests of an endpoint.
+    """Return the handler of an endpoint's requests.
 
     Args:
         endpoint: The endpoint.
         pool_client: Sends requests to workers.
         runner: Runs jobs.
-        limits: What an answer may take.
+        limits: Limits on the work for an answer.
     """
     offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
     can_be_job = isinstance(endpoint, RobotEndpoint) and bool(endpoint.job)
@@ -122,7 +122,7 @@ async def _on_the_loop(
     limits: Limits,
     task_request: Callable[[], TaskRequest],
 ) -> Outcome | None:
-    """The outcome where that is fast; what it needs to know of the robot is found out first."""
+    """Compute the outcome here if that is fast, else return None; a worker first finds what this needs of the robot."""
     if not isinstance(found.endpoint, RobotEndpoint):
         return found.run(None, call, limits)
     robot = await pool_client.resident(request, request.path_params["robot"])
@@ -134,7 +134,7 @@ async def _on_the_loop(
 
 
 def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:
-    """The route of an endpoint: it documents the operation and refuses other methods."""
+    """Return the route of an endpoint: it documents the operation and refuses other methods."""
 
     def endpoint_of_robot(robot: str, call: Any) -> Any: ...
 
@@ -189,7 +189,7 @@ def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
 
 
 def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
-    """Media types of the answer, the default one first."""
+    """Return the media types of the answer, the default first."""
     arrays = (NPY, *((CSV,) if endpoint.table else ())) if isinstance(endpoint, RobotEndpoint) else ()
     return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
 
@@ -197,7 +197,7 @@ def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
 def _robot_and_call(
     library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
 ) -> tuple[LoadedRobot | None, Any]:
-    """The robot that a path or a request names, and the request."""
+    """Return the robot that the path or the request names, and the parsed request."""
     robot = library.get(task_request.robot) if task_request.robot else None
     call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
     if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
@@ -220,7 +220,7 @@ def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) ->
 
 
 def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted: str) -> Response:
-    """The answer; what the metrics count of it is left behind."""
+    """Build the response, and set what the metrics count of it."""
     if isinstance(endpoint, RobotEndpoint):
         batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
         REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))

@@ -1,7 +1,7 @@
 """The documentation pages, from files on this machine alone: they work without a network.
 
-The bundles of Swagger UI and ReDoc come with the package fastapi-offline. A strict content security policy keeps
-the browser from loading anything from elsewhere, whatever the bundles would like.
+The package fastapi-offline provides the bundles of Swagger UI and ReDoc. A strict content security policy keeps the
+browser from loading anything from elsewhere.
 """
 
 from pathlib import Path
@@ -36,7 +36,7 @@ _PAGE = """<!doctype html>
 
 
 def install(app: FastAPI) -> None:
-    """Serve `/docs` (to try calls out) and `/redoc` (to read). Their links are relative, so any root path will do."""
+    """Serve `/docs` (to try calls) and `/redoc` (to read). Their links are relative, so any root path works."""
     app.mount("/documentation/bundles", StaticFiles(directory=_BUNDLES))
     app.mount("/documentation/own", StaticFiles(directory=_OWN))
     style = '<link rel="stylesheet" href="documentation/bundles/swagger-ui.css">'

@@ -1,4 +1,4 @@
-"""Inverse kinematics as a job: some targets a part, each answered as if it were the only one."""
+"""Inverse kinematics as a job: several targets per part, each solved as if it were the only one."""
 
 from collections.abc import Iterator
 from functools import lru_cache
@@ -31,20 +31,20 @@ from gelenk.store.records import LoadedRobot
 _CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
 _BOUNDS = Bounds(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
 _PART, _PART_OF_MANY = 4096, 128
-"""Targets of a part: of one solution each by search or closed form, and of what takes longer."""
+"""Targets per part: of quick calls (one solution each, no objective, not stepwise), and of all others."""
 
 _TRIED, _BYTES_A_NUMBER = 64, 100
-"""Targets that tell how much room the others take, where this many bytes for each number would be too many."""
+"""Targets solved to estimate the size of all results; done only if this many bytes per number are too many."""
 _STAGE = "targets"
 _SOLVED = 0.95
-"""Progress when nothing is missing but to write it down."""
+"""Progress when only the files are left to write."""
 
 _Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
-"""The robot, the call, the targets as rows of 12, where to start."""
+"""The robot, the call, the targets (rows of 12: position, rotation matrix), the seeds."""
 
 
 def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes]:
-    """The files of a checked call; targets and seeds are arrays from here on."""
+    """Check a call and return its files; targets and seeds are arrays from here on."""
     if call.time_limit is not None:
         raise InvalidField(
             "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
@@ -60,10 +60,10 @@ def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[
 def _check_room(
     most_bytes: int, loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array]
 ) -> None:
-    """Refuse targets whose parts would take more room than there is, as far as some of them show it.
+    """Refuse a call whose results would take more than `most_bytes`, as estimated from some of its targets.
 
     Raises:
-        InvalidField: They would; it says how many targets there is room for.
+        InvalidField: The results are too large; the message says how many targets there is room for.
     """
     chain, targets, _ = question
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
@@ -73,7 +73,7 @@ def _check_room(
     if whole <= most_bytes:
         return
     room = int(0.9 * len(targets) * most_bytes / whole)
-    # What is offered is tried in its turn: the first targets may have more solutions than the others.
+    # Check each smaller number too: the first targets may have more solutions than the others.
     while room > 1 and _bytes_each(loaded, call, question, room) * room > most_bytes:
         room = int(0.9 * room)
     raise InvalidField(
@@ -84,7 +84,7 @@ def _check_room(
 
 
 def _bytes_each(loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array], count: int) -> float:
-    """What the answer to one of the first `count` targets takes, in the mean over some of them."""
+    """Return the mean size, in bytes, of the result of one of the first `count` targets, from some of them."""
     chain, targets, seeds = question
     some = np.unique(np.linspace(0, count - 1, _TRIED).astype(np.int64))
     few = Poses(targets.positions[some], targets.rotations[some])
@@ -99,7 +99,7 @@ def _npy(array: Array) -> bytes:
 
 
 def _work(_: Limits, folder: Path) -> Work:
-    """What does the job, by the folder of its request."""
+    """Return the function that computes the job whose request is in `folder`."""
     text, content = robot_text(folder), read_plain(folder / _CALL)
     call = read_json(InverseRequest, content)
     # Read from disk as they are needed: a million targets are a hundred megabytes.
@@ -136,7 +136,7 @@ def _work(_: Limits, folder: Path) -> Work:
 
 
 def solved_part(job: _Part) -> bytes:
-    """Results of some targets, in a separate process: as JSON, as rows of a table, and which are unsolved."""
+    """Solve some targets, in a separate process: results as JSON, rows of a table, and indices of unsolved targets."""
     text, content, rows, seeds = job
     robot, call = robot_of(text), _call(content)
     chain = robot.chain(call.base_frame, call.tip_frame)
@@ -161,7 +161,7 @@ def _call(content: bytes) -> InverseRequest:
 
 
 def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None:
-    """The answer, its results part by part in the place of the empty list that it ends with."""
+    """Write the answer; the results, part by part, replace the empty list at its end."""
     target.write(frame[:-2])
     separator = b""
     for part in parts:
@@ -173,7 +173,7 @@ def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None
 
 
 def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]) -> None:
-    """All rows, part by part."""
+    """Write all rows, part by part."""
     np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
     for part in parts:
         target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())

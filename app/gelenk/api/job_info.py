@@ -1,4 +1,4 @@
-"""A job as it travels."""
+"""Jobs as JSON and as responses."""
 
 from datetime import UTC, datetime
 from typing import Any
@@ -14,12 +14,12 @@ NO_STORE = {"Cache-Control": "no-store"}
 
 
 def job_response(job: Job, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    """A job, as an answer."""
+    """Return a job as a response."""
     return Response(orjson.dumps(job_content(job)), status, {**NO_STORE, **(headers or {})}, JSON)
 
 
 def job_content(job: Job) -> dict[str, Any]:
-    """A job, for the wire."""
+    """Return a job as JSON content."""
     failure = job.failure
     content: dict[str, Any] = {
         "id": job.id,

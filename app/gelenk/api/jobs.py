@@ -1,4 +1,4 @@
-"""Jobs: how far they are, what came out, and the end of them."""
+"""Endpoints of existing jobs: state, progress events, result, cancelling and removal."""
 
 import asyncio
 from collections.abc import AsyncIterator, Mapping
@@ -28,13 +28,13 @@ from gelenk.store.folders import open_plain
 
 EVENT_STREAM = "text/event-stream"
 LOOK_SECONDS = 0.2
-"""How often a stream looks how far its job is."""
+"""Interval at which an event stream checks its job, [s]."""
 HEARTBEAT_SECONDS = 15.0
-"""After how long without news a stream sends a comment, so that nothing on the way takes it for dead."""
+"""Time without news after which a stream sends a comment, so that no proxy takes it for dead, [s]."""
 
 _PIECE = 256 * 1024
 EXTRA: dict[str, tuple[str, ...]] = {KIND: (SVG, PNG), trajectory_job.KIND: (CSV, SVG, PNG)}
-"""Media types that a kind of job has a result in beside JSON and npy."""
+"""Media types, besides JSON and npy, in which a kind of job has a result."""
 _PICTURES: dict[str, Literal["svg", "png"]] = {SVG: "svg", PNG: "png"}
 
 _EVENT = {
@@ -71,7 +71,7 @@ LastEvent = Annotated[
 
 
 def jobs_router(runner: Runner) -> APIRouter:
-    """The operations on existing jobs."""
+    """Return the router of the operations on existing jobs."""
     router = APIRouter(prefix="/v1/jobs", tags=["Jobs"])
 
     @router.get(
@@ -136,10 +136,10 @@ def jobs_router(runner: Runner) -> APIRouter:
         },
     )
     def get_result(job: JobPath, request: Request) -> Response:
-        """A summary as JSON, an array as npy, or a picture of a workspace, by `Accept`; or the operation's answer.
+        """Returns a workspace's summary (JSON), array (npy) or picture, as `Accept` says, or the answer of another job.
 
-        It is byte for byte what the operation answers directly. The header `Gelenk-Robot-Digest` has the
-        `robot_digest` of the job. A failed job answers with its problem.
+        That answer is byte for byte what the operation returns directly. The header `Gelenk-Robot-Digest` has the
+        `robot_digest` of the job. A failed job returns its problem.
 
         A job given up because the service ended every time it was started returns 409: submit it again.
         """
@@ -177,12 +177,12 @@ def _event_id(job: Job) -> str:
 
 
 async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIterator[str]:
-    """The events of a job from now on; when its client has left, the server ends the iteration.
+    """Yield the events of a job from now on; when its client has left, the server ends the iteration.
 
     Args:
-        runner: Where the job is kept.
-        job: As it is now.
-        state: Of the connection, which tells when the service is to stop: the stream ends, and a browser asks again.
+        runner: Runner whose store holds the job.
+        job: Present state of the job.
+        state: State of the connection; it says when the service stops: the stream ends, and a browser reconnects.
     """
     told, quiet = "", 0.0
     while True:
@@ -204,7 +204,7 @@ async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIt
 
 
 def _file_response(runner: Runner, job_id: str, media_type: str) -> Response:
-    """A file that a job has left behind, piece by piece: once open, it is there to its end."""
+    """Return a result file of a job in pieces; once open, the file stays readable to its end."""
     path = runner.result(job_id, RESULTS[media_type])
     try:
         stream = open_plain(path)

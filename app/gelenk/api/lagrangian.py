@@ -1,4 +1,4 @@
-"""The equations of motion of a worked solution as they travel."""
+"""The equations of motion of a worked solution as JSON content."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -11,19 +11,19 @@ from gelenk.kinematics.derive.typeset import MatrixText, Text
 
 
 def matrix_content(name: str, matrix: MatrixText | None) -> dict[str, Any]:
-    """A matrix; null in place of one that is too long."""
+    """Return a matrix as JSON content; null in place of one that is too long."""
     if matrix is None:
         return {"name": name, "latex": None, "plain": None}
     return {"name": name, "latex": matrix.latex, "plain": matrix.plain}
 
 
 def formula_content(text: Text) -> dict[str, str]:
-    """A formula in both notations."""
+    """Return a formula in both notations."""
     return {"latex": text.latex, "plain": text.plain}
 
 
 def motion_content(solution: MotionSolution, joint_names: Sequence[str]) -> dict[str, Any]:
-    """The complete answer."""
+    """Return the equations of motion with their numbers and certificates."""
     found = solution.texts
     judged = solution.numeric_certificate
     return {

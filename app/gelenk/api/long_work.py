@@ -27,40 +27,40 @@ from gelenk.store.records import LoadedRobot
 _Request = TypeVar("_Request", bound=Payload)
 
 RESULTS = {JSON: "result.json", NPY: "result.npy", CSV: "result.csv", SVG: "result.svg", PNG: "result.png"}
-"""The file of a result by its media type, of any kind of job."""
+"""File of a result by its media type, for every kind of job."""
 HEADERS = "headers.json"
-"""The file with what the headers of these tell, by media type."""
+"""File with further headers of these results, by media type."""
 
 
 @dataclass(frozen=True, slots=True)
 class LongWork(Generic[_Request]):
-    """How an operation is computed as a job.
+    """Computes an operation as a job.
 
     Attributes:
-        request: Checks a call, and makes the files of it that the job is computed from, beside the robot's.
-        work: Computes the job in the folder of these files.
+        request: Checks a call and returns the files that the job is computed from, besides the robot's.
+        work: Returns the function that computes the job from the folder of these files.
     """
 
     request: Callable[[LoadedRobot, _Request, Limits], dict[str, bytes]]
     work: Callable[[Limits, Path], Work]
 
     def planned(self, robot: LoadedRobot, call: _Request, limits: Limits) -> bytes:
-        """All files of the request, packed into one."""
+        """Check the call and return all files of its request, packed into one."""
         files = {**robot_files(robot.record.name, robot.robot, robot.urdf), **self.request(robot, call, limits)}
         return packed(**{name: as_bytes(content) for name, content in files.items()})
 
 
 def as_bytes(content: bytes) -> NDArray[np.uint8]:
-    """Bytes as an array, to be packed with others."""
+    """Return bytes as an array, to be packed with others."""
     return np.frombuffer(content, np.uint8)
 
 
 async def submitted(runner: Runner, kind: str, request: Request, planned: bytes) -> Response:
-    """The answer to a call whose job has been planned.
+    """Submit a planned job and return the response, 202 with the job's address.
 
     Raises:
-        TooManyJobs: Too many wait.
-        StorageFailed: It cannot be kept.
+        TooManyJobs: Too many jobs are waiting.
+        StorageFailed: The job cannot be stored.
     """
 
     def submit() -> Response:
@@ -73,12 +73,12 @@ async def submitted(runner: Runner, kind: str, request: Request, planned: bytes)
 
 
 def headers_file(headers: dict[str, dict[str, str]]) -> bytes:
-    """What the headers of a result tell, by media type."""
+    """Return the content of the file of headers, by media type."""
     return orjson.dumps(headers)
 
 
 def headers_of(path: Path, media_type: str) -> dict[str, str]:
-    """The headers of a result."""
+    """Read the headers of a result; empty if it has none."""
     try:
         told: dict[str, dict[str, str]] = orjson.loads(path.read_bytes())
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""Mesh files as answers: as they are kept, or decompressed for clients that do not take gzip."""
+"""Mesh files as responses: compressed as stored, or decompressed for clients that do not accept gzip."""
 
 import gzip
 import os
@@ -13,7 +13,7 @@ from gelenk.model.errors import UnknownMesh
 from gelenk.store.folders import open_plain
 
 SANDBOXED = {"Content-Security-Policy": "default-src 'none'; sandbox", "X-Content-Type-Options": "nosniff"}
-"""Files that came from outside: shown by no browser as a page of ours."""
+"""Headers of files from clients: no browser shows them as a page of the service."""
 MEDIA_TYPES = {
     ".stl": "model/stl",
     ".obj": "model/obj",
@@ -27,18 +27,18 @@ _PIECE = 256 * 1024
 
 
 def mesh_response(file: Path, path: str, accepted: str) -> Response:
-    """Send a mesh, a material or a picture, piece by piece.
+    """Return a mesh, a material or a picture as a response in pieces.
 
     Args:
-        file: On disk, with `.gz` at the end of its name where it is compressed.
-        path: As the client named it.
+        file: File on disk, with `.gz` at the end of its name if it is compressed.
+        path: Path that the client requested.
         accepted: The request's `Accept-Encoding`.
 
     Raises:
-        UnknownMesh: It has been removed.
+        UnknownMesh: The file has been removed.
     """
     try:
-        kept = open_plain(file)  # once open, it is there to its end, whoever replaces the robot meanwhile
+        kept = open_plain(file)  # once open, it stays readable to its end, even if the robot is replaced
     except FileNotFoundError:
         raise UnknownMesh(path) from None
     headers = {**SANDBOXED, "Content-Length": str(os.fstat(kept.fileno()).st_size)}

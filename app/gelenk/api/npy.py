@@ -1,4 +1,4 @@
-"""NumPy's npy, in and out, strictly: what is taken is what NumPy's own reader takes, and finite work to read."""
+"""NumPy's npy format, written and strictly read: only what NumPy's own reader accepts, with bounded work."""
 
 import math
 import re
@@ -20,7 +20,7 @@ _ORDERS = {"True", "False"}
 
 
 def _pattern(pattern: str) -> re.Pattern[str]:
-    """A part of an npy header as NumPy writes or reads it, in which B means blanks."""
+    """Compile the pattern of a part of an npy header as NumPy writes or reads it; B stands for blanks."""
     return re.compile(pattern.replace("B", r"[ \t\r\n\f]*"), re.ASCII)
 
 
@@ -33,19 +33,19 @@ _NUMBERS = re.compile(r"""['"]([<>=|]?(?:f[248]|[iu][1248]))['"]""", re.ASCII)
 
 
 def npy_response(array: Array, headers: dict[str, str]) -> Response:
-    """An array as npy."""
+    """Return an array as an npy response."""
     buffer = BytesIO()
     np.lib.format.write_array(buffer, np.ascontiguousarray(array), allow_pickle=False)
     return Response(buffer.getvalue(), headers=headers, media_type=NPY)
 
 
 def read_npy(body: bytes) -> Array:
-    """The array in an npy body, as native float64.
+    """Return the array in an npy body, as native float64.
 
-    The header is checked against the bytes that are there before anything is allocated, and no object is unpickled.
+    The header is checked against the actual bytes before anything is allocated, and no object is unpickled.
 
     Raises:
-        InvalidArray: Not npy, not numbers, or not as many bytes as its header says.
+        InvalidArray: The body is not npy, does not hold numbers, or is not as long as its header says.
     """
     header, start = _header(body)
     kind = _NUMBERS.fullmatch(header["descr"])
@@ -62,16 +62,16 @@ def read_npy(body: bytes) -> Array:
     if len(body) - start != count * dtype.itemsize:
         raise InvalidArray(f"the array of shape {shape} needs {count * dtype.itemsize} bytes, no more, no fewer")
     flat = np.frombuffer(body, dtype, count, start)
-    # A copy, because an array over received bytes is read-only: for the kernels that would be a type of its own.
+    # A copy, because an array over received bytes is read-only: kernels would be compiled for that type as well.
     order: Literal["C", "F"] = "F" if header["fortran_order"] == "True" else "C"
-    with np.errstate(invalid="ignore"):  # NumPy warns of a signalling NaN; no field takes any
+    with np.errstate(invalid="ignore"):  # NumPy warns of a signalling NaN; no field accepts any
         return np.array(flat.reshape(shape, order=order), dtype=np.float64, order="C")
 
 
 def _header(body: bytes) -> tuple[dict[str, str], int]:
-    """What the header of an npy body says, word for word, and where the data start.
+    """Return the entries of an npy header, word for word, and the offset of the data.
 
-    NumPy has a header read as Python, whose compiler then writes its warnings about a stranger's text to our log.
+    NumPy parses a header as Python, whose compiler would write warnings about a client's text to the service's log.
     """
     magic, version = body[:6], tuple(body[6:8])
     if magic != b"\x93NUMPY" or len(body) < 12:

@@ -1,4 +1,4 @@
-"""What the schema says beside what FastAPI reads from the signatures: problems, npy bodies, examples."""
+"""Parts of the OpenAPI document that FastAPI cannot read from signatures: problems, npy bodies, examples."""
 
 from collections.abc import Sequence
 from copy import deepcopy
@@ -41,7 +41,7 @@ JOB_BEGUN: dict[int | str, dict[str, Any]] = {
 }
 
 BY_THE_CREW = (429, 500, 503, 504)
-"""Statuses of whatever a process of the pool may have to answer."""
+"""Statuses that any operation run by the worker pool may return."""
 
 _NAMED: dict[str, tuple[dict[str, Any], str]] = {
     "Configuration": (
@@ -57,7 +57,7 @@ _PROBLEM = {"$ref": _COMPONENT.format(model="Problem")}
 
 
 def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """Answers of these statuses, as problems."""
+    """Return OpenAPI responses of these statuses, as problems."""
     return {
         status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": _PROBLEM}}}
         for status in statuses
@@ -65,27 +65,26 @@ def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 
 def json_example(value: dict[str, Any]) -> dict[str, Any]:
-    """A body that runs as it stands, as the JSON content of a request."""
+    """Return the JSON content of a request, with an example body that works unchanged."""
     return {"application/json": {"example": value}}
 
 
 def npy_content(description: str) -> dict[str, Any]:
-    """An array, as a further media type of a body."""
+    """Return an array as a further media type of a body."""
     return {NPY: {"schema": {"type": "string", "format": "binary", "description": description}}}
 
 
 def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
-    """An array, as a further media type of a request, and what the query may have beside it.
+    """Return an array as a further media type of a request, and the fields that the query may have beside it.
 
-    The fields of the query are no parameters of the operation, as OpenAPI has none for a single media type:
-    they would be offered beside a JSON body too, where each is refused because it is a field of the body. What is made
-    of the schema shows what that would mean: openapi-python-client makes every parameter an argument of the one
-    function for both bodies, next to a body with the same fields, and openapi-typescript likewise. So they are a schema
-    by name, of which both make a type, and to which `x-query` leads.
+    OpenAPI cannot limit query parameters to one media type: they would be offered beside a JSON body too, which
+    refuses them because they are fields of the body. Generators (openapi-python-client, openapi-typescript) would make
+    each an argument of the function for both bodies. So the fields form a named schema, of which both generators make
+    a type, and `x-query` refers to it.
 
     Args:
-        description: What the array holds.
-        options: The fields of the query.
+        description: Content of the array.
+        options: Fields of the query.
     """
     names = ", ".join(f"`{name}`" for name in options.model_fields)
     told = (
@@ -97,36 +96,36 @@ def npy_body(description: str, options: type[BaseModel]) -> dict[str, Any]:
 
 
 def csv_content(description: str) -> dict[str, Any]:
-    """A table, as a further media type of an answer; none where there is no description of what it holds."""
+    """Return a table as a further media type of a response; nothing if the description is empty."""
     return {CSV: {"schema": {"type": "string", "description": description}}} if description else {}
 
 
 def picture_content(description: str) -> dict[str, Any]:
-    """Images, as further media types of an answer; none where there is no description of what they show."""
+    """Return images as further media types of a response; nothing if the description is empty."""
     if not description:
         return {}
     return {kind: {"schema": {"type": "string", "format": "binary", "description": description}} for kind in (SVG, PNG)}
 
 
 def without_null(schema: dict[str, Any]) -> None:
-    """Take null out of what a parameter or a field of a form may be: neither can express it."""
+    """Remove null from the schema of a parameter or of a form's field: neither can express it."""
     choices = schema.get("anyOf", [])
     given = [choice for choice in choices if choice != {"type": "null"}]
     if len(given) < len(choices):
         del schema["anyOf"]
         inner = given[0] if len(given) == 1 else {"anyOf": given}
-        schema |= {**inner, **schema}  # what is said of the field itself counts
+        schema |= {**inner, **schema}  # the field's own entries take precedence
         if schema.get("default", 0) is None:
             del schema["default"]
 
 
 def describe(app: FastAPI, has_keys: bool, queries: Sequence[type[BaseModel]] = ()) -> None:
-    """Make the application write its schema once, with problems in the place of FastAPI's own validation error.
+    """Make the application build its OpenAPI document once, with problems instead of FastAPI's validation error.
 
     Args:
         app: The application.
         has_keys: Whether its operations need keys.
-        queries: Parameters of the query beside an array.
+        queries: Query parameters beside an array body.
     """
 
     def openapi() -> dict[str, Any]:
@@ -178,7 +177,7 @@ def _name_what_is_shared(schema: dict[str, Any]) -> None:
 
 
 def _refer(part: Any) -> None:
-    """Put references in the place of what has a name, anywhere inside."""
+    """Replace named schemas by references, anywhere inside."""
     for entry in part.values() if isinstance(part, dict) else part if isinstance(part, list) else ():
         for name, (shared, _) in _NAMED.items():
             if isinstance(entry, dict) and shared.items() <= entry.items():
@@ -189,7 +188,7 @@ def _refer(part: Any) -> None:
 
 
 def _add_refusals(operation: dict[str, Any], security: list[dict[str, list[str]]], has_keys: bool) -> None:
-    """Answers that any operation may give before it runs; where keys are off, none is needed."""
+    """Add the security of an operation, and the refusals that it may give before it runs; keys may be off."""
     statuses = [HTTPStatus.MISDIRECTED_REQUEST, HTTPStatus.FORBIDDEN]
     if security:
         operation["security"] = security if has_keys else [{}, *security]

@@ -1,4 +1,4 @@
-"""Bodies in, answers out: JSON, strictly; and in which of its shapes an answer is wanted."""
+"""Request bodies and responses: strict JSON, CSV, and the choice of a response's media type."""
 
 import json
 import re
@@ -20,12 +20,12 @@ from gelenk.model.errors import TooLarge, quoted
 from gelenk.operations.rows import csv_head, csv_rows
 
 MAX_MEMBERS = 1_000_000
-"""Members of objects in a body: each unknown one would be a validation error of its own."""
+"""Maximum number of object members in a body: each unknown one would be a validation error of its own."""
 
 NO_ARRAY = "what this call asks for does not fit into one array: leave `Accept` out for JSON"
 
 MAX_PARAMETERS = 1000
-"""Parameters in a query: enough for the frames of the largest robot, one by one."""
+"""Maximum number of query parameters: enough for the frames of the largest robot, one by one."""
 
 JSON = "application/json"
 NPY = "application/x-npy"
@@ -34,12 +34,12 @@ SVG = "image/svg+xml"
 PNG = "image/png"
 
 _STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
-"""A string of JSON, and the colon behind it where it is the name of a member.
+"""A JSON string, and the colon after it if it is the name of a member.
 
-One that is cut ends with the bytes: if it were none, each quote in it would be tried as the begin of another.
+A string that is cut ends with the bytes: otherwise each quote in it would be tried as the start of another one.
 """
 _FIRST = 64 * 1024
-"""Bytes of a large body that tell at once whether names come more than once."""
+"""Leading bytes of a large body, checked first for repeated names."""
 
 _WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
 _ANYTHING = frozenset({b"", b"*/*", b"application/json"})
@@ -48,16 +48,16 @@ _Model = TypeVar("_Model", bound=Payload)
 
 
 class BoundedRequest(Request):
-    """A request whose body is never read beyond the limit; on leaving its context it holds no body.
+    """A request whose body is never read beyond the limit; leaving its context returns its bytes to `bodies`.
 
-    It does its own reading of headers and body, both plainer than Starlette's, because every call pays for them.
+    It reads headers and body itself, more simply than Starlette does, because every call pays for that.
 
     Args:
-        scope: As the server has it.
-        receive: What gives the body.
-        send: What takes an answer.
-        max_bytes: Of the body.
-        bodies: Those that the process holds.
+        scope: ASGI scope of the request.
+        receive: Receives the body.
+        send: Sends the response.
+        max_bytes: Maximum size of the body.
+        bodies: Count of the large bodies of this process.
     """
 
     def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int, bodies: Bodies) -> None:
@@ -75,31 +75,31 @@ class BoundedRequest(Request):
 
     @property
     def media_type(self) -> str:
-        """The media type of the body, lower case, without parameters; "" where none is given."""
+        """Media type of the body, in lower case, without parameters; "" if none is given."""
         return self._fields.get(b"content-type", b"").partition(b";")[0].strip().lower().decode("latin-1")
 
     def preferred(self, offered: Sequence[str]) -> str:
-        """The media type in which the caller wants the answer, of those offered; see `preferred_type`."""
+        """Return the media type of the response, among those offered; see `preferred_type`."""
         accept = self._fields.get(b"accept", b"")
-        # What nearly every client sends names none but the first.
+        # What nearly every client sends names no other type than the first.
         return offered[0] if accept in _ANYTHING else preferred_type(accept.decode("latin-1"), offered)
 
     @property
     def length(self) -> int:
-        """Bytes of the body that have come in."""
+        """Number of bytes of the body received so far."""
         return self._count
 
     async def body(self) -> bytes:
-        """The whole body; raises as `pieces` does."""
+        """Return the whole body; raises as `pieces` does."""
         return b"".join(await self.pieces())
 
     async def pieces(self) -> list[bytes]:
-        """The whole body as it comes in.
+        """Return the whole body in the pieces that it arrives in.
 
         Raises:
-            TooLarge: It is larger than allowed, or says so.
-            NoRoomForBody: Other large bodies take all the room there is.
-            ClientDisconnect: The caller has left.
+            TooLarge: The body is larger than allowed, or announces that it is.
+            NoRoomForBody: Other large bodies take all the room.
+            ClientDisconnect: The client has left.
         """
         pieces, more = [], True
         while more:
@@ -108,14 +108,14 @@ class BoundedRequest(Request):
         return pieces
 
     async def stream(self) -> AsyncGenerator[bytes, None]:
-        """The body in pieces; raises as `pieces` does."""
+        """Yield the body in pieces; raises as `pieces` does."""
         more = True
         while more:
             chunk, more = await self._receive_chunk()
             yield chunk
 
     async def _receive_chunk(self) -> tuple[bytes, bool]:
-        """The next piece of the body, and whether there is more."""
+        """Receive the next piece of the body, and whether more follow."""
         if self._count == 0:
             announced = self._fields.get(b"content-length", b"0")
             self._check_size(int(announced) if announced.isdigit() else 0)
@@ -138,13 +138,13 @@ class BoundedRequest(Request):
 
 
 def preferred_type(accept: str, offered: Sequence[str]) -> str:
-    """The media type of an answer by the caller's `Accept` (RFC 9110, 12.5.1).
+    """Return the media type of a response by the caller's `Accept` (RFC 9110, 12.5.1).
 
-    Of equal weights the more specific range wins, then what is offered first. That is also the answer where nothing
-    offered is accepted: an answer that can be read is better than none.
+    Of equal weights the more specific range wins, then the type offered first. That type is also returned if none is
+    accepted: a response that can be read is better than none.
 
     Args:
-        accept: The header.
+        accept: Value of the header.
         offered: Media types, the default one first.
     """
     ranges = [_weighted(part) for part in accept.lower().split(",")[:MAX_PARAMETERS]]
@@ -152,7 +152,7 @@ def preferred_type(accept: str, offered: Sequence[str]) -> str:
     for media_type in offered:
         group = media_type.partition("/")[0] + "/*"
         found = [(name.count("*"), weight) for name, weight in ranges if name in {media_type, group, "*/*"}]
-        # A range of its own settles a type's weight, be it zero, whatever wider ranges say.
+        # A type's own range decides its weight, even zero, whatever wider ranges say.
         stars, weight = min(found, default=(2, 0.0))
         if (weight, -stars) > best_rank and weight > 0.0:
             best, best_rank = media_type, (weight, -stars)
@@ -160,7 +160,7 @@ def preferred_type(accept: str, offered: Sequence[str]) -> str:
 
 
 def _weighted(part: str) -> tuple[str, float]:
-    """A media range of `Accept` and its weight, between 0 and 1; one that cannot be read counts for nothing."""
+    """Return a media range of `Accept` and its weight, from 0 to 1; 0 if the weight cannot be read."""
     name, *parameters = (word.strip() for word in part.split(";"))
     weight = 1.0
     for parameter in parameters:
@@ -170,28 +170,28 @@ def _weighted(part: str) -> tuple[str, float]:
 
 
 def json_response(content: Any, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    """Python objects and NumPy arrays as JSON, numbers at full double precision."""
+    """Return Python objects and NumPy arrays as JSON, numbers at full double precision."""
     body = orjson.dumps(content, option=orjson.OPT_SERIALIZE_NUMPY)
     return Response(body, status, headers, JSON)
 
 
 def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
-    """A table as CSV (RFC 4180): a row of names, then numbers that read back to the last bit.
+    """Return a table as CSV (RFC 4180): a row of names, then numbers that read back exactly.
 
     Args:
-        columns: Names; at least one.
+        columns: Names of the columns; at least one.
         array: Shape (N, columns).
-        headers: Of the answer.
+        headers: Headers of the response.
     """
     body = csv_head(columns) + b"".join(csv_rows(array))
     return Response(body, headers=headers, media_type=f"{CSV}; header=present")
 
 
 def read_json(model: type[_Model], body: bytes) -> _Model:
-    """A payload, checked.
+    """Parse and check a payload.
 
     Raises:
-        InvalidPayload: It is not what the model asks for.
+        InvalidPayload: The body does not match the model.
     """
     if body.count(b":") > MAX_MEMBERS:
         raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
@@ -204,15 +204,15 @@ def read_json(model: type[_Model], body: bytes) -> _Model:
 
 
 def _check_members(body: bytes) -> None:
-    """Refuse an object with two members of the same name: readers of JSON differ in which of them counts.
+    """Refuse an object with two members of the same name: JSON parsers differ in which of them counts.
 
     Args:
-        body: JSON that has been read already.
+        body: JSON that has been parsed already.
 
     Raises:
         InvalidPayload: There is such an object.
     """
-    # Where no two names in the whole body are the same there is nothing to parse once more: so it is with most calls.
+    # If no two names in the whole body are the same, as in most calls, there is no need to parse it again.
     for part in (body[:_FIRST], body) if len(body) > _FIRST else (body,):
         names = [name for name, colon in _STRING.findall(part) if colon]
         if len(set(names)) < len(names) or any(b"\\" in name for name in names):
@@ -231,7 +231,7 @@ def _without_doubles(members: list[tuple[str, Any]]) -> None:
 
 
 def _object(text: str) -> Any:
-    """What JSON in a query says; the text itself, which no object field takes, where it is none."""
+    """Parse JSON in a query; return invalid JSON as text, which no object field accepts."""
     try:
         return orjson.loads(text)
     except ValueError:
@@ -239,11 +239,11 @@ def _object(text: str) -> Any:
 
 
 def read_query(model: type[_Model], query: QueryParams) -> _Model:
-    """A payload from the query string, where the body is an array; a list field takes its key repeatedly.
+    """Read a payload from the query string, for an array body; the key of a list field may be repeated.
 
     Raises:
-        InvalidPayload: It is not what the model asks for.
-        TooLarge: More than `MAX_PARAMETERS`.
+        InvalidPayload: The query does not match the model.
+        TooLarge: There are more than `MAX_PARAMETERS`.
     """
     items = query.multi_items()
     if len(items) > MAX_PARAMETERS:

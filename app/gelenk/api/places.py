@@ -1,4 +1,4 @@
-"""Places that the requests of an event loop share, in turns that go round the clients."""
+"""Places that the requests of an event loop share; clients take turns."""
 
 import asyncio
 from collections.abc import AsyncIterator
@@ -8,10 +8,10 @@ from gelenk.processes.turns import Turns
 
 
 class Places:
-    """A number of places; belongs to one event loop.
+    """A limited number of places; belongs to one event loop.
 
     Args:
-        size: How many; see `Turns` for when there are more.
+        size: Number of places; see `Turns` for when there are more.
     """
 
     def __init__(self, size: int) -> None:
@@ -19,7 +19,7 @@ class Places:
 
     @asynccontextmanager
     async def taken(self, client: str) -> AsyncIterator[None]:
-        """Hold a place, once it is the client's turn."""
+        """Hold a place while the context is open; wait for the client's turn first."""
         turn: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._turns.add(client, turn)
         try:

@@ -1,4 +1,4 @@
-"""From a request to the pool and back: with a deadline, and for as long as the client waits for the answer."""
+"""Sends requests to the worker pool, with a deadline and for as long as the client waits for the response."""
 
 import asyncio
 from collections import Counter
@@ -18,13 +18,13 @@ from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
-"""A larger body is parsed by the pool: the event loop does nothing that takes longer than about 2 ms.
+"""Larger bodies are parsed by the pool: the event loop does nothing that takes longer than about 2 ms.
 
 So it compiles nothing either: while the pool is starting, every request goes to the pool.
 """
 
 PARSED_HERE_BYTES = 512 * 1024
-"""Most of a body that a thread of this process parses: it holds up the event loop."""
+"""Size of the largest body that a thread of this process parses: parsing holds up the event loop."""
 
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
@@ -32,14 +32,14 @@ _Result = TypeVar("_Result")
 
 
 class PoolClient:
-    """Has requests answered by the pool.
+    """Sends requests to the worker pool and returns the responses.
 
     Args:
-        pool: The processes.
-        setup: What they set their contexts up from.
-        library: The robots of this process.
-        seconds: How long a request may wait for its turn, and how long it may then take.
-        share: Requests of one client that may wait or be worked on.
+        pool: Worker pool.
+        setup: Settings for the contexts of the workers.
+        library: Robots of this process.
+        seconds: Longest wait of a request for its turn, and longest time that it may then take, [s].
+        share: Maximum number of requests of one client that wait or run.
     """
 
     def __init__(self, pool: WorkerPool, setup: ContextSetup, library: Library, seconds: float, share: int) -> None:
@@ -48,25 +48,25 @@ class PoolClient:
         self._requests: Counter[str] = Counter()
 
     async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
-        """The answer of a task.
+        """Run a task in a worker and return its response.
 
         Raises:
-            ClientDisconnect: The caller has left; the task is broken off.
-            KinematicsError: As `WorkerPool.run`, and whatever the task raises.
+            ClientDisconnect: The client has left; the task is cancelled.
+            KinematicsError: As for `WorkerPool.run`, and whatever the task raises.
         """
         reply = await self._reply(request, task, task_request)
         REQUEST_COUNTS.set(reply[3])
         return Passed(reply)
 
     async def content(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
-        """The body of a task's answer, for this process; raises as `answer` does."""
+        """Run a task in a worker and return the body of its response; raises as `answer` does."""
         return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """A robot in this process, for quick calls; one from outside has been loaded by the pool before, which lived.
+        """Load a robot into this process, for quick calls; a worker loads an uploaded one first, in case that crashes.
 
         Raises:
-            KinematicsError: As `answer`, and as `Library.get`.
+            KinematicsError: As for `answer`, and as for `Library.get`.
         """
         found = self._library.loaded(name)
         if found is not None:
@@ -91,10 +91,10 @@ class PoolClient:
 
 
 def client_of(request: Request) -> str:
-    """The client of a request: its key, else its address.
+    """Return the client of a request: its key, else its address.
 
-    All requests without a key from this machine belong to one nameless client without a share of its own, because a
-    proxy in front of the service may pass on those of others.
+    All requests without a key from this machine count as one nameless client without a share of its own, because a
+    proxy in front of the service may forward requests of others.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:
@@ -104,17 +104,17 @@ def client_of(request: Request) -> str:
 
 
 def load(context: Context, task_request: TaskRequest) -> Response:
-    """Load a robot, to see that it can be."""
+    """Load a robot, to check that it can be loaded."""
     context.library.get(task_request.robot)
     return Response()
 
 
 async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
-    """The result of some work, which is broken off when the caller leaves.
+    """Return the result of some work, which is cancelled if the client leaves.
 
     Raises:
-        ClientDisconnect: The caller has left.
-        ServiceStopping: The server has cancelled it, which it does when it can wait no longer to shut down.
+        ClientDisconnect: The client has left.
+        ServiceStopping: The server has cancelled the work because it can delay its shutdown no longer.
         Exception: Whatever the work raises.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
@@ -136,7 +136,7 @@ async def _left(receive: Receive) -> None:
 
 
 class Passed(Response):
-    """An answer from the pool, passed on piece by piece as fast as the caller takes it; others get a turn between."""
+    """A response from the pool, sent piece by piece as fast as the client reads; other requests run in between."""
 
     def __init__(self, reply: Reply) -> None:
         self.status_code, self.raw_headers, pieces, _ = reply
@@ -144,11 +144,11 @@ class Passed(Response):
         self._pieces = [memoryview(piece) for piece in pieces] or [memoryview(b"")]
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002
-        """Send it."""
+        """Send the response."""
         await send({"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers})
         pieces = self._pieces[::-1]
         self._pieces.clear()
         while pieces:
             await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})
-            if pieces:  # while the system takes them, sending waits for nothing
+            if pieces:  # sending does not wait as long as the system accepts data
                 await asyncio.sleep(0)

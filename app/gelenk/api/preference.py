@@ -1,4 +1,4 @@
-"""Whether a caller prefers an asynchronous answer: `Prefer: respond-async` (RFC 7240)."""
+"""The preference of a caller for an asynchronous response: `Prefer: respond-async` (RFC 7240)."""
 
 from collections.abc import Iterable
 
@@ -6,11 +6,11 @@ _PREFER = b"prefer"
 _LATER = b"respond-async"
 
 APPLIED = {"Preference-Applied": _LATER.decode()}
-"""Header of an answer that heeds it."""
+"""Header of a response that follows this preference."""
 
 
 def wants_answer_later(headers: Iterable[tuple[bytes, bytes]]) -> bool:
-    """Whether one of the preferences in a request's headers is to be answered by a job."""
+    """Check whether a request's headers prefer that a job answers it."""
     return any(
         _LATER in (token.partition(b";")[0].strip().lower() for token in value.split(b","))
         for name, value in headers

@@ -1,6 +1,6 @@
-"""Every error as `application/problem+json` (RFC 9457); the one table from error class to status.
+"""Every error as `application/problem+json` (RFC 9457), with the one table from error class to status.
 
-A problem never repeats the payload: names from outside are shortened and escaped where they are quoted at all.
+A problem never repeats the payload: a client's names are shortened and escaped if they are quoted at all.
 """
 
 import logging
@@ -25,7 +25,7 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.InvalidInput: HTTPStatus.UNPROCESSABLE_ENTITY,
     errors.NotFound: HTTPStatus.NOT_FOUND,
     errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
-    # Waiting is of no use, so that no client is to try again by itself: neither 429 nor a 5xx.
+    # Waiting does not help, so no client should retry by itself: neither 429 nor a 5xx.
     errors.QuotaExceeded: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
     errors.RobotExists: HTTPStatus.CONFLICT,
     errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
@@ -49,16 +49,16 @@ STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
     errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
     errors.AuditFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
 }
-"""A class not listed has its nearest ancestor's status."""
+"""A class not listed has the status of its nearest ancestor."""
 
 _MOST_ERRORS = 20
 _MOST_NAMES = 512
-"""Frames of the largest robot."""
+"""Enough for the frames of the largest robot."""
 _LONGEST_FACT = 1000
 _MOST_TEXT = 2000
 _MOST_BYTES = 6000
 _LATER = "10"
-"""Seconds after which to try again when the duration is unknown."""
+"""`Retry-After` if the duration is unknown, [s]."""
 
 logger = logging.getLogger("gelenk")
 
@@ -75,7 +75,7 @@ class InvalidPayload(Exception):
 
     @classmethod
     def of(cls, error: ValidationError | RequestValidationError) -> "InvalidPayload":
-        """Keep the first few places of a validation error."""
+        """Summarise a validation error by its first few places."""
         if isinstance(error, ValidationError):
             found = error.errors(include_input=False, include_url=False)
         else:
@@ -98,14 +98,14 @@ class UnsupportedMediaType(Exception):
 def problem(
     request: Request, status: HTTPStatus, kind: str, detail: str, facts: Mapping[str, object] | None = None
 ) -> Response:
-    """A problem as an answer.
+    """Return a problem as a response.
 
     Args:
-        request: The request it answers.
+        request: Request that it answers.
         status: HTTP status.
         kind: Words joined by `-`, the same for all problems of that kind.
-        detail: This occurrence, in a sentence.
-        facts: Typed data of the kind.
+        detail: Sentence about this occurrence.
+        facts: Typed data of this kind of problem.
     """
     content: dict[str, Any] = {
         "type": f"urn:gelenk:{kind}",
@@ -121,7 +121,7 @@ def problem(
 
 
 def status_of(error: type[errors.KinematicsError]) -> HTTPStatus:
-    """The status of an error class: its own or its nearest ancestor's."""
+    """Return the status of an error class: its own or its nearest ancestor's."""
     return next(STATUS[ancestor] for ancestor in error.__mro__ if ancestor in STATUS)
 
 
@@ -132,7 +132,7 @@ def install(app: FastAPI) -> None:
 
 
 def answer(request: Request, error: Exception) -> Response:
-    """The answer to any error, without an application to look up its handler."""
+    """Return the response to any error, without an application to look up its handler."""
     return next(handler for kind, handler in _HANDLERS if isinstance(error, kind))(request, error)
 
 
@@ -145,7 +145,7 @@ def _kinematics(request: Request, error: Exception) -> Response:
     if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy | errors.NoRoomForBody):
         response.headers["Retry-After"] = str(error.retry_after)
         if not isinstance(error, errors.TooManyJobs):
-            # Its connection is read again after that time: see `connections`.
+            # The connection is read again after that time: see `connections`.
             request.scope.setdefault("state", {})["retry_after"] = error.retry_after
     elif response.status_code == HTTPStatus.SERVICE_UNAVAILABLE:
         response.headers["Retry-After"] = _LATER
@@ -190,7 +190,7 @@ def _http(request: Request, error: Exception) -> Response:
 
 
 def _allowed_methods(request: Request) -> list[str]:
-    """The methods that the schema has for a path; a single route knows its own alone."""
+    """Return the methods that the OpenAPI document has for a path; a single route knows only its own."""
     path = request.url.path.removeprefix(request.app.root_path)
     allowed: set[str] = set()
     for template, operations in request.app.openapi()["paths"].items():
@@ -210,7 +210,7 @@ def _sentence(message: str) -> str:
 
 
 def _place(error: errors.KinematicsError) -> str | None:
-    """Where in the payload the core found an error, if known."""
+    """Return the place in the payload where the core found an error, if known."""
     match error:
         case errors.InvalidField(field=field):
             return _of_field(field)
@@ -236,7 +236,7 @@ def _of_field(field: str) -> str:
 
 
 def _pointer(location: Sequence[int | str]) -> str:
-    """Where in the payload: a JSON pointer, the tags of unions left out."""
+    """Return a JSON pointer into the payload, without the tags of unions."""
     parts = [str(part) for part in location if not str(part).startswith("<")]
     if parts[:1] == ["body"]:
         parts = parts[1:]
@@ -249,7 +249,7 @@ def _printable(text: str) -> str:
 
 
 def _shortened(value: Any) -> Any:
-    """Facts of bounded size: lists and texts from outside are cut."""
+    """Return facts of bounded size: long lists and texts are cut."""
     if isinstance(value, str):
         return _printable(value[:_LONGEST_FACT])
     if isinstance(value, list | tuple):
@@ -264,7 +264,7 @@ def _shortened(value: Any) -> Any:
 
 def _left(_: Request, error: Exception) -> Response:
     assert isinstance(error, ClientDisconnect)  # noqa: S101
-    return Response(status_code=499)  # nobody waits for it
+    return Response(status_code=499)  # no client waits for it
 
 
 _HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (

@@ -1,4 +1,4 @@
-"""The table of a robot's chain: GET /v1/robots/{robot}/dh."""
+"""The DH table of a robot's chain: GET /v1/robots/{robot}/dh."""
 
 from typing import Annotated
 
@@ -19,7 +19,7 @@ from gelenk.operations.dh_from_urdf import table_answer
 
 
 def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute:
-    """The route; no table is made on the event loop."""
+    """Return the route; workers compute the tables, not the event loop."""
 
     def robot_table(  # type: ignore[empty-body]
         robot: RobotPath,
@@ -28,7 +28,7 @@ def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute
         tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
         snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
     ) -> FromUrdfAnswer:
-        """The table of a chain of this robot, as `from-urdf` finds it; the default chain where no frame is named."""
+        """Returns the DH table of this robot's default chain, or of the chain between the named frames, as `from-urdf` does."""
 
     async def get_table(request: BoundedRequest) -> Response:
         task_request = TaskRequest(

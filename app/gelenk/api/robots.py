@@ -1,4 +1,4 @@
-"""Robots: listed, described, added, replaced, removed; their URDF and their meshes."""
+"""Endpoints that list, describe, add, replace and remove robots, and return their URDF and meshes."""
 
 import asyncio
 import time
@@ -44,14 +44,14 @@ from gelenk.store.records import LoadedRobot
 
 MULTIPART = "multipart/form-data"
 WITHOUT_KEY = "clients without a key"
-"""The owner of uploads without a key: addresses change, and where no key is needed all share one machine."""
+"""Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
 _PIECE = 256 * 1024
 _LIST_SECONDS = 5.0
-"""How long the list of robots is cached if nothing says that it has changed."""
+"""How long the list of robots is cached if nothing shows that it has changed, [s]."""
 
 
 def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
-    """Operations that read or remove robots, in the pool, because descriptions come from outside."""
+    """Return the router of operations that read or remove robots; workers read the descriptions, which are untrusted."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
     listed = Listed(library, pool_client)
 
@@ -63,7 +63,7 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
         responses=problem_responses(*BY_THE_CREW),
     )
     async def list_robots(request: Request) -> Any:
-        """The catalogue's robots, then the uploaded ones, each part by name."""
+        """Lists the catalogue's robots, then the uploaded ones, each part sorted by name."""
         return await listed.answer(request)
 
     @router.get(
@@ -116,7 +116,7 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
     ) -> Response:
         """The file exactly as uploaded; the server does not inspect it.
 
-        A file that is stored compressed is sent so to clients whose `Accept-Encoding` names `gzip`.
+        A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
         """
         await pool_client.resident(request, robot)
         accepted = ",".join(request.headers.getlist("Accept-Encoding"))
@@ -138,13 +138,13 @@ def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
 
 
 class Listed:
-    """The list of all robots, kept as long as none is uploaded, replaced or removed, by whichever process.
+    """The list of all robots, cached until any process adds, replaces or removes a robot.
 
     Manual changes in a robot's folder show once the cached list expires.
 
     Args:
         library: All robots.
-        pool_client: Who makes the list.
+        pool_client: Has a worker build the list.
     """
 
     def __init__(self, library: Library, pool_client: PoolClient) -> None:
@@ -152,7 +152,7 @@ class Listed:
         self._kept: tuple[int, float, bytes] | None = None
 
     async def answer(self, request: Request) -> Response:
-        """The list; raises as `PoolClient.answer` does."""
+        """Return the list; raises as `PoolClient.answer` does."""
         state, now = self._library.state(), time.monotonic()
         if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
             return Response(self._kept[2], media_type=JSON)
@@ -162,7 +162,7 @@ class Listed:
 
 
 def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
-    """What writes robots: as JSON, or as a zip in a form."""
+    """Return the routes that add and replace robots: as JSON, or as a zip in a form."""
 
     async def add(request: BoundedRequest) -> Response:
         return await _receive(request, pool_client, None)
@@ -223,7 +223,7 @@ def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[Document
 
 
 async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str | None) -> Response:
-    """Accept an upload in either form; the pool checks and stores it."""
+    """Accept an upload in either form; a worker checks and stores it."""
     root_path, given = request.scope.get("root_path", ""), request.media_type
     key = request.scope.get("gelenk.key")
     owner = WITHOUT_KEY if key is None else f"key {key}"
@@ -248,13 +248,13 @@ async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str |
 
 @dataclass(frozen=True, slots=True)
 class Keep:
-    """An upload that is checked and stored, replacing another one if that is named.
+    """Checks and stores an upload; replaces the robot `name` if that is given.
 
     Attributes:
-        name: The robot to replace; None adds one.
-        root_path: What goes before the path of its address.
-        owner: Whose it is.
-        form: The fields that come with an archive; None where the body is JSON.
+        name: Robot to replace; None adds one.
+        root_path: Path prefix of its address.
+        owner: Owner of the robot.
+        form: Fields that come with an archive; None if the body is JSON.
     """
 
     name: str | None
@@ -263,7 +263,7 @@ class Keep:
     form: ArchiveReplacement | None = None
 
     def __call__(self, context: Context, task_request: TaskRequest) -> Response:
-        """The robot as it is kept now."""
+        """Store the robot, and return it as it is now."""
         if self.form is None:
             return self._kept(context.library, replace(_from_json(task_request.body, self.name), owner=self.owner))
         with unpacked(BytesIO(task_request.body), root=context.library.uploads) as content:
@@ -312,7 +312,7 @@ def _urdf(context: Context, task_request: TaskRequest) -> Response:
 
 
 def info(loaded: LoadedRobot) -> RobotInfo:
-    """Everything about a robot except its poses."""
+    """Return everything about a robot except its poses."""
     record, robot = loaded.record, loaded.robot
     description = robot.description
     chain: Chain = robot.chain(None, None)
@@ -359,7 +359,7 @@ def _joint(joint: Joint) -> JointInfo:
 
 
 def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
-    """A form with these fields and an archive, as a further content of a request."""
+    """Return a form with these fields and an archive, as a further media type of a request."""
     schema = fields.model_json_schema()
     for field in schema["properties"].values():
         without_null(field)

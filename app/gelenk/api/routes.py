@@ -1,9 +1,9 @@
-"""Routes that FastAPI documents and that run without its overhead.
+"""Routes that FastAPI documents but that run without its overhead.
 
-FastAPI writes the OpenAPI schema from the signature of an endpoint. Running it through FastAPI as well would cost
-several times the kinematics: its middleware, resolving dependencies, validating the answer against its model (the
-tests do that instead). So a `DocumentedRoute` keeps the one and replaces the other by a handler; and operations on
-a robot, which are called thousands of times a second, are found by `Application` before anything else.
+FastAPI writes the OpenAPI document from the signature of an endpoint. Running the endpoint through FastAPI as well
+would cost several times the kinematics: its middleware, resolving dependencies, validating the response against its
+model (the tests do that instead). So a `DocumentedRoute` keeps the documentation and runs a handler; and `Application`
+finds operations on a robot, which are called thousands of times a second, before anything else.
 """
 
 import asyncio
@@ -34,7 +34,7 @@ Handler = Callable[[BoundedRequest], Awaitable[Response]]
 
 
 class DocumentedRoute(APIRoute):
-    """A path whose endpoint is described by FastAPI and answered by `handler`."""
+    """A route that FastAPI describes and `handler` answers."""
 
     def __init__(
         self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
@@ -45,7 +45,7 @@ class DocumentedRoute(APIRoute):
         self._max_body_bytes = max_body_bytes
 
     async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request that has matched; another method than the route's is FastAPI's to refuse."""
+        """Answer a request for this path; FastAPI refuses other methods than the route's."""
         if scope["method"] not in (self.methods or ()):
             await super().handle(scope, receive, send)
             return
@@ -61,9 +61,9 @@ class DocumentedRoute(APIRoute):
 class Application(FastAPI):
     """FastAPI, with the operations on a robot dispatched first.
 
-    `operations` are the handlers of POST /v1/robots/{robot}/{operation}; any other request, also a wrong method or
-    an unknown operation, takes FastAPI's way; and so do all where that way is traced (`is_traced`). `entry` is where
-    requests arrive, and leads to `answer`.
+    `operations` are the handlers of POST /v1/robots/{robot}/{operation}. Any other request, also a wrong method or an
+    unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests arrive
+    at `entry`, which leads to `answer`.
     """
 
     def __init__(self, max_body_bytes: int, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
@@ -74,7 +74,7 @@ class Application(FastAPI):
         self.entry: ASGIApp = self.answer
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve a connection."""
+        """Serve a request or the lifespan events."""
         if self.root_path and scope["type"] == "http":
             scope = prefixed(scope, self.root_path)
         await self.entry(scope, receive, send)
@@ -105,12 +105,12 @@ class Application(FastAPI):
 
 
 def prefixed(scope: Scope, root_path: str) -> Scope:
-    """A request with the path prefix, also behind a proxy that has taken it away: mounted files are found by it."""
+    """Return a request with the path prefix, which a proxy may have removed: mounted files are found by it."""
     path: str = scope["path"]
     has_it = path == root_path or path.startswith(f"{root_path}/")
     return scope if has_it else {**scope, "path": root_path + path}
 
 
 async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:
-    """Do what would hold up the event loop beside it."""
+    """Run work in a thread, so that it does not block the event loop."""
     return await asyncio.get_running_loop().run_in_executor(executor, work)

@@ -1,4 +1,4 @@
-"""The service itself: whether it is alive, and whether it is ready."""
+"""Endpoints about the service itself: health, readiness and metrics."""
 
 import asyncio
 import gc
@@ -23,19 +23,19 @@ from gelenk.pool.pool import WorkerPool
 from gelenk.store import folders
 
 _LOOK_SECONDS = 1.0
-"""How long a check of the disk stays valid."""
+"""How long a check of the disk stays valid, [s]."""
 
 
 class Readiness:
-    """Whether everything that requests need is ready: the kernels (compiled or from their cache), the pool, the disk.
+    """Readiness of all that requests need: the kernels (compiled or from their cache), the pool, the disk.
 
     Args:
-        pool: The processes for long requests.
-        data_dir: Where uploads and jobs are kept.
-        jobs_failure: Why jobs cannot be done, where that is so.
+        pool: Processes for long requests.
+        data_dir: Folder of uploads and jobs.
+        jobs_failure: Returns why jobs cannot run, or None.
 
     Attributes:
-        failure: Why the kernels will never be ready.
+        failure: Why the kernels will never be ready, or None.
     """
 
     def __init__(self, pool: WorkerPool, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
@@ -46,7 +46,7 @@ class Readiness:
         self.failure: str | None = None
 
     async def missing(self) -> dict[str, str]:
-        """What is not ready, each with the reason."""
+        """Return what is not ready, each with the reason."""
         found = {}
         if not self._has_kernels:
             found["kernels"] = self.failure or "they are being compiled"
@@ -62,14 +62,14 @@ class Readiness:
         return found
 
     def begin(self) -> None:
-        """Get ready in a separate thread, so that the process answers meanwhile."""
+        """Prepare the kernels in a separate thread, so that the process answers meanwhile."""
         threading.Thread(target=self._prepare, name="warm-up", daemon=True).start()
 
     def _prepare(self) -> None:
         try:
             wait_for_others()
             warm_up()
-            # What is loaded now stays: the garbage collector need not scan it again and again.
+            # What is loaded now stays: the garbage collector need not scan it repeatedly.
             gc.collect()
             gc.freeze()
             self._has_kernels = True
@@ -79,7 +79,7 @@ class Readiness:
 
 
 def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
-    """Health, readiness and metrics."""
+    """Return the router of health, readiness and metrics."""
     router = APIRouter(tags=["Service"])
 
     @router.get("/healthz", operation_id="health", summary="Is the process alive?", response_model=Health)
@@ -122,7 +122,7 @@ def service_router(readiness: Readiness, metrics: Metrics) -> APIRouter:
     async def tell_metrics() -> Response:
         """Latencies and batch sizes by operation and robot, verdicts and iterations of inverse kinematics, queues.
 
-        Of all worker processes together, in the text format of Prometheus.
+        Covers all worker processes together, in Prometheus's text format.
         """
         metrics.publish()
         return Response(await asyncio.to_thread(metrics.text), media_type="text/plain; version=0.0.4; charset=utf-8")

@@ -1,4 +1,4 @@
-"""What is offered to be drawn of a robot whose links show nothing."""
+"""Shapes to draw for a robot whose links have no visuals."""
 
 from gelenk.contract.pose import Pose
 from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
@@ -9,7 +9,7 @@ from gelenk.store.records import LoadedRobot
 
 
 def skeleton_of(loaded: LoadedRobot) -> list[LinkShape]:
-    """Its skeleton; none of a DH table, whose description has bodies of its own."""
+    """Return the skeleton of a robot; empty for a DH table, whose description has bodies of its own."""
     if loaded.table is not None:
         return []
     missing = [mesh for mesh, path in loaded.meshes.items() if path is None]

@@ -1,7 +1,7 @@
-"""The studio, the page to look at robots with: the files that `app/studio` is bundled into, and nothing else.
+"""The studio, a page for looking at robots: the files that `app/studio` is bundled into, and nothing else.
 
 Its content security policy allows no inline script, no inline style and no other host. All links of the page are
-relative, so that any root path will do. A browser asks each time whether a file has changed, which costs it 304.
+relative, so any root path works. A browser checks each time whether a file has changed, and gets 304 if not.
 """
 
 from fastapi import FastAPI, Request
@@ -35,7 +35,7 @@ class _StudioFiles(StaticFiles):
 
 
 def install(app: FastAPI) -> None:
-    """Serve the page at `/`, its files below `/studio`."""
+    """Serve the page at `/` and its files below `/studio`."""
     files = _StudioFiles(directory=FILES)
 
     @app.get("/", include_in_schema=False)

@@ -1,6 +1,6 @@
-"""What a process of the pool is sent to do: a request as a whole, and the function that answers it there.
+"""Tasks for the worker pool: a whole request, and the function that answers it there.
 
-A task is a function of a module, because it travels by name.
+A task is a function of a module, because it is sent by name.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,15 +19,15 @@ from gelenk.pool.wire import pieces_of
 
 @dataclass(frozen=True, slots=True)
 class TaskRequest:
-    """A request, as far as an answer depends on it.
+    """The parts of a request that an answer depends on.
 
     Attributes:
-        pieces: The body as it came in.
-        robot: The robot that the path names, where it names one.
+        pieces: The body in the pieces that it arrived in.
+        robot: Robot that the path names, if any.
         query: The query string.
         npy: Whether the body is an array.
         wanted: Media type of the answer.
-        endpoint: Name of the operation, where it is one of the table.
+        endpoint: Name of the operation, if it is in the table of endpoints.
     """
 
     pieces: Sequence[PickleBuffer] = ()
@@ -44,7 +44,7 @@ class TaskRequest:
 
 
 def buffers(pieces: Sequence[bytes]) -> list[PickleBuffer]:
-    """A body, so that it travels without being copied."""
+    """Wrap a body, so that it is sent without being copied."""
     return [PickleBuffer(piece) for piece in pieces]
 
 
@@ -54,7 +54,7 @@ Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], Req
 
 
 def answered(order: tuple[ContextSetup, WorkerTask, TaskRequest]) -> Reply:
-    """Run a task in a process of the pool."""
+    """Run a task in a worker process."""
     setup, task, task_request = order
     REQUEST_COUNTS.set(None)
     response = task(_context(setup), task_request)

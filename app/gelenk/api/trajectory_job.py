@@ -27,15 +27,15 @@ KIND = "trajectory"
 
 _CALL = "call.json"
 _PART = 8192
-"""Samples of a part."""
+"""Samples per part."""
 _PLAN, _STAGE, _DRAWING = "plan", "samples", "picture"
 _PLANNED, _SAMPLED, _DRAWN = 0.5, 0.9, 0.95
 _PICTURES: tuple[tuple[str, PictureFormat], ...] = ((SVG, "svg"), (PNG, "png"))
 _GAP = b"\0"
-"""Stands round the name of a field whose entries come from the parts: no JSON has it."""
+"""Encloses the name of a field whose entries come from the parts; no JSON contains it."""
 
 _Plan: TypeAlias = tuple[RobotText, bytes, int]
-"""The robot, the call, the numbers that its polynomials may hold."""
+"""The robot, the call, and how many numbers its polynomials may hold."""
 
 
 def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> dict[str, bytes]:
@@ -48,7 +48,7 @@ def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> di
 
 
 def _bounds(max_answer_numbers: int) -> Bounds:
-    # The samples come part by part: it is the disk that bounds what they hold.
+    # The samples are written part by part: only the disk limits them.
     return Bounds(MAX_JOB_SAMPLES, max_answer_numbers)
 
 
@@ -102,7 +102,7 @@ def _work(limits: Limits, folder: Path) -> Work:
 
 
 def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:
-    """Lists of JSON as one."""
+    """Write several JSON lists as one."""
     target.write(b"[")
     for i, entries in enumerate(lists):
         target.write((b"," if i else b"") + entries[1:-1])
@@ -115,13 +115,13 @@ def _write(content: bytes, target: IO[bytes]) -> None:
 
 @lru_cache(maxsize=1)
 def _planned(job: _Plan) -> Planned:
-    """The motion: planned once in each process that computes parts of the job, the same in all of them."""
+    """Plan the motion, once in each process that computes parts of the job; the result is the same in all of them."""
     text, content, numbers = job
     return Planned.of(robot_of(text), read_json(TrajectoryRequest, content), _bounds(numbers))
 
 
 def planned_part(job: _Plan) -> bytes:
-    """All but the samples, in a process of its own: the answer with gaps for them, and how many there are."""
+    """Compute all but the samples, in a separate process: the answer with gaps for them, and their number."""
     planned = _planned(job)
     times = planned.times()
     named = SAMPLED if planned.call.tip_poses else SAMPLED[:-1]
@@ -136,7 +136,7 @@ def planned_part(job: _Plan) -> bytes:
 
 
 def sampled_part(job: tuple[_Plan, int]) -> bytes:
-    """Some of the samples, in a process of its own, in each form."""
+    """Compute some of the samples, in a separate process, in each format."""
     plan, k = job
     planned = _planned(plan)
     times = planned.times()[k * _PART : (k + 1) * _PART]
@@ -146,7 +146,7 @@ def sampled_part(job: tuple[_Plan, int]) -> bytes:
 
 
 def drawn_part(job: tuple[_Plan, PictureFormat]) -> bytes:
-    """A picture of the motion, in a process of its own."""
+    """Draw the motion, in a separate process."""
     plan, kind = job
     return _planned(plan).picture(plan[0].name, kind)
 

@@ -34,11 +34,11 @@ _CALL = "call.json"
 
 @dataclass(frozen=True, slots=True)
 class SampleLimits:
-    """The limits of one job.
+    """Limits of one job.
 
     Attributes:
-        samples: Configurations.
-        numbers: In the array of its result.
+        samples: Maximum number of configurations.
+        numbers: Maximum number of entries in the array of its result.
     """
 
     samples: int
@@ -48,7 +48,7 @@ class SampleLimits:
 def workspace_route(
     runner: Runner, pool_client: PoolClient, limits: SampleLimits, max_body_bytes: int
 ) -> DocumentedRoute:
-    """POST /v1/robots/{robot}/workspace; the request is checked in a thread before there is a job."""
+    """Return the route POST /v1/robots/{robot}/workspace; it checks the request in a thread before it creates a job."""
 
     def workspace(robot: RobotPath, call: WorkspaceRequest) -> JobInfo:
         """Samples the workspace of any chain within its joint limits, as a job.
@@ -100,7 +100,7 @@ def workspace_route(
 
 
 def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits, client: str) -> Job:
-    """The job for a call, which is checked first."""
+    """Check a call and submit its job."""
     if call.samples > limits.samples:
         raise TooLarge("samples", call.samples, limits.samples)
     numbers = call.samples * len(POINT_COLUMNS)
@@ -112,7 +112,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
     for field in ("orientations", "orientations_over"):
         if call.kind != "dexterity" and field in call.model_fields_set:
             raise InvalidField(field, f"is only allowed with the kind `dexterity`; this one is `{call.kind}`")
-    if call.job_id is None:  # a job of that name may be this very one
+    if call.job_id is None:  # a job of that name may be this one
         runner.store.check_room(client)
     check_size(_question(loaded.record.name, loaded.robot, chain, call))
     ends = f"{loaded.record.name}\0{chain.base_frame}\0{chain.tip_frame}\0"
@@ -124,7 +124,7 @@ def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limi
 
 
 def workspace_work(folder: Path) -> Work:
-    """What does the job of a request, by the folder that it is kept in."""
+    """Return the function that computes a job, from the folder of its request."""
     text = robot_text(folder)
     robot = robot_of(text)
     call = read_json(WorkspaceRequest, read_plain(folder / _CALL))
@@ -132,7 +132,7 @@ def workspace_work(folder: Path) -> Work:
 
 
 def _question(name: str, robot: Robot, chain: Chain, call: WorkspaceRequest) -> Question:
-    """The request, checked as far as it depends on the robot."""
+    """Return what the job computes, checked as far as that depends on the robot."""
     return question(name, robot, chain, _wish(call), call.orientations_over, call.orientations)
 
 

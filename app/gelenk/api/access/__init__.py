@@ -1,8 +1,8 @@
-"""Access to the service: which requests are allowed, the headers of every answer, and the logs.
+"""Access control: which requests are allowed, the headers of every response, and the logs.
 
-- `request_context`: a request and its answer so far. `middleware`: passes each through the rules, in order.
-- `scopes`: which operation needs which scope. `route_table`: which operation a path is.
-- `hosts`, `origins`, `keys`: the rules; `keyring` holds the keys.
-- `headers`: what every answer carries. `audit_log`: the log of requests, and the audit log of writes.
-- `metrics`: counts for Prometheus. `tracing`: OpenTelemetry, on request.
+- `request_context`: a request and its response so far. `middleware`: passes requests through the checks, in order.
+- `scopes`: the scope that each operation needs. `route_table`: finds the operation for a path.
+- `hosts`, `origins`, `keys`: the checks; `keyring` holds the keys.
+- `headers`: headers that all responses share. `audit_log`: the request log, and the audit log of writes.
+- `metrics`: counts for Prometheus. `tracing`: optional OpenTelemetry.
 """

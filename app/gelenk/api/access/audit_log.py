@@ -1,4 +1,4 @@
-"""The log line of each request, and the journal of writes."""
+"""The request log and the audit log of writes."""
 
 import logging
 import os
@@ -16,19 +16,19 @@ from gelenk.store import folders
 _LONGEST_PATH = 256
 _BUSY = 503
 _LEFT = 499
-"""Logged as the status of an answer whose client had left."""
+"""Status logged if the client disconnected before the response."""
 
 _MOST_CLIENTS = 8
-"""Addresses that such a line names."""
+"""Maximum number of client addresses in a line that sums up refusals."""
 
 requests = logging.getLogger("gelenk.requests")
 logger = logging.getLogger("gelenk")
 
 
 def log_request(exchange: RequestContext) -> None:
-    """Log a request that is over: failures of the service as errors, refused access as a warning.
+    """Log a finished request: failures of the service as errors, refusals as warnings, the rest as information.
 
-    Everything else is information, also a busy service: that would be logged often, and the metrics count it.
+    A busy service (503) counts as information: it would be logged often, and the metrics count it.
     """
     if exchange.status >= 500 and exchange.status != _BUSY:
         level = logging.ERROR
@@ -52,16 +52,16 @@ def _facts(exchange: RequestContext) -> dict[str, Any]:
 
 
 class AuditLog:
-    """The audit log: a line for each request that keeps or removes something, in a folder that all processes share.
+    """Audit log in a folder that all processes share: a line for each request that stores or removes something.
 
-    A line is on disk before the write is acknowledged. A refused request has written nothing: refusals of
-    valid keys are summed up, and requests without a valid key appear only in the log, so no one can flood this file.
+    A line is on disk before the write is acknowledged. Refusals of valid keys are summed up, and requests without a
+    valid key appear only in the request log, so that callers cannot flood this file.
 
     Args:
-        folder: Where it is kept; made when first written to.
-        most_bytes: Of one file; a full one becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`.
-        kept: Full files that are kept.
-        sum_seconds: How long refused writes are summed up after the first one has got a line, [s].
+        folder: Folder of the log; created at the first write.
+        most_bytes: Maximum size of a file; a full one becomes `audit.1.jsonl`, the one before that `audit.2.jsonl`.
+        kept: Number of full files to keep.
+        sum_seconds: Time over which refused writes are summed up after the first one, [s].
     """
 
     def __init__(
@@ -72,11 +72,11 @@ class AuditLog:
         self._lock = threading.Lock()
 
     def write(self, exchange: RequestContext, location: str | None) -> None:
-        """Add a line, or count a refusal; where the disk does not take it, it goes to the log.
+        """Append a line, or count a refusal. A line that cannot be written to disk goes to the log.
 
         Args:
             exchange: The write, with its status.
-            location: Where what was written can be found.
+            location: `Location` header of the response, if it has one.
         """
         facts = _facts(exchange) | {"location": location}
         if exchange.was_let_in:
@@ -95,7 +95,7 @@ class AuditLog:
             self._append(entry)
 
     def close(self) -> None:
-        """Write what was counted since the last lines."""
+        """Write lines for the refusals counted since the last ones."""
         with self._lock:
             entries = [refusals.summed() for refusals in self._refusals.values() if refusals.count]
             self._refusals.clear()
@@ -127,13 +127,13 @@ class AuditLog:
 
 @dataclass(slots=True)
 class _Refusals:
-    """Writes that a key was refused since the last line that says so.
+    """Writes refused to one key since its last line in the audit log.
 
     Attributes:
-        count: How many.
-        last: The entry of the last one.
-        since: When the first one was, [s].
-        clients: Addresses that they came from, some of them.
+        count: Number of refusals.
+        last: Entry of the last refusal.
+        since: Time of the first refusal, [s] since 1970.
+        clients: Some of the addresses that they came from.
     """
 
     count: int = 0
@@ -142,14 +142,14 @@ class _Refusals:
     clients: set[str] = field(default_factory=set)
 
     def add(self, facts: dict[str, Any]) -> None:
-        """Count one more."""
+        """Count one more refusal."""
         self.since = self.since if self.count else time.time()
         self.count, self.last = self.count + 1, facts
         if len(self.clients) < _MOST_CLIENTS:
             self.clients.add(facts["client"])
 
     def summed(self) -> dict[str, Any]:
-        """The line that sums them up; counting restarts."""
+        """Return the entry that sums up the refusals, and restart the count."""
         entry = self.last | {"refused": self.count, "since": moment(self.since), "clients": sorted(self.clients)}
         self.count, self.clients = 0, set()
         return entry

@@ -1,4 +1,4 @@
-"""Headers of every answer. A header already set is kept: pages have their own policies."""
+"""Headers of every response. A header that the response already sets is kept: pages have their own policies."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -15,12 +15,12 @@ COMMON: Headers = [
 
 
 def completed(own: Iterable[tuple[bytes, bytes]], further: Headers) -> Headers:
-    """An answer's own headers, further ones, and those of the common ones that it lacks."""
+    """Return a response's own headers, further ones, and the common ones that it lacks."""
     headers = list(own)
     return [*headers, *further, *_lacking(tuple([name for name, _ in headers]))]
 
 
 @lru_cache(256)
 def _lacking(names: tuple[bytes, ...]) -> Headers:
-    """The common headers that are not among these names; the answers of the service have few sets of names."""
+    """Return the common headers that are not among `names`; responses have few sets of names."""
     return [header for header in COMMON if header[0] not in {name.lower() for name in names}]

@@ -1,7 +1,7 @@
-"""Which hosts the service answers for: a page of another name that resolves to this machine gets nothing.
+"""Check of the host that a request names: another name that resolves to this machine is refused.
 
-The very address that a connection has come in on is always answered for: a name that an attacker makes resolve to it
-(DNS rebinding) is another one.
+The address at which a connection arrived is always accepted: DNS rebinding uses a name that resolves to it, never the
+address itself.
 """
 
 import re
@@ -18,13 +18,13 @@ LOCAL = ("localhost", "127.0.0.1", "[::1]")
 ONCE = frozenset(
     b"authorization content-type origin sec-fetch-site access-control-request-method last-event-id".split()
 )
-"""Fields that affect handling and are not lists."""
+"""Header fields that affect handling and hold a single value."""
 _HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
 _MOST_REMEMBERED = 64
 
 
 def repeated(exchange: RequestContext) -> Response | None:
-    """Refuses requests with duplicates of single-valued fields: a proxy may have acted on the other one."""
+    """Refuse a request that repeats a single-valued header field: a proxy may have acted on the other value."""
     names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
     if len(names) == len(set(names)):
         return None
@@ -34,10 +34,10 @@ def repeated(exchange: RequestContext) -> Response | None:
 
 
 class TrustedHosts:
-    """Refuses requests for hosts that it does not know.
+    """Refuses requests for unknown hosts.
 
     Args:
-        names: Lower case; `*.` before one stands for all below it, `*` for every host.
+        names: Accepted names, in lower case; `*.` before a name accepts all names below it, `*` every host.
     """
 
     def __init__(self, names: Sequence[str]) -> None:
@@ -47,7 +47,7 @@ class TrustedHosts:
         self._remembered: set[bytes] = set()
 
     def __call__(self, exchange: RequestContext) -> Response | None:
-        """A refusal, or None."""
+        """Return the refusal, or None to let the request pass."""
         given = exchange.headers.get(b"host", b"")
         if given in self._remembered and self._stands_once(exchange):
             return None
@@ -71,13 +71,13 @@ class TrustedHosts:
 
 
 def _without_port(host: str) -> str:
-    """`name:8000` → `name`, `[::1]:8000` → `[::1]`."""
+    """Strip the port: `name:8000` → `name`, `[::1]:8000` → `[::1]`."""
     name, colon, port = host.rpartition(":")
     return name if colon and port.isdecimal() else host
 
 
 def _bracketed(server: tuple[str, int | None] | None) -> str | None:
-    """The address of a socket as written in a `Host` header."""
+    """Return the address of a socket as written in a `Host` header."""
     if server is None:
         return None
     return f"[{server[0]}]" if ":" in server[0] else server[0]

@@ -1,8 +1,7 @@
-"""The keys of the service: made at random, kept as salted hashes, read from a file or from the environment.
+"""The keys of the service: created at random, stored as salted hashes, read from a file or the environment.
 
-A key is 32 random bytes behind the name it was given, `gelenk.anna.…`. 256 bits cannot be guessed, so a slow hash
-would protect nothing and cost time in each request; BLAKE2b under a salt gives away no key either, and takes half a
-microsecond.
+A key is 32 random bytes after its name, `gelenk.anna.…`. 256 bits cannot be guessed, so a slow hash would protect
+nothing and cost time in each request. Salted BLAKE2b does not reveal the key either, and takes half a microsecond.
 """
 
 import hashlib
@@ -31,16 +30,16 @@ logger = logging.getLogger("gelenk")
 
 
 class InvalidKeys(Exception):
-    """Keys that cannot be accepted, and why."""
+    """Raised for keys that cannot be accepted; the message says why."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """What is kept of a key.
+    """A key as the service stores it: with a salted hash instead of its text.
 
     Attributes:
-        name: The owner's name; logs show it.
-        scopes: What it permits.
+        name: Name of the owner; appears in logs.
+        scopes: Scopes that the key grants.
         salt: 16 random bytes.
         digest: BLAKE2b of the key under the salt, 32 bytes.
     """
@@ -51,16 +50,16 @@ class Key:
     digest: bytes
 
     def entry(self) -> str:
-        """The key as a line of a file: name, scopes, salt and hash."""
+        """Return the key as a line of a key file: name, scopes, salt and hash."""
         scopes = "+".join(scope for scope in Scope if scope in self.scopes)
         return f"{self.name}:{scopes}:{self.salt.hex()}:{self.digest.hex()}"
 
 
 def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
-    """A new key: the text that its owner sends, and what the service keeps of it.
+    """Create a key; return the text that its owner sends, and what the service stores.
 
     Raises:
-        InvalidKeys: The name is invalid, or there is no scope.
+        InvalidKeys: The name is invalid, or no scope is given.
     """
     if not re.fullmatch(_NAME, name):
         raise InvalidKeys("a key's name is 1 to 32 letters, digits, '_' or '-', the first one a letter or digit")
@@ -71,10 +70,11 @@ def new_key(name: str, scopes: Collection[Scope]) -> tuple[str, Key]:
 
 
 def read_keys(text: str) -> dict[str, Key]:
-    """Keys by name, from entries between white space; `#` begins a comment.
+    """Parse keys from entries separated by white space, and return them by name; `#` starts a comment.
 
     Raises:
-        InvalidKeys: An entry is invalid, or a name is used twice. The text is not repeated: it may be a secret.
+        InvalidKeys: An entry is invalid, a name is used twice, or there are too many. An entry, perhaps a secret, is
+            not quoted.
     """
     keys: dict[str, Key] = {}
     for number, entry in enumerate(_COMMENT.sub("", text).split(), start=1):
@@ -94,13 +94,13 @@ def read_keys(text: str) -> dict[str, Key]:
 
 
 class Keyring:
-    """The keys that are good now.
+    """The keys that are valid now.
 
     Args:
-        setting: Entries, or the name of a file that holds them. The file is read again when it has changed.
+        setting: Entries, or the path of a file that holds them. The file is read again when it has changed.
 
     Raises:
-        InvalidKeys: It is neither, or holds no key.
+        InvalidKeys: The setting is neither, or holds no key.
     """
 
     def __init__(self, setting: str) -> None:
@@ -112,7 +112,7 @@ class Keyring:
             raise InvalidKeys(f"{setting} holds no key; `./dev keys` makes one")
 
     def find(self, token: str) -> Key | None:
-        """The key that a caller has sent, if it is one. It takes as long for a wrong one as for a good one."""
+        """Find the key of a caller's token, or None. A wrong token takes as long to check as a valid one."""
         match = _TOKEN.fullmatch(token)
         key = self._keys.get(match["name"]) if match else None
         digest = _digest(key.salt if key else bytes(16), token)
@@ -120,7 +120,7 @@ class Keyring:
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time to check the file again; true once a second at most."""
+        """Whether it is time to check the file again; true at most once a second."""
         now = time.monotonic()
         if self._file is None or now < self._looked + _LOOK_SECONDS:
             return False
@@ -129,11 +129,11 @@ class Keyring:
 
     @property
     def is_overdue(self) -> bool:
-        """Whether the file was last checked so long ago that a key may have been removed since."""
+        """Whether the last check of the file is so old that a key may have been removed since."""
         return self._file is not None and time.monotonic() > self._looked + 2.0 * _LOOK_SECONDS
 
     def refresh(self) -> None:
-        """Read the file again if it has changed; what cannot be read leaves the keys as they are."""
+        """Read the file again if it has changed; if that fails, keep the present keys."""
         if self._file is None:
             return
         try:

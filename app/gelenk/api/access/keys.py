@@ -1,4 +1,4 @@
-"""Accepts requests whose key has the scope of the operation: `Authorization: Bearer gelenk.…`."""
+"""Check that a request has a key with the scope of its operation: `Authorization: Bearer gelenk.…`."""
 
 from concurrent.futures import ThreadPoolExecutor, wait
 from http import HTTPStatus
@@ -11,15 +11,15 @@ from gelenk.api.access.scopes import Scope
 from gelenk.api.problems import problem
 
 _PATIENCE = 0.5
-"""How long a request may wait until the keys are checked, [s]."""
+"""Longest wait of a request while the key file is checked, [s]."""
 _REALM = 'Bearer realm="gelenk"'
 
 
 class KeyCheck:
-    """Refuses operations that need a key to callers without it.
+    """Refuses a request whose operation needs a key, unless it carries one with the right scope.
 
     Args:
-        keyring: The keys.
+        keyring: Valid keys.
     """
 
     def __init__(self, keyring: Keyring) -> None:
@@ -27,14 +27,14 @@ class KeyCheck:
         self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
 
     def __call__(self, exchange: RequestContext) -> Response | None:
-        """A refusal, or None."""
+        """Return the refusal, or None to let the request pass."""
         operation = exchange.operation
         if operation.is_open:
             return None
         is_overdue = self._keyring.is_overdue
         if self._keyring.is_due:
             refreshing = self._beside.submit(self._keyring.refresh)
-            if is_overdue:  # the first request after a quiet time; its file may lie on a slow disk
+            if is_overdue:  # first request after a quiet time; the file may be on a slow disk
                 wait((refreshing,), _PATIENCE)
         scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
         if scheme.lower() != "bearer":

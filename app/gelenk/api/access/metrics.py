@@ -1,8 +1,8 @@
-"""What the service does, as numbers for Prometheus: by operation and robot, over all of its processes.
+"""Metrics for Prometheus: what the service does, by operation and robot, over all of its processes.
 
-Where several processes serve, each keeps its numbers in a file of a folder that all share (prometheus_client's mode for
-several processes, switched on by the variable PROMETHEUS_MULTIPROC_DIR before it is imported), and the one that is
-scraped adds them up. Robots have labels of their own up to a number: names come from outside.
+Where several processes serve, each writes its numbers to a file in a shared folder (the multiprocess mode of
+prometheus_client, switched on by the variable PROMETHEUS_MULTIPROC_DIR before the import), and the process that is
+scraped adds them up. Only a limited number of robots get labels of their own: clients choose the names.
 """
 
 import asyncio
@@ -26,26 +26,26 @@ from gelenk.pool.pool import WorkerPool
 
 FOLDER = "PROMETHEUS_MULTIPROC_DIR"
 MOST_ROBOTS = 128
-"""Robots with labels of their own, in each process; the others share the label `other`."""
+"""Maximum number of robots with their own label, in each process; the others share the label `other`."""
 OTHER = "other"
 
 _SECONDS = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0)
 _SIZES = (1, 10, 100, 1000, 10_000, 100_000, 1_000_000)
 _PUBLISH_SECONDS = 1.0
 _GATHERED = 64
-"""Requests that are counted together; it takes a quarter of a millisecond."""
+"""Requests that are counted together; counting them takes a quarter of a millisecond."""
 _LEFT = 499
 
 _Metric = TypeVar("_Metric", Counter, Histogram)
 
 
 class Metrics:
-    """The numbers of this process, and of all.
+    """The metrics of this process, and of all processes together.
 
     Args:
-        robots: Names that have a label from the start.
-        pool: Who works for this process.
-        jobs: How many jobs there are by state, in all processes.
+        robots: Names of robots that have a label from the start.
+        pool: Worker pool of this process.
+        jobs: Returns the number of jobs by state, over all processes.
     """
 
     def __init__(self, robots: Sequence[str], pool: WorkerPool, jobs: Callable[[], Mapping[str, int]]) -> None:
@@ -76,11 +76,11 @@ class Metrics:
         self._refused = self._counter("refused", "Requests for which there was no room.")
 
     def begin(self) -> None:
-        """Count a request that has come in."""
+        """Count a request that has arrived."""
         self._in_flight += 1
 
     def end(self, exchange: RequestContext) -> None:
-        """Count a request that is over; a few are gathered first, which costs each of them less."""
+        """Count a finished request; several are collected and counted together, which costs less."""
         self._in_flight -= 1
         self._over.append(exchange)
         if len(self._over) >= _GATHERED:
@@ -107,7 +107,7 @@ class Metrics:
             self._bound(self._iterations, robot).inc(counts.iterations)
 
     def publish(self) -> None:
-        """Report how many requests of this process are finished and in progress."""
+        """Publish the counts of finished and current requests, and the state of this process."""
         self._settle()
         self._open.set(self._in_flight)
         self._resident.set(_resident_bytes())
@@ -119,13 +119,13 @@ class Metrics:
         self._raise_to(self._cpu, time.process_time())
 
     def _raise_to(self, counter: Counter, total: float) -> None:
-        """Count what something of this process has counted by itself."""
+        """Raise a counter to a total that this process counts elsewhere."""
         counter.inc(total - self._told.get(counter, 0.0))
         self._told[counter] = total
 
     @contextlib.asynccontextmanager
     async def publishing(self) -> AsyncIterator[None]:
-        """Report it every second: another process may be scraped."""
+        """Publish every second: Prometheus may scrape another process."""
 
         async def go_on() -> None:
             while True:
@@ -139,7 +139,7 @@ class Metrics:
             task.cancel()
 
     def text(self) -> bytes:
-        """The numbers of all processes, as Prometheus reads them; takes milliseconds. `publish` comes first."""
+        """Return the metrics of all processes in Prometheus' text format; takes milliseconds. Call `publish` first."""
         registry = self._registry
         if folder := os.environ.get(FOLDER):
             _forget_the_dead(Path(folder))
@@ -150,7 +150,7 @@ class Metrics:
         return generate_latest(registry) + generate_latest(jobs)
 
     def _label(self, exchange: RequestContext) -> str:
-        """The label of a robot; one that has answered gets its own, as long as there are any."""
+        """Return the label of a robot: its own once it has answered a request, as long as labels are left."""
         robot = exchange.robot
         if robot is None or robot in self._robots:
             return robot or ""
@@ -170,7 +170,7 @@ class Metrics:
 
 
 class _Together(Collector):
-    """The numbers of all processes; a file that one of them is just about to begin has none yet."""
+    """Collects the metrics of all processes; skips files that are still empty."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -181,7 +181,7 @@ class _Together(Collector):
 
 
 class _Jobs(Collector):
-    """How many jobs there are, which any process knows."""
+    """Collects the number of jobs by state, which every process knows."""
 
     def __init__(self, states: Mapping[str, int]) -> None:
         self._states = states
@@ -194,12 +194,12 @@ class _Jobs(Collector):
 
 
 def _labelled(metric: _Metric, *labels: str | int) -> _Metric:
-    """A metric under its labels, of which there is a bounded number."""
+    """Return a metric under its labels; there is a bounded number of them, so results can be cached."""
     return metric.labels(*labels)
 
 
 def _forget_the_dead(folder: Path) -> None:
-    """Requests in progress in an ended process are dropped; its counts are kept."""
+    """Drop the requests in progress of processes that have ended; keep their counts."""
     for pid in {file.stem.rpartition("_")[2] for file in folder.glob("gauge_live*.db")}:
         if not Path(f"/proc/{pid}").exists():
             with contextlib.suppress(FileNotFoundError):  # another process was quicker

@@ -1,4 +1,4 @@
-"""What every request and every answer passes through."""
+"""Middleware that every request and every response passes through."""
 
 import asyncio
 import time
@@ -21,15 +21,15 @@ AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
 
 
 class Middleware:
-    """Passes requests through the checks, in their order, to the application; completes the headers of answers.
+    """Passes requests through the checks, in order, to the application; completes the headers of responses.
 
     Args:
-        app: The application.
-        directory: Its operations.
+        app: The ASGI application.
+        directory: Table of its operations.
         root_path: Path prefix under which a proxy serves it.
-        checks: The first refusal counts.
-        metrics: Where all requests are counted, the refused ones included.
-        audit: Where writes are kept.
+        checks: Checks in order; the first refusal counts.
+        metrics: Counts all requests, refused ones included.
+        audit: Log of the writes.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class Middleware:
         self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve a connection."""
+        """Serve a request or the lifespan events; refuse a WebSocket."""
         if scope["type"] == "http":
             await self._serve(scope, receive, send)
         elif scope["type"] == "lifespan":
@@ -56,7 +56,7 @@ class Middleware:
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
         path: str = scope["path"].removeprefix(self._root_path)
         if self._root_path and not path:
-            path = "/"  # leads there
+            path = "/"  # the prefix alone is the root
         exchange = RequestContext.of(scope, *self._directory.find(path, scope["method"]))
         REQUEST_ID.set(exchange.request_id)
         REQUEST_COUNTS.set(None)
@@ -76,7 +76,7 @@ class Middleware:
             await (refusal or self._app)(scope, receive, answer)
         finally:
             if exchange.is_audited and not exchange.status:
-                # Its client has left, or it broke off: what was written may stay.
+                # The client has left, or the request failed: what it wrote may remain.
                 await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
             exchange.seconds = time.perf_counter() - exchange.started
             exchange.counts = REQUEST_COUNTS.get()
@@ -84,7 +84,7 @@ class Middleware:
             log_request(exchange)
 
     def _refusal(self, exchange: RequestContext) -> Response | None:
-        """The answer of the first check that has one."""
+        """Return the first refusal among the checks, or None."""
         for check in self._checks:
             if (refusal := check(exchange)) is not None:
                 return refusal

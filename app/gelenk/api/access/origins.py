@@ -1,7 +1,7 @@
-"""What pages of other origins may do in a browser: nothing that could change something, unless theirs is allowed.
+"""Rules for pages of other origins in a browser: they change nothing, unless their origin is allowed.
 
-A browser tells by `Sec-Fetch-Site`, an older one by `Origin`, whether a page of another origin has sent a request;
-other clients send neither. Cookies play no part: there are none, and answers allow no credentials.
+Browsers say with `Sec-Fetch-Site`, older ones with `Origin`, whether a page of another origin sent a request; other
+clients send neither. The service uses no cookies, and its responses allow no credentials.
 """
 
 from collections.abc import Sequence
@@ -22,17 +22,17 @@ _PREFLIGHT_SECONDS = b"600"
 
 
 class Origins:
-    """Refuses writes from pages of other origins, and lets those of allowed ones read the answers.
+    """Refuses writes from pages of other origins; lets pages of allowed origins write and read the responses.
 
     Args:
-        allowed: Origins such as `https://lab.example.org`, lower case; `*` stands for all.
+        allowed: Origins such as `https://lab.example.org`, in lower case; `*` allows all.
     """
 
     def __init__(self, allowed: Sequence[str]) -> None:
         self._allowed = frozenset(origin.encode() for origin in allowed)
 
     def __call__(self, exchange: RequestContext) -> Response | None:
-        """A refusal or the answer to a preflight, or None."""
+        """Return a refusal, the response to a preflight, or None to let the request pass."""
         origin, site = exchange.headers.get(b"origin"), exchange.headers.get(b"sec-fetch-site")
         if self._allowed:
             exchange.answer_headers.append((b"vary", b"Origin"))
@@ -52,7 +52,7 @@ class Origins:
         return b"*" in self._allowed or origin.lower() in self._allowed
 
     def _admitted(self, exchange: RequestContext, origin: bytes) -> Response | None:
-        """Let the page read the answer; a preflight is answered at once, before it would need a key."""
+        """Let the page read the response; answer a preflight at once, since a browser sends no key with it."""
         exchange.answer_headers += [
             (b"access-control-allow-origin", origin),
             (b"access-control-expose-headers", _ANSWER_HEADERS),
@@ -72,9 +72,9 @@ def _is_preflight(exchange: RequestContext) -> bool:
 
 
 def _is_same_origin(exchange: RequestContext, origin: bytes | None, site: bytes | None) -> bool:
-    """Whether the page is one of the service itself, or the request was typed in."""
+    """Whether the page belongs to the service itself, or the user opened the address directly."""
     if site is not None:
         return site in {b"same-origin", b"none"}
-    # Before a proxy the scheme may be another one than here: host and port decide.
+    # Behind a proxy, the scheme here may differ from the one in the browser: compare host and port.
     host = (origin or b"").partition(b"://")[2]
     return host != b"" and host.lower() == exchange.headers.get(b"host", b"").lower()

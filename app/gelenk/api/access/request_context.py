@@ -1,4 +1,4 @@
-"""A request and its answer so far: input of the checks and of the log."""
+"""A request and its response so far: input of the checks and of the log."""
 
 import re
 import time
@@ -18,21 +18,21 @@ _WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
 
 @dataclass(slots=True)
 class RequestContext:
-    """A request and its answer.
+    """A request and its response so far.
 
     Attributes:
-        scope: As the server has it.
+        scope: ASGI scope of the request.
         operation: The requested operation.
-        robot: The robot that the path names.
-        headers: Of the request; of a repeated one the last.
+        robot: Name of the robot in the path, if any.
+        headers: Headers of the request; of a repeated one, the last value.
         request_id: The caller's own if it is valid, else a new one.
-        started: On the monotonic clock, [s].
-        key: Name of the key that allowed it; "" without a key.
-        answer_headers: What its answer carries beside the headers that all have.
-        status: Of the answer; 0 until there is one.
+        started: Start time, by `time.perf_counter`, [s].
+        key: Name of the caller's key; "" without a valid one.
+        answer_headers: Headers of the response besides those common to all.
+        status: HTTP status of the response; 0 until it starts.
         was_let_in: Whether it has passed all checks.
-        seconds: How long it took, once it is over.
-        tally: What else is counted of it.
+        seconds: Duration once it is over, [s].
+        counts: Batch size and verdicts for the metrics, if any.
     """
 
     scope: AsgiScope
@@ -50,7 +50,7 @@ class RequestContext:
 
     @classmethod
     def of(cls, scope: AsgiScope, operation: Operation, robot: str | None) -> "RequestContext":
-        """A request that has just come in; problems find its id in the scope."""
+        """Build the context of a request that has just arrived; puts the request id in the scope for problems."""
         headers = dict(scope["headers"])
         given = headers.get(b"x-request-id", b"")
         request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
@@ -61,12 +61,12 @@ class RequestContext:
 
     @property
     def request(self) -> Request:
-        """The request, for a problem that answers it."""
+        """The request, for building a problem response."""
         return Request(self.scope)
 
     @property
     def is_audited(self) -> bool:
-        """Whether it writes, and was allowed or has a known key."""
+        """Whether it belongs in the audit log: it writes, and was allowed or has a valid key."""
         return self.operation.scope is Scope.WRITE and (self.was_let_in or self.key != "")
 
     @property
@@ -76,6 +76,6 @@ class RequestContext:
 
     @property
     def client(self) -> str:
-        """The address it came from."""
+        """Address of the client."""
         client = self.scope.get("client")
         return client[0] if client else ""

@@ -1,6 +1,6 @@
-"""Which operation of the application a path and a method are, found with one regular expression.
+"""Find the operation for a path and a method, with one regular expression.
 
-It is made of the expressions that the routes themselves match with, so that what is checked is what is answered.
+It combines the expressions of the routes themselves, so that the operation that is checked is the one that runs.
 """
 
 import re
@@ -19,11 +19,11 @@ _NAMED_GROUP = re.compile(r"\(\?P<(\w+)>")
 
 @dataclass(frozen=True, slots=True)
 class Operation:
-    """A request to the service.
+    """An operation of the service.
 
     Attributes:
-        name: Its operation id; of a page its path.
-        scope: What a key must be good for; None where none is needed.
+        name: Operation id; for a page, its path.
+        scope: Scope that a key needs for it; None if it needs no key.
     """
 
     name: str
@@ -31,16 +31,16 @@ class Operation:
 
     @property
     def is_open(self) -> bool:
-        """Whether it needs no key at all."""
+        """Whether it needs no key."""
         return self.scope is None and self is not UNKNOWN
 
 
 UNKNOWN = Operation("unknown", None)
-"""A path or a method that there is not: where keys are on, any key may learn that."""
+"""A path or method that does not exist; where keys are on, any valid key may learn that."""
 
 
 class RouteTable:
-    """The operations of an application.
+    """Table of the operations of an application.
 
     Args:
         routes: All of its routes.
@@ -58,7 +58,7 @@ class RouteTable:
         self._remembered = lru_cache(_MOST_REMEMBERED)(self._found)
 
     def find(self, path: str, method: str) -> tuple[Operation, str | None]:
-        """The operation, and the robot that the path names."""
+        """Return the operation, and the name of the robot in the path, if any."""
         return (self._remembered if len(path) <= _LONGEST_REMEMBERED else self._found)(path, method)
 
     def _found(self, path: str, method: str) -> tuple[Operation, str | None]:
@@ -77,6 +77,6 @@ def _operation(route: RouteContext) -> Operation:
 
 
 def _numbered(number: int, pattern: str) -> str:
-    """A route's expression as one of many: its robot is `robot7`, the whole is `_7`, other groups have no name."""
+    """Rewrite a route's expression as one of many: robot group `robot7`, whole match `_7`, other groups unnamed."""
     plain = _NAMED_GROUP.sub(lambda group: f"(?P<robot{number}>" if group[1] == "robot" else "(?:", pattern)
     return f"(?P<_{number}>{plain})"

@@ -1,6 +1,7 @@
-"""Which operation needs which scope: the one place that says so.
+"""The one table of the scope that each operation needs.
 
-No scope includes another one: a key for the metrics needs `admin`, and can neither compute nor change anything.
+No scope includes another: a key for the metrics needs `admin`, and `admin` alone can neither compute nor change
+anything.
 """
 
 from enum import StrEnum
@@ -10,7 +11,7 @@ from gelenk.contract.endpoints import ROBOT_ENDPOINTS
 
 
 class Scope(StrEnum):
-    """What a key permits."""
+    """A permission that a key grants."""
 
     READ = "read"
     WRITE = "write"
@@ -24,10 +25,10 @@ OPEN_PATHS = frozenset(
 """Pages, their files and the schema: the same for everyone, and a browser sends no key for them."""
 WRITING = frozenset({"add_robot", "replace_robot", "remove_robot", "workspace", "cancel_job"})
 AS_JOBS = frozenset(endpoint.operation_id or endpoint.name for endpoint in ROBOT_ENDPOINTS if endpoint.job)
-"""What asks, unless a job is to answer it: that is kept, and needs `write`."""
+"""Operations that only query, unless run as a job: a job is stored and needs `write`."""
 ADMINISTERING = frozenset({"metrics"})
 QUESTIONS = frozenset({"Kinematics", "DH tables", "Course"})
-"""Tags of operations that keep nothing, whatever their method, unless they are named above."""
+"""Tags of operations that store nothing, whatever their method, unless they are named above."""
 
 SCHEME = {
     "type": "http",
@@ -39,9 +40,9 @@ SCHEME = {
 
 
 def scope_of(operation_id: str | None, path: str, methods: frozenset[str], tags: frozenset[str]) -> Scope | None:
-    """The scope that an operation needs; None where it needs no key.
+    """Return the scope that an operation needs; None if it needs no key.
 
-    What changes something needs `write` unless it is known to keep nothing: a new operation is guarded by default.
+    A method other than GET and HEAD needs `write` unless it is known to store nothing: new operations are protected.
     """
     if operation_id in OPEN_OPERATIONS or path in OPEN_PATHS:
         return None
@@ -53,7 +54,7 @@ def scope_of(operation_id: str | None, path: str, methods: frozenset[str], tags:
 
 
 def security_of(path: str, method: str, operation: dict[str, Any]) -> list[dict[str, list[str]]]:
-    """The security requirement of an operation in the schema."""
+    """Return the security requirement of an operation for the OpenAPI document."""
     tags = frozenset(operation.get("tags", ()))
     scope = scope_of(operation.get("operationId"), path, frozenset({method.upper()}), tags)
     return [] if scope is None else [{"key": [scope.value]}]
