@@ -1,9 +1,9 @@
-"""A motion judged by code that shares nothing with what planned it: by evaluating it, never by trusting its formulas.
+"""Audit of a motion by evaluating it, with code that shares nothing with the planners.
 
-`audit` takes a motion of joints and what it must keep to, and finds the largest velocity, acceleration and jerk of each
-joint, jumps where pieces meet, the distance to joint limits, the ends, the tip's speeds and accelerations, the distance
-from the path wanted (also between samples), and the nearness to a singularity. Poses at some samples are recomputed
-through Pinocchio. It passes or says why not.
+`audit` takes a joint motion and its demands. It finds the largest velocity, acceleration and jerk of each joint, jumps
+where pieces meet, the distance to joint limits, errors at the ends, the tip's speeds and accelerations, the distance
+from the demanded path (also between samples), and the smallest singular value. Pinocchio recomputes the poses of some
+samples. The result passes, or gives the reasons why not.
 """
 
 import math
@@ -26,21 +26,21 @@ from gelenk.trajectory.words import Check
 DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
-"""By how much more than the one before a derivative may jump: coefficients have fewer digits for it."""
+"""Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
 _STRETCH = 200
-"""Samples of a stretch that has limits of its own."""
+"""Samples of a stretch that has its own limits."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """The largest of something.
+    """The peak of a quantity.
 
     Attributes:
-        ratio: To its limit; None where there is none, infinite where it is 0.
-        value: What it is there, with its sign.
-        joint: Which joint; None for the tip.
-        time: When, [s].
+        ratio: Magnitude over limit; None without a limit, infinite where the limit is 0 and the value is not.
+        value: Value at the peak, with its sign.
+        joint: Name of the joint; None for the tip.
+        time: Time of the peak, [s].
     """
 
     ratio: float | None
@@ -51,7 +51,7 @@ class Peak:
 
 @dataclass(frozen=True, slots=True)
 class Margin:
-    """How far the joints stay from their limits: the smallest distance, negative beyond, [rad or m]."""
+    """The smallest distance of a joint from its limits, [rad or m]; negative beyond a limit."""
 
     distance: float
     joint: str
@@ -61,7 +61,7 @@ class Margin:
 
 @dataclass(frozen=True, slots=True)
 class Singularity:
-    """The smallest singular value of the geometric Jacobian's rows that count; metres and radians are mixed."""
+    """The smallest singular value of the rows of the geometric Jacobian that count; metres and radians are mixed."""
 
     value: float
     time: float
@@ -69,13 +69,13 @@ class Singularity:
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """Why a motion does not pass.
+    """A reason why a motion does not pass.
 
     Attributes:
-        check: What it fails.
-        detail: In a sentence.
-        joint: Of which joint, where one can be named.
-        time: When, [s].
+        check: The check that fails.
+        detail: A sentence that explains it.
+        joint: Name of the joint, if one is responsible.
+        time: Time of the failure, [s].
     """
 
     check: Check
@@ -86,22 +86,22 @@ class Reason:
 
 @dataclass(frozen=True, slots=True)
 class Audit:
-    """A motion's judgement.
+    """The result of auditing a motion.
 
     Attributes:
         velocity: The joint velocity nearest to or furthest beyond its limit; None without joints.
         acceleration: Likewise.
-        jerk: Likewise; where acceleration jumps it is infinite, which `jumps` tells and this does not.
+        jerk: Likewise, within pieces: a jump of acceleration, where jerk is infinite, appears in `jumps` only.
         jumps: The largest jump of position, velocity, acceleration and jerk where pieces meet.
-        limit_margin: None where no joint has limits.
-        ends: Largest error of a joint at each end that is requested, by name, [rad or m per sᵏ].
+        limit_margin: Distance to the joint limits; None if no joint has limits.
+        ends: Largest joint error of each demanded quantity at an end, such as `end_velocity`, [rad or m per sᵏ].
         tip: Largest speed, angular speed, acceleration and angular acceleration, [m/s, rad/s, m/s², rad/s²].
-        path_deviation: Largest distance from the path wanted, [m]; None without one.
-        orientation_deviation: Largest angle from it, [rad].
+        path_deviation: Largest distance from the demanded path, [m]; None without one.
+        orientation_deviation: Largest angle from its orientation, [rad]; None without one.
         min_singular_value: None without joints.
         certificate: How far Pinocchio's poses are from ours at some samples.
-        reasons: Why it does not pass.
-        way_error: By how much the peaks of the joints differ from those of the exact path; None without one.
+        reasons: Reasons why the motion does not pass.
+        way_error: How much ratios to joint limits may differ from the exact path's; None without such a path.
     """
 
     velocity: Peak | None
@@ -120,22 +120,22 @@ class Audit:
 
     @property
     def passed(self) -> bool:
-        """Whether there is no reason against it."""
+        """Whether the motion passes, with no reason against it."""
         return not self.reasons
 
 
 def audit(robot: Robot, chain: Chain, motion: PiecewisePolynomial, demands: Demands) -> Audit:
-    """Judge a motion.
+    """Audit a motion.
 
     Args:
         robot: The robot.
-        chain: What moves; n variables.
-        motion: Their values in time; n coordinates.
-        demands: What it has to keep to.
+        chain: The moving chain; n variables.
+        motion: Joint values over time; n coordinates.
+        demands: Limits, ends and path that the motion must keep.
 
     Raises:
-        CertificationFailed: Pinocchio's poses differ, or the motion is none: a number is not finite, or a piece takes
-            no time.
+        CertificationFailed: Pinocchio's poses differ, or the motion is invalid: a number is not finite, or a piece
+            has no duration.
     """
     if not (np.isfinite(motion.coefficients).all() and (np.diff(motion.breaks) > 0.0).all()):
         raise CertificationFailed("the motion", math.nan, 0.0)
@@ -162,14 +162,14 @@ def audit(robot: Robot, chain: Chain, motion: PiecewisePolynomial, demands: Dema
 
 
 def meetings(chain: Chain, motion: PiecewisePolynomial) -> tuple[tuple[Peak, ...], tuple[Reason, ...]]:
-    """The largest jumps of a motion whose parts have been judged, and whether position or velocity jumps."""
+    """Return the largest jumps where pieces meet, and a reason for each of position or velocity; no other checks."""
     reasons: list[Reason] = []
     jumps = _jumps(pieces_of(motion), chain.joint_names, Demands(), {}, reasons)
     return jumps, tuple(reasons)
 
 
 def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reasons: list[Reason]) -> dict[str, Peak]:
-    """The peaks of velocity, acceleration and jerk; none without joints."""
+    """Find the peaks of velocity, acceleration and jerk, and add reasons; empty without joints."""
     peaks: dict[str, Peak] = {}
     for order, check in enumerate(_RATES, start=1):
         if not names:
@@ -188,7 +188,7 @@ def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reaso
 
 
 def _worst(found: Extremes, names: tuple[str, ...], bounds: Array | None) -> Peak:
-    """The joint nearest to its limit, or the fastest where none has one."""
+    """Return the joint nearest to its limit, or the largest value if none is limited."""
     sizes = np.abs(found.values)
     limited = bounds is not None and bool(np.isfinite(bounds).any())
     ratios = _ratios(sizes, bounds) if limited and bounds is not None else sizes
@@ -198,7 +198,7 @@ def _worst(found: Extremes, names: tuple[str, ...], bounds: Array | None) -> Pea
 
 
 def _ratios(sizes: Array, bounds: Array) -> Array:
-    """Sizes over their limits; what is at rest keeps to any, what moves is infinitely far beyond a limit of 0."""
+    """Divide sizes by limits; where the limit is 0, a size of 0 gives 0 and any other gives infinity."""
     beyond = np.where(sizes > 0.0, np.inf, 0.0)
     ratios: Array = np.divide(sizes, bounds, out=beyond, where=bounds > 0.0)
     return ratios
@@ -207,7 +207,7 @@ def _ratios(sizes: Array, bounds: Array) -> Array:
 def _jumps(
     pieces: Pieces, names: tuple[str, ...], demands: Demands, peaks: dict[str, Peak], reasons: list[Reason]
 ) -> tuple[Peak, ...]:
-    """The largest jump of each derivative."""
+    """Find the largest jump of each derivative, and add reasons."""
     jumps = []
     for order, quantity in enumerate(DERIVATIVES):
         if not names:
@@ -223,12 +223,12 @@ def _jumps(
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:
-    """The largest value of a derivative, or 1."""
+    """Return the peak of a derivative, but at least 1."""
     return max(1.0, abs(peaks[quantity].value)) if quantity in peaks else 1.0
 
 
 def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> Margin | None:
-    """The smallest distance to a joint limit."""
+    """Find the smallest distance to a joint limit, and add a reason if it is beyond."""
     lower = chain.lower if demands.joints.lower is None else demands.joints.lower
     upper = chain.upper if demands.joints.upper is None else demands.joints.upper
     if not (np.isfinite(lower).any() or np.isfinite(upper).any()):
@@ -248,7 +248,7 @@ def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason
 def _ends(
     pieces: Pieces, names: tuple[str, ...], demands: Demands, peaks: dict[str, Peak], reasons: list[Reason]
 ) -> dict[str, float]:
-    """How far each end is from what is wanted."""
+    """Return the largest error of each demanded quantity at both ends, and add reasons."""
     errors: dict[str, float] = {}
     still = np.zeros(len(names))
     last = len(pieces.widths) - 1
@@ -272,7 +272,7 @@ def _ends(
 def _tip(
     pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]
 ) -> tuple[dict[str, Peak], dict[str, Peak]]:
-    """The tip's peaks, and its deviations from the path."""
+    """Find the peaks of the tip and its deviations from the path, and add reasons."""
     tolerances = {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
     tip: dict[str, Peak] = {}
     deviations: dict[str, Peak] = {}
@@ -293,7 +293,7 @@ def _tip(
 def _in_stretch(
     peak: Peak, quantity: str, found: Largest, stretch: Stretch, demands: Demands, reasons: list[Reason]
 ) -> Peak:
-    """The largest value everywhere, and the largest ratio to a limit, that of a stretch among them."""
+    """Raise a peak's ratio to that of a stretch with its own limit if larger, and add a reason if it is exceeded."""
     limit = getattr(stretch.tip, quantity)
     if not math.isfinite(limit):
         return peak

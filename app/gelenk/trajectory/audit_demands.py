@@ -1,4 +1,4 @@
-"""What a motion has to keep to: limits of joints and tip, its ends, its path, how smooth it is."""
+"""Demands on a motion: limits of joints and tip, its ends, its path, and its smoothness."""
 
 import math
 from dataclasses import dataclass, field
@@ -10,13 +10,13 @@ from gelenk.trajectory.audit_tip import PathOfTime
 
 @dataclass(frozen=True, slots=True)
 class JointLimits:
-    """What each joint may do; infinite, or None for all, where there is no limit; shape (n,) each.
+    """Limits of each joint, of shape (n,) each; infinite for a joint without a limit, None if no joint has one.
 
     Attributes:
         velocity: [rad/s or m/s].
         acceleration: [rad/s² or m/s²].
         jerk: [rad/s³ or m/s³].
-        lower: Position, [rad or m]; the chain's if left out.
+        lower: Position, [rad or m]; the chain's limit if None.
         upper: Likewise.
     """
 
@@ -29,7 +29,7 @@ class JointLimits:
 
 @dataclass(frozen=True, slots=True)
 class TipLimits:
-    """The limits of the tip; infinite where there is none."""
+    """Limits of the tip, [m/s, rad/s, m/s², rad/s²]; infinite if unlimited."""
 
     speed: float = math.inf
     angular_speed: float = math.inf
@@ -39,14 +39,14 @@ class TipLimits:
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """Where a motion is to begin and end; None leaves it open. At rest unless velocities say otherwise.
+    """State that a motion must have at its start and end; None leaves a quantity open, but a velocity is then 0.
 
     Attributes:
         start: Configuration; shape (n,), [rad or m].
         end: Likewise.
-        start_velocity: Zero if left out; shape (n,), [rad/s or m/s].
+        start_velocity: Zero if None; shape (n,), [rad/s or m/s].
         end_velocity: Likewise.
-        start_acceleration: Open if left out; shape (n,), [rad/s² or m/s²].
+        start_acceleration: Open if None; shape (n,), [rad/s² or m/s²].
         end_acceleration: Likewise.
     """
 
@@ -60,7 +60,7 @@ class Ends:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Some time of a motion in which the tip has limits of its own, beside those that hold everywhere.
+    """A time interval in which the tip has its own limits, in addition to those of the whole motion.
 
     Attributes:
         begin: [s].
@@ -75,10 +75,10 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class WayError:
-    """By how much ratios to limits differ at most from those of the exact path of the tip at the same law of time.
+    """Bounds on how much ratios to limits differ from those of the exact path at the same time law.
 
     Attributes:
-        velocity: Of the joints; ∞ where it is not known.
+        velocity: Of the joints; ∞ if unknown.
         acceleration: Likewise.
         jerk: Likewise.
     """
@@ -95,19 +95,18 @@ class Demands:
     Attributes:
         joints: Limits of the joints.
         tip: Limits of the tip.
-        ends: Where it begins and ends.
-        path: Pose wanted at each time; none if left out.
-        task: Directions in which it, and nearness to a singularity, counts.
-        path_tolerance: Allowed distance from it, [m].
-        orientation_tolerance: Allowed angle from it, [rad].
-        continuous: Derivatives up to this order do not jump; 1 is C¹.
-        stretches: Of time in which the tip has limits of its own; pieces of the motion begin and end there.
-        keeps_jerk: Whether limits of jerk are kept, or only compared with.
-        stated_jerk: Limits of jerk that are kept even so, where acceleration does not jump; shape (n,),
-            [rad/s³ or m/s³].
-        way_error: How far the planned motion is from the exact path; None where it follows none.
-        tolerance: Allowed excess over a limit, relatively, and error of ends, relative to the largest value of that
-            derivative or to 1; likewise of jumps of position, ten times as much of those of velocity, and so on.
+        ends: State at the start and the end.
+        path: Demanded pose at each time; None if the tip is free.
+        task: Directions that count for the path and for the smallest singular value.
+        path_tolerance: Allowed distance from the path, [m].
+        orientation_tolerance: Allowed angle from the path's orientation, [rad].
+        continuous: Order up to which derivatives must not jump; 1 means C¹.
+        stretches: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
+        keeps_jerk: Whether exceeding a jerk limit fails the audit; otherwise jerk is only compared.
+        stated_jerk: Jerk limits enforced within pieces even if `keeps_jerk` is False; shape (n,), [rad/s³ or m/s³].
+        way_error: How far the planned motion is from the exact path; None if it follows no path.
+        tolerance: Allowed relative excess over a limit, and allowed error at the ends, relative to the derivative's
+            peak or to 1; also the allowed jump of position, ten times as much for velocity, and so on.
     """
 
     joints: JointLimits = field(default_factory=JointLimits)

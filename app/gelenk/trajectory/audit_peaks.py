@@ -1,7 +1,7 @@
-"""How high a function gets between samples of it: parabolas through three of them, each time nearer to each other.
+"""Peaks of a function between its samples, by repeated parabolic interpolation through three ever closer samples.
 
-Where the function is smooth three rounds find its peak to the last digits. Where it has a kink, as a singular value has
-at zero, the parabola tells little; the evenly spread places of each round reduce the interval to a quarter then.
+Three rounds find the peak of a smooth function to the last digits. At a kink, such as a singular value has at zero, the
+parabola is of little use; the evenly spread places of each round then reduce the interval to a quarter.
 """
 
 from collections.abc import Callable
@@ -12,29 +12,29 @@ import numpy as np
 from gelenk.model.arrays import Array, Flags, Indices
 
 Values: TypeAlias = Callable[[Array], Array]
-"""Of C functions at P places each: shape (C, P) both."""
+"""C functions at P places each; shape (C, P) → (C, P)."""
 
 MOST = 16
-"""Triples of samples of one function that are examined closely."""
+"""Largest number of sample triples of one function that are refined."""
 _ROUNDS = 8
 _BEYOND = 0.125
-"""Share of an interval by which a parabola may put a peak beyond the interval in which it is."""
+"""Share of an interval by which a parabola's vertex may lie outside the interval that contains the peak."""
 _OFFSETS = np.array([0.0, *((np.arange(8) + 0.5) / 8.0), 1.0])
-"""Of an interval: without its middle, where parabolas often are highest."""
+"""Sampled places, in fractions of an interval; they omit the middle, where the parabola is often highest."""
 _THREE = np.array([-1, 0, 1])
 _TRUST = 1e-3
-"""Share of a parabola's error in one round that is left in the next at most where it is right to second order."""
+"""Largest share of a parabola's error that the next round leaves, where it is right to second order."""
 _BESIDE = np.array([-1.0, 0.0, 1.0]) / 64.0
 
 
 def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tuple[Array, Array]:
-    """The largest value that is found of each function between its outer two of three places, and where.
+    """Find the maximum of each function between the outer two of three places, and where it is.
 
     Args:
         values_at: The functions.
-        places: Three of each, increasing; shape (C, 3).
-        values: There; shape (C, 3).
-        exact: How much higher a peak may be than what is found of it; shape (C,).
+        places: Three places for each function, increasing; shape (C, 3).
+        values: Values there; shape (C, 3).
+        exact: How much higher a peak may be than the value found; shape (C,).
 
     Returns:
         Values and places; shape (C,) each.
@@ -57,14 +57,14 @@ def highest(values_at: Values, places: Array, values: Array, exact: Array) -> tu
         each = np.repeat(rows, 3)
         places, values = tried[each, near].reshape(-1, 3), found[each, near].reshape(-1, 3)
         vertices, expected = _vertices(places, values)
-        # The points are nearer to each other by a factor of 4 at least, by 32 where the parabola was right.
+        # Each round brings the points at least 4 times closer, and 32 times where the parabola was right.
         if not (np.maximum(expected - best, _TRUST * wrong) > exact).any():
             break
     return best, where
 
 
 def _vertices(places: Array, values: Array) -> tuple[Array, Array]:
-    """Where the parabola through three points is highest between the outer two, and how high; shape (C,) each."""
+    """Return the maximum of each parabola between its outer two points: place and value; shape (C,) each."""
     vertices, heights, bends = _parabolas(places, values)
     low, high = places[:, 0], places[:, 2]
     inside = (bends < 0.0) & (vertices >= low) & (vertices <= high)
@@ -73,19 +73,19 @@ def _vertices(places: Array, values: Array) -> tuple[Array, Array]:
 
 
 def promising(places: Array, values: Array, rows: Indices, exact: Array) -> tuple[Indices, Indices]:
-    """Around which samples of several functions peaks may be that are higher than the largest sample.
+    """Return the samples near which a function may peak above its largest sample.
 
-    The parabola through a sample and its two neighbours says how high; it may be wrong by as much as it is bent. Where
-    many samples are equally high, as along a limit, they would not tell between which of them it gets beyond.
+    The parabola through a sample and its two neighbours estimates the peak; its bend bounds the error. This also covers
+    many equally high samples, as along a limit, where the samples alone do not show between which of them a peak lies.
 
     Args:
         places: Increasing around each of the rows; shape (N,).
         values: Of Q functions; shape (N, Q).
         rows: Samples whose neighbours belong to the same stretch of the functions; shape (K,).
-        exact: By how much less than this a peak may be higher without being examined; shape (Q,).
+        exact: Height above the largest sample up to which peaks are ignored; shape (Q,).
 
     Returns:
-        Rows and columns of at most `MOST` of each function; shape (C,) each.
+        Rows and columns, at most `MOST` for each function; shape (C,) each.
     """
     largest = values.max(axis=0) + exact
     chosen, columns = np.nonzero(_can_exceed(places, values, rows, largest))
@@ -103,7 +103,7 @@ def promising(places: Array, values: Array, rows: Indices, exact: Array) -> tupl
 
 
 def _can_exceed(places: Array, values: Array, rows: Indices, least: Array) -> Flags:
-    """Which parabolas may get beyond something, at a glance: by as much as they are bent; shape (K, Q)."""
+    """Return which parabolas may exceed `least`, by a quick bound from their bends; shape (K, Q)."""
     widths = (places[rows + 1] - places[rows - 1])[:, None]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         slopes = np.diff(values, axis=0) / np.diff(places)[:, None]
@@ -113,7 +113,7 @@ def _can_exceed(places: Array, values: Array, rows: Indices, least: Array) -> Fl
 
 
 def _parabolas(places: Array, values: Array) -> tuple[Array, Array, Array]:
-    """Where parabolas through three points are highest (or lowest), how high, and their bends; shape (C,) each."""
+    """Return the vertex, its value and the bend of the parabola through three points; shape (C,) each."""
     x0, x1, x2 = places.T
     f0, f1, f2 = values.T
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

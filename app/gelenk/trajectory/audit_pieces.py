@@ -1,9 +1,9 @@
-"""Polynomial pieces as the audit evaluates them, and where their derivatives are largest.
+"""Polynomial pieces as the audit evaluates them, and the extremes of their derivatives.
 
-Nothing is taken from the planners: each piece is brought to τ from 0 to 1 and evaluated there as a sum of powers, no
-root of a polynomial is ever looked for. A polynomial of degree m that is sampled at the N + 1 extremes of a Chebyshev
-polynomial, N > m, is nowhere larger than its largest sample over cos(m π / 2N) [Ehlich1964]. So the samples tell which
-pieces could hold a peak, and only there the samples are refined.
+The audit uses nothing from the planners: it scales each piece to τ from 0 to 1, evaluates it as a sum of powers, and
+never computes roots. A polynomial of degree m that is sampled at the N + 1 extremes of a Chebyshev polynomial, N > m,
+is nowhere larger than its largest sample over cos(m π / 2N) [Ehlich1964]. So the samples show which pieces could hold a
+peak, and only those are refined.
 """
 
 import math
@@ -20,10 +20,10 @@ Sense: TypeAlias = Literal["absolute", "highest", "lowest"]
 
 _MIN_INTERVALS = 12
 _CHUNK = 1024
-"""Pieces that are sampled at a time."""
+"""Number of pieces that are sampled at a time."""
 _ROUNDING = 1e-13
 _SAME = 1e-12
-"""Share by which another piece has to be able to exceed the largest sample to be refined."""
+"""Share by which a piece must be able to exceed the largest sample to be refined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +41,11 @@ class Extremes:
 
 @dataclass(frozen=True, slots=True)
 class Pieces:
-    """A motion piece by piece.
+    """A motion as separate pieces, each scaled to τ from 0 to 1.
 
     Attributes:
-        starts: When each begins; shape (M,), [s].
-        widths: How long it takes; shape (M,), [s].
+        starts: Start time of each piece; shape (M,), [s].
+        widths: Duration of each piece; shape (M,), [s].
         scaled: c_k hᵏ, the coefficients in τ; shape (degree + 1, M, n).
     """
 
@@ -54,34 +54,34 @@ class Pieces:
     scaled: Array
 
     def part(self, first: int, last: int) -> "Pieces":
-        """The pieces from one number to another."""
+        """Return the pieces from number `first` up to, but not including, `last`."""
         return Pieces(self.starts[first:last], self.widths[first:last], self.scaled[:, first:last])
 
     def between(self, begin: float, end: float) -> "Pieces":
-        """The pieces whose middle lies between two times, [s]."""
+        """Return the pieces whose middle lies between two times, [s]."""
         middles = self.starts + 0.5 * self.widths
         return self.part(int(np.searchsorted(middles, begin)), int(np.searchsorted(middles, end)))
 
     @property
     def degree(self) -> int:
-        """The degree of the positions."""
+        """Degree of the positions."""
         return len(self.scaled) - 1
 
     def on(self, nodes: Array, order: int) -> Array:
-        """A derivative in time at the same τ of every piece; shape (K,) → (K, M, n)."""
+        """Evaluate a time derivative at the same τ of every piece; shape (K,) → (K, M, n)."""
         powers = _powers(nodes, order, self.degree)
         flat = powers @ self.scaled.reshape(self.degree + 1, -1)
         values: Array = flat.reshape(len(nodes), *self.scaled.shape[1:])
         return values / self.widths[:, None] ** order if order else values
 
     def at(self, piece: Indices, tau: Array, order: int) -> Array:
-        """A derivative in time at τ of some pieces; shape (N,) each → (N, n)."""
+        """Evaluate a time derivative at τ of the given pieces; shape (N,) each → (N, n)."""
         powers = _powers(tau, order, self.degree)
         values: Array = np.einsum("nk,knj->nj", powers, self.scaled[:, piece])
         return values / self.widths[piece, None] ** order if order else values
 
     def rates(self, piece: Indices, tau: Array) -> tuple[Array, Array, Array]:
-        """Positions, velocities and accelerations at τ of some pieces; shape (N,) each → three of (N, n)."""
+        """Evaluate positions, velocities and accelerations at τ of some pieces; shape (N,) each → three of (N, n)."""
         scaled, per_width = self.scaled[:, piece], 1.0 / self.widths[piece, None]
         values, first, second = (
             np.einsum("nk,knj->nj", _powers(tau, order, self.degree), scaled) for order in range(3)
@@ -89,12 +89,12 @@ class Pieces:
         return values, first * per_width, second * per_width**2
 
     def positions(self, times: Array) -> Array:
-        """Positions at some times, [s]; shape (N,) → (N, n)."""
+        """Evaluate positions at times, [s]; shape (N,) → (N, n)."""
         piece = np.clip(np.searchsorted(self.starts, times, side="right") - 1, 0, len(self.starts) - 1)
         return self.at(piece, (times - self.starts[piece]) / self.widths[piece], 0)
 
     def joint_at(self, piece: Indices, joint: Indices, tau: Array, order: int) -> Array:
-        """A derivative in time of one joint each at several τ; shapes (C,), (C,), (C, P) → (C, P)."""
+        """Evaluate a time derivative of one joint each at several τ; shapes (C,), (C,), (C, P) → (C, P)."""
         powers = _powers(tau, order, self.degree)
         values: Array = np.einsum("cpk,kc->cp", powers, self.scaled[:, piece, joint])
         return values / self.widths[piece, None] ** order
@@ -113,12 +113,12 @@ def pieces_of(motion: PiecewisePolynomial) -> Pieces:
 
 
 def extremes(pieces: Pieces, order: int, sense: Sense) -> Extremes:
-    """Where a derivative of each joint is largest in magnitude, highest or lowest, over all of the motion.
+    """Find the extreme value of a derivative of each joint over the whole motion.
 
     Args:
         pieces: The motion.
-        order: Of the derivative; 0 is the position.
-        sense: In which sense.
+        order: Order of the derivative; 0 is the position.
+        sense: Whether to find the largest magnitude, the highest or the lowest value.
     """
     degree = max(pieces.degree - order, 0)
     count = max(_MIN_INTERVALS, 2 * degree + 2)
@@ -131,7 +131,7 @@ def extremes(pieces: Pieces, order: int, sense: Sense) -> Extremes:
         signed = _signed(values, sense)
         found.take_samples(signed, nodes, first)
         if degree > 1:
-            # Of degree 1 and 0 the ends are the extremes, and they are samples.
+            # At degree 0 or 1 the extremes are at the ends, which are samples.
             bounds = _bounds(values, sense, 1.0 / math.cos(0.5 * math.pi * degree / count))
             _refine(part, order, sense, nodes, signed, bounds > found.best + _SAME * np.abs(found.best), found, first)
     values = pieces.joint_at(found.piece, np.arange(n), found.tau[:, None], order)[:, 0]
@@ -139,7 +139,7 @@ def extremes(pieces: Pieces, order: int, sense: Sense) -> Extremes:
 
 
 def largest_jumps(pieces: Pieces, order: int) -> Extremes:
-    """The largest jump of each joint's derivative where two pieces meet; zero where there is one piece."""
+    """Find the largest jump of a derivative of each joint where two pieces meet; zero if there is only one piece."""
     if len(pieces.widths) == 1:
         n = pieces.scaled.shape[2]
         return Extremes(np.zeros(n), np.full(n, pieces.starts[0]))
@@ -150,7 +150,7 @@ def largest_jumps(pieces: Pieces, order: int) -> Extremes:
 
 
 def _powers(tau: Array, order: int, degree: int) -> Array:
-    """d^order/dτ^order of 1, τ, τ², …; shape (…) → (…, degree + 1)."""
+    """Return d^order/dτ^order of 1, τ, τ², …; shape (…) → (…, degree + 1)."""
     powers = np.zeros((*tau.shape, degree + 1))
     power = np.ones_like(tau)
     for k in range(order, degree + 1):
@@ -160,7 +160,7 @@ def _powers(tau: Array, order: int, degree: int) -> Array:
 
 
 def _signed(values: Array, sense: Sense) -> Array:
-    """The function to maximise."""
+    """Return the function to maximise."""
     if sense == "absolute":
         return np.abs(values)
     sign = 1.0 if sense == "highest" else -1.0
@@ -169,7 +169,7 @@ def _signed(values: Array, sense: Sense) -> Array:
 
 
 def _bounds(values: Array, sense: Sense, factor: float) -> Array:
-    """What no value of each piece exceeds, from its samples: around their middle, that holds too; shape (M, n)."""
+    """Bound the values of each piece from its samples, applying [Ehlich1964] around their middle; shape (M, n)."""
     low, high = values.min(axis=0), values.max(axis=0)
     middle, half = 0.5 * (low + high), 0.5 * factor * (high - low)
     if sense == "absolute":
@@ -182,16 +182,16 @@ def _bounds(values: Array, sense: Sense, factor: float) -> Array:
 def _refine(
     part: Pieces, order: int, sense: Sense, nodes: Array, signed: Array, open_: Flags, found: "_Found", first: int
 ) -> None:
-    """Look closer around each local maximum of the samples in pieces that may hold more.
+    """Refine around each local maximum of the samples in pieces that may hold more.
 
     Args:
         part: Some of the pieces.
-        order: Of the derivative.
-        sense: In which it is largest.
+        order: Order of the derivative.
+        sense: The kind of extreme.
         nodes: τ of the samples; shape (K,).
         signed: The samples; shape (K, P, n).
-        open_: Which pieces may hold more than was found; shape (P, n).
-        found: Kept up to date.
+        open_: Which pieces may exceed the extremes found so far; shape (P, n).
+        found: The extremes found so far, updated here.
         first: Number of the first of the pieces.
     """
     piece, joint = np.nonzero(open_)
@@ -214,14 +214,14 @@ def _refine(
 
 @dataclass(slots=True)
 class _Found:
-    """The largest so far of each joint: the value, the piece and τ; shape (n,) each."""
+    """The largest value of each joint so far: the value, the piece and τ; shape (n,) each."""
 
     best: Array
     piece: Indices
     tau: Array
 
     def take_samples(self, signed: Array, nodes: Array, first: int) -> None:
-        """Samples of some pieces, the first of a number; shape (K, P, n)."""
+        """Update with samples of consecutive pieces, `first` being the number of the first; shape (K, P, n)."""
         flat = signed.reshape(-1, signed.shape[2])
         where = flat.argmax(axis=0)
         joint = np.arange(len(where))
@@ -229,7 +229,7 @@ class _Found:
         self.take(flat[where, joint], joint, piece + first, nodes[node])
 
     def take(self, values: Array, joint: Indices, piece: Indices, tau: Array) -> None:
-        """Values of some joints: those count that are larger by more than rounding."""
+        """Update with values of some joints; an increase within rounding is ignored."""
         for i in np.argsort(values, kind="stable")[::-1]:
             j = joint[i]
             if self.best[j] == -np.inf or values[i] > self.best[j] + _ROUNDING * abs(self.best[j]):

@@ -1,7 +1,7 @@
-"""What the tip does while the joints move: speeds, accelerations, distance from the path, nearness to a singularity.
+"""Motion of the tip while the joints move: speeds, accelerations, path deviations and nearness to a singularity.
 
-Everything is sampled densely, both ends of each piece among the samples, and where parabolas through these reach higher
-examined more closely. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
+All quantities are sampled densely, including both ends of each piece, and refined where parabolas through the samples
+reach higher. The acceleration J q̈ + J̇ q̇ takes J̇ q̇ from differences of J along the motion.
 """
 
 from collections.abc import Callable
@@ -19,22 +19,22 @@ from gelenk.trajectory.audit_peaks import highest, promising
 from gelenk.trajectory.audit_pieces import Pieces
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
-"""The pose T_base_tip that is wanted at times of shape (N,), [s]."""
+"""The demanded pose T_base_tip at times of shape (N,), [s]."""
 
 MIN_SAMPLES = 1500
-"""Of the whole motion; more where there are many pieces."""
+"""Samples of the whole motion; more if there are many pieces."""
 _SIGMA_SAMPLES = 400
 _CHUNK = 1024
 _STEP = 1e-3
-"""By how much the fastest joint moves for a difference of the Jacobian, [rad or m]."""
+"""Motion of the fastest joint in one difference of the Jacobian, [rad or m]."""
 _PLACES = (-2.0, -1.0, 1.0, 2.0)
 _STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
-"""Of the difference of fourth order."""
+"""Weights of a central difference of fourth order at `_PLACES`."""
 
 _EXACT = 1e-12
-"""How closely a peak is found, as a share of it."""
+"""Relative accuracy of a peak."""
 _ROUNDING = 1e-12
-"""Of deviations from a path, [m] and [rad], and of the tip's rates in fractions of those of the joints."""
+"""Rounding of path deviations, [m] and [rad], and of the tip's rates, in fractions of the joints' rates."""
 
 _ENDS = np.array([0.0, 0.5, 1.0])
 
@@ -43,11 +43,11 @@ QUANTITIES = ("speed", "angular_speed", "acceleration", "angular_acceleration", 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Samples of each piece, both ends among them.
+    """Samples of each piece, including both its ends.
 
     Attributes:
-        piece: Shape (N,).
-        tau: Within the piece; shape (N,).
+        piece: Number of the piece; shape (N,).
+        tau: Place within the piece, from 0 to 1; shape (N,).
         inner: Which samples have neighbours on both sides in their piece; shape (K,).
     """
 
@@ -58,14 +58,14 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class Largest:
-    """The largest value of a quantity, and when."""
+    """The largest value of a quantity, and its time [s]."""
 
     value: float
     time: float
 
 
 def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
-    """Evenly spaced samples of each piece, both ends among them: `least` over all, some intervals in each at least."""
+    """Sample each piece evenly, ends included: at least `least` samples in all, and `intervals` intervals per piece."""
     shares = pieces.widths / pieces.widths.sum()
     counts = np.maximum(np.ceil(shares * least).astype(np.int64), intervals) + 1
     piece = np.repeat(np.arange(len(counts)), counts)
@@ -77,9 +77,9 @@ def grid(pieces: Pieces, least: int = MIN_SAMPLES, intervals: int = 2) -> Grid:
 def tip_peaks(
     pieces: Pieces, chain: Chain, path: PathOfTime | None, task: Task = FULL_POSE, least: int = MIN_SAMPLES
 ) -> dict[str, Largest]:
-    """The largest of `QUANTITIES`, the last two where there is a path to compare with; [m/s, rad/s, …, m, rad].
+    """Find the largest value of each of `QUANTITIES`, the last two only with a path; [m/s, rad/s, …, m, rad].
 
-    Of the path only the directions of the task count; `least` samples are examined.
+    Only the task's directions count for the path; at least `least` samples are examined.
     """
     names = QUANTITIES if path is not None else QUANTITIES[:4]
 
@@ -89,7 +89,7 @@ def tip_peaks(
         columns = _tip_motion(chain, qs, velocities, accelerations, Js)
         if path is not None:
             columns += _deviations(Poses(positions, rotations), path(pieces.times(piece, tau)), task)
-        # A path that has no pose somewhere is as far away as can be.
+        # Where the path has no pose, the deviation is infinite.
         return np.nan_to_num(np.column_stack(columns), nan=np.inf)
 
     samples = grid(pieces, least)
@@ -102,9 +102,9 @@ def tip_peaks(
 
 
 def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
-    """The smallest σ of the geometric Jacobian along the path, of the rows that count or of n; units are mixed.
+    """Find the smallest σ of the Jacobian's rows that count along the motion; metres and radians are mixed.
 
-    Eigenvalues of J Jᵀ (Jᵀ J where it is smaller) say where; the decomposition of J itself how much.
+    It is the last of min(m, n), with m rows. Eigenvalues of J Jᵀ (or Jᵀ J if smaller) locate it, an SVD of J gives it.
     """
     rows = np.flatnonzero(task.weights)
 
@@ -112,7 +112,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
         _, rotations, Js = chain_jacobians(chain.flat, pieces.positions(times))
         if task == FULL_POSE:
             return Js
-        # Directions of rotation are those of the tip's axes.
+        # The task's rotations are about the tip's axes.
         turned = np.concatenate((Js[:, :3], rotations.transpose(0, 2, 1) @ Js[:, 3:]), axis=1)
         return turned[:, rows]
 
@@ -124,7 +124,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
         squares = Js @ Js.transpose(0, 2, 1) if len(chain) >= len(rows) else Js.transpose(0, 2, 1) @ Js
         return cast(Array, -np.sqrt(np.maximum(np.linalg.eigvalsh(squares)[:, :1], 0.0)))
 
-    # The joints do not jump, and so neither does σ: it is one function from the start to the end.
+    # Like the joints, σ is continuous: it is one function from start to end.
     samples = grid(pieces, _SIGMA_SAMPLES, 1)
     times = np.unique(pieces.times(samples.piece, samples.tau))
     values = np.concatenate([estimate(times[some]) for some in _chunks(len(times))])
@@ -137,12 +137,12 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
 
 
 def _chunks(count: int) -> list[slice]:
-    """Rows that are worked on at a time."""
+    """Return slices that split `count` rows into chunks."""
     return [slice(first, first + _CHUNK) for first in range(0, count, _CHUNK)]
 
 
 def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
-    """Configurations and poses at evenly spread samples, for another judge; shape (count, n)."""
+    """Return configurations, shape (count, n), and poses at evenly spread samples, for an independent check."""
     samples = grid(pieces, count)
     rows = np.unique(np.linspace(0, len(samples.tau) - 1, count).round().astype(np.int64))
     qs = pieces.at(samples.piece[rows], samples.tau[rows], 0)
@@ -150,7 +150,7 @@ def poses_at(pieces: Pieces, chain: Chain, count: int) -> tuple[Array, Poses]:
 
 
 def _rounding(pieces: Pieces) -> Array:
-    """Differences that are rounding of each of `QUANTITIES`: where the tip hardly moves while the joints do."""
+    """Return the rounding of each of `QUANTITIES`, for a tip that hardly moves while the joints do."""
     velocity, acceleration = (float(np.abs(pieces.on(_ENDS, order)).max(initial=0.0)) for order in (1, 2))
     rates = np.repeat([velocity, max(acceleration, velocity**2), 1.0], 2)
     rounding: Array = _ROUNDING * rates
@@ -158,11 +158,11 @@ def _rounding(pieces: Pieces) -> Array:
 
 
 def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array, Js: Array) -> list[Array]:
-    """‖ṗ‖, ‖ω‖, ‖p̈‖, ‖ω̇‖; shape (N,) each."""
+    """Return ‖ṗ‖, ‖ω‖, ‖p̈‖, ‖ω̇‖; shape (N,) each."""
     twists = _times(Js, velocities)
     paces = np.maximum(np.abs(velocities).max(axis=1, initial=0.0), 1e-9)
     step = (_STEP / paces)[:, None]
-    # J̇ q̇ is how J q̇ changes along q̇ while q̇ stays.
+    # J̇ q̇ is the derivative of J q̇ along q̇, with q̇ constant.
     moved = [_times(chain_jacobians(chain.flat, qs + place * step * velocities)[2], velocities) for place in _PLACES]
     changes = _times(Js, accelerations) + np.tensordot(_STENCIL, moved, 1) / step
     parts = [rows[:, part] for rows in (twists, changes) for part in (slice(3), slice(3, 6))]
@@ -170,13 +170,13 @@ def _tip_motion(chain: Chain, qs: Array, velocities: Array, accelerations: Array
 
 
 def _times(Js: Array, rates: Array) -> Array:
-    """Matrices times vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
+    """Multiply matrices by vectors; shapes (N, 6, n) and (N, n) → (N, 6)."""
     products: Array = np.einsum("nij,nj->ni", Js, rates)
     return products
 
 
 def _deviations(poses: Poses, wanted: Poses, task: Task) -> list[Array]:
-    """Distance [m] and angle [rad] between poses, pair by pair; shape (N,) each."""
+    """Return distance [m] and angle [rad] between pairs of poses; shape (N,) each."""
     if task != FULL_POSE:
         return list(task.errors(wanted, poses))
     distances = np.linalg.norm(poses.positions - wanted.positions, axis=1)
@@ -192,18 +192,18 @@ def _between(
     quantities: Callable[[Indices, Array], Array],
     least: Array,
 ) -> list[tuple[float, int, float]]:
-    """The largest value of each column, between samples too.
+    """Find the largest value of each column, also between samples.
 
     Args:
-        places: Of the samples, increasing in each piece; shape (N,).
-        values: There; shape (N, Q).
+        places: Places of the samples, increasing in each piece; shape (N,).
+        values: Values there; shape (N, Q).
         inner: Samples with neighbours in their piece.
-        piece: Of each sample; shape (N,).
-        quantities: The values in a piece at a place; shape (M,) each → (M, Q).
+        piece: Piece of each sample; shape (N,).
+        quantities: Returns the values in a piece at a place; shape (M,) each → (M, Q).
         least: Differences that do not matter; shape (Q,).
 
     Returns:
-        Of each column the value, the sample it is next to, and its place.
+        For each column the value, the sample it is next to, and its place.
     """
     exact = np.maximum(_EXACT * np.abs(values).max(axis=0), least)
     rows, columns = promising(places, values, inner, exact)

@@ -1,4 +1,4 @@
-"""A whole motion from rest at A past B to rest at C: a trapezoid of speed that a blend joins in its middle."""
+"""Motion from rest at A past the corner B to rest at C: a trapezoid of speed with a blend in its middle."""
 
 import math
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ _RESOLVED = 1e-10
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """A part of the motion at constant acceleration: its name and how long it takes, [s]."""
+    """A part of the motion at constant acceleration: its name and its duration [s]."""
 
     name: PhaseName
     duration: float
@@ -31,11 +31,11 @@ class BlendedMotion:
     """The motion over a blended corner, from rest to rest.
 
     Attributes:
-        blend: What replaces the corner.
-        phases: All five, those that take no time included.
-        motion: The position in time; k coordinates, [m].
+        blend: The parabola that replaces the corner.
+        phases: All five phases, including those of zero duration.
+        motion: Position over time; k coordinates, [m].
         duration: [s].
-        stopping_duration: The same two legs with a stop at B, [s].
+        stopping_duration: Duration of the same two legs with a stop at B, [s].
     """
 
     blend: Blend
@@ -46,15 +46,15 @@ class BlendedMotion:
 
 
 def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
-    """Accelerate along AB, coast, blend, coast along BC, decelerate: at rest in A and in C.
+    """Accelerate along AB, coast, blend, coast along BC, and decelerate; at rest at A and C.
 
     Args:
-        blend: At B, with the speeds of both legs.
-        acceleration: With which A is left and C approached, more than 0, [m/s²]; the blend has its own.
+        blend: The blend at B, with the speeds of both legs.
+        acceleration: Acceleration when leaving A and approaching C, more than 0, [m/s²]; the blend has its own.
 
     Raises:
-        InvalidField: A leg is too short to reach or leave its speed before the blend begins or after it has ended; or
-            a ramp or the blend is too short beside the whole to distinguish the times of its ends.
+        InvalidField: A leg is too short to reach its speed before the blend or to brake after it; or a ramp or the
+            blend is too short, compared with the whole motion, to resolve the times of its ends.
     """
     corner = blend.corner
     ramps = corner.speed_before / acceleration, corner.speed_after / acceleration
@@ -70,9 +70,9 @@ def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
 
 
 def leg_duration(length: float, speed: float, acceleration: float) -> float:
-    """From rest to rest along a line, [s]: v/a + L/v, or 2 √(L/a) where the speed is not reached.
+    """Return the duration from rest to rest along a line, [s]: v/a + L/v, or 2 √(L/a) if the speed is not reached.
 
-    Infinite where the speed is 0.
+    Infinite if the speed is 0.
     """
     if speed == 0.0:
         return math.inf
@@ -82,7 +82,7 @@ def leg_duration(length: float, speed: float, acceleration: float) -> float:
 
 
 def _coasts(blend: Blend, acceleration: float) -> tuple[float, float]:
-    """How long each leg is run at its speed between ramp and blend, [s]."""
+    """Return how long each leg coasts at its speed between ramp and blend, [s]."""
     corner, coasts = blend.corner, []
     for speed, length, taken, field, leg in (
         (corner.speed_before, corner.length_before, blend.distance_before, "speed_before", "AB"),
@@ -104,7 +104,7 @@ def _coasts(blend: Blend, acceleration: float) -> tuple[float, float]:
 
 
 def _refuse_unresolved(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> None:
-    """Refuse phases that differ so much in length that their breaks, as doubles, would leave gaps."""
+    """Refuse phases whose durations differ so much that rounding of their breaks would leave gaps."""
     corner, duration = blend.corner, sum(phase.duration for phase in phases)
     lost = 4.0 * float(np.finfo(float).eps) * duration
     fastest = max(corner.speed_before, corner.speed_after)
@@ -117,7 +117,7 @@ def _refuse_unresolved(blend: Blend, acceleration: float, phases: tuple[Phase, .
 
 
 def _motion(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> PiecewisePolynomial:
-    """The phases that take time, one piece each."""
+    """Return the phases of nonzero duration, one piece each."""
     corner = blend.corner
     first, second = corner.speed_before * corner.direction_before, corner.speed_after * corner.direction_after
     still = np.zeros_like(first)

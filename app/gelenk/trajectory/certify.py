@@ -1,8 +1,8 @@
-"""A second computation of what is claimed about a motion: its ends, its knots, its joins and its peaks.
+"""Independent check of what is claimed about a motion: its ends, its knots, its joins and its peaks.
 
-Everything is recomputed from Bézier control points, whose differences are the derivatives at the ends of a piece
-and whose repeated means (de Casteljau's) are the values within. Nothing of how motions are evaluated, derived or
-searched for extremes elsewhere is used.
+Everything is recomputed from Bézier control points, whose differences are the derivatives at the ends of a piece and
+whose repeated means (de Casteljau) are the values within. Nothing is shared with the code that evaluates, derives or
+searches motions elsewhere.
 """
 
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 TOLERANCE = 1e-9
 _LOST = 1e-4
-"""Rounding of 1e-13 counts as none: that over the tolerance."""
+"""Relative rounding that counts as none, 1e-13, over the tolerance."""
 _PARTS = 16
 
 
@@ -27,12 +27,12 @@ class Promise:
     """The claims about a motion that are checked.
 
     Attributes:
-        times: When it is at the points, its start and its end among them; shape (K,), [s].
-        points: Where it is then; shape (K, n), [rad or m].
+        times: Times of the points, including start and end; shape (K,), [s].
+        points: Positions at these times; shape (K, n), [rad or m].
         start_rates: Velocity, acceleration, … at the start, as far as they were given; shape (m, n).
         end_rates: The same at the end.
-        continuity: The order of the derivative up to which it is continuous at the joins.
-        peaks: By the order of the derivative.
+        continuity: Order up to which derivatives are continuous at the joins.
+        peaks: Peaks by the order of the derivative.
     """
 
     times: Array
@@ -45,14 +45,14 @@ class Promise:
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """How far a motion is from what was said, in fractions of the largest value of the kind.
+    """Largest errors of a motion's claims, relative to the largest value of the same kind.
 
     Attributes:
         boundary_error: Of the derivatives at both ends.
         knot_error: Of the positions at the knots, both ends included.
         continuity_error: Largest jump at the joins.
-        peak_error: Largest difference of a peak to the value at its time, or of a value beyond it.
-        samples: Times at which the peaks were compared.
+        peak_error: Largest difference of a peak from the value at its time, or excess of another value over it.
+        samples: Number of times at which the peaks were compared.
     """
 
     boundary_error: float
@@ -63,10 +63,10 @@ class Certificate:
 
 
 def certified(motion: PiecewisePolynomial, promise: Promise) -> Certificate:
-    """Compare a motion with what is said of it.
+    """Compare a motion with the claims about it, and return the errors.
 
     Raises:
-        CertificationFailed: More than rounding is between them.
+        CertificationFailed: An error exceeds rounding.
     """
     if motion.duration == 0.0:
         error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
@@ -109,13 +109,13 @@ def _compared(motion: PiecewisePolynomial, promise: Promise) -> Certificate:
 
 def _relative(errors: Array, scale: Array) -> float:
     scale = np.broadcast_to(scale, errors.shape)
-    # Where nothing moves at all there is nothing to compare with, and the error itself has to be nothing.
+    # Where nothing moves the scale is 0, and the error itself has to vanish.
     ratios = np.abs(errors) / np.where(scale > 0.0, scale, 1.0)
     return float(ratios.max(initial=0.0))
 
 
 def _control_points(motion: PiecewisePolynomial) -> Array:
-    """Bézier control points of each piece, relative to where it begins; shape (M, d + 1, n)."""
+    """Return the Bézier control points of each piece, relative to its start; shape (M, d + 1, n)."""
     size = motion.coefficients.shape[1]
     change = np.zeros((size, size))
     for i in range(size):
@@ -127,7 +127,7 @@ def _control_points(motion: PiecewisePolynomial) -> Array:
 
 
 def _derivative(control: Array, lengths: Array, order: int) -> Array:
-    """Control points of a derivative in time."""
+    """Return the control points of a time derivative."""
     degree = control.shape[1] - 1
     if order > degree:
         return np.zeros((len(control), 1, control.shape[2]))
@@ -137,7 +137,7 @@ def _derivative(control: Array, lengths: Array, order: int) -> Array:
 
 
 def _noise(control: Array, lengths: Array, order: int) -> Array:
-    """What rounding may leave of a derivative that is none, over the tolerance: where large numbers cancel; (M, n)."""
+    """Bound the rounding, over the tolerance, of a derivative where large numbers cancel; shape (M, n)."""
     degree = control.shape[1] - 1
     factor = _LOST * (2.0**order) * factorial(degree) / factorial(max(degree - order, 0))
     found: Array = np.abs(control).max(axis=1) * factor / (lengths**order)[:, None]
@@ -145,7 +145,7 @@ def _noise(control: Array, lengths: Array, order: int) -> Array:
 
 
 def _casteljau(control: Array, u: Array) -> Array:
-    """Values at u in [0, 1] by repeated means; control (…, d + 1, n), u (…, 1, 1)."""
+    """Evaluate at u in [0, 1] by repeated means; control (…, d + 1, n), u (…, 1, 1)."""
     while control.shape[-2] > 1:
         control = control[..., :-1, :] * (1.0 - u) + control[..., 1:, :] * u
     found: Array = control[..., 0, :]
@@ -159,11 +159,11 @@ def _at(starts: Array, control: Array, breaks: Array, times: Array) -> Array:
 
 
 def _peak_error(control: Array, breaks: Array, peak: Peaks, scale: Array) -> float:
-    """How far a value on a grid goes beyond a peak, or the value at its time is from it."""
+    """Return how far a value on a grid exceeds a peak, or the value at the peak's time differs from it."""
     u = np.linspace(0.0, 1.0, _PARTS + 1)[:, None, None, None]
     largest = np.abs(_casteljau(control, u)).reshape(-1, control.shape[2]).max(axis=0)
     beyond = np.maximum(largest - np.abs(peak.values), 0.0)
-    # At a join the value may jump: the peak is that of either side.
+    # At a join the value may jump: the peak may be on either side.
     j = np.arange(len(peak.times))
     inner = np.searchsorted(breaks, peak.times, side="left")
     sides = []

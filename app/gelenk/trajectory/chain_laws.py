@@ -1,8 +1,8 @@
-"""Laws along blended lines, each line as fast as it may: even speed through a blend, the law on each line.
+"""Time laws along blended lines: constant speed through each blend, a law of its own on each line, as fast as possible.
 
-On a line that is the cubic from one speed to another, the quintic or septic whose acceleration (and jerk) vanish at
-both ends, or phases of least jerk, without acceleration at both ends. Speeds in blends are the largest that the limits
-allow there, and less where a line between two could not be done.
+On a line the law is the cubic from one speed to another, the quintic or septic whose acceleration (and jerk) vanish at
+both ends, or a jerk-limited profile without acceleration at both ends. Speeds in blends are the largest that the
+limits allow there, reduced where a line between two blends could not connect them.
 """
 
 from dataclasses import dataclass
@@ -19,18 +19,18 @@ from gelenk.trajectory.way_geometry import ORDERS, Geometry, Slopes, of_order, r
 
 _TABLE, _LEAST_SAMPLES = 400, 8
 _PLACES, _INSTANTS = 33, 49
-"""On a line or blend."""
+"""Samples of a line or blend: places, and instants of a law."""
 _DURATIONS, _ZOOMS = 24, 3
 _CRUISES, _SLOWEST, _CAPS, _HALVINGS = 3, 32.0, 11, 4
-"""Of phases of least jerk: cruise speeds and slower caps that are tried, and how often these are narrowed down."""
+"""Jerk-limited profiles: cruise speeds and slower caps that are tried, and the bisections between caps."""
 _STEP = 2.0
-"""By how much speeds at both ends are lowered at most, where nothing leads from one to the other."""
+"""Largest factor by which the speeds at both ends are lowered in one round, if no law connects them."""
 _ROUNDS = 60
 _KEPT = 1e-6
-"""Excess over a limit that a last uniform scaling takes away."""
+"""Excess over a limit that a final uniform scaling removes."""
 _ENOUGH = 1.0 + _KEPT
 _NO_LENGTH = 1e-9
-"""Of a line between two blends, in fractions of the path."""
+"""Least length of a line between two blends, in fractions of the path."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,10 +39,10 @@ class _Chain:
 
     Attributes:
         geometry: The path.
-        middles: Between the places at which slopes are known; shape (N - 1,).
+        middles: Midpoints between the places at which slopes are known; shape (N - 1,).
         slopes: Shape (N, …).
-        count: How many derivatives a law has given at both ends of a line, the position counted as one; None of phases
-            of least jerk.
+        count: Number of derivatives that a law fixes at both ends of a line, counting the position; None for
+            jerk-limited profiles.
     """
 
     geometry: Geometry
@@ -51,22 +51,22 @@ class _Chain:
     count: int | None
 
     def factors(self, s: Array, v: Array, a: Array, j: Array) -> Array:
-        """The k by which the motion would have to be slowed down at each place; shape of all of them."""
+        """Return the k by which the motion would have to be slowed down at each place; same shape as the arguments."""
         rows = self.slopes.take(np.searchsorted(self.middles, s.ravel()))
         found = ratios(rows, self.geometry.limits, v.ravel(), a.ravel(), j.ravel()) ** (1.0 / ORDERS)
-        if self.count == 2:  # The acceleration of the cubic jumps: limits of jerk do not count.
+        if self.count == 2:  # The cubic's acceleration jumps: jerk limits do not count.
             found[:, of_order(3)] = 0.0
         factors: Array = found.max(axis=1).reshape(s.shape)
         return factors
 
     def even_speeds(self, begin: float, end: float) -> Array:
-        """The largest ṡ at places between two, where it does not change."""
+        """Return the largest constant ṡ at places between two."""
         s = np.linspace(begin, end, _PLACES)
         speeds: Array = 1.0 / self.factors(s, np.ones_like(s), np.zeros_like(s), np.zeros_like(s))
         return speeds
 
     def line(self, begin: float, end: float, speeds: Array) -> tuple[PiecewisePolynomial | None, float]:
-        """The law of a line between two speeds, not both zero; and the k that has to slow down all of it."""
+        """Return the law of a line between two speeds, not both zero, and the k that must still slow it down."""
         if self.count is None:
             return self._least_jerk(begin, end, speeds)
         duration, factor = self._shortest(begin, end, speeds)
@@ -74,7 +74,7 @@ class _Chain:
         return PiecewisePolynomial(np.array([0.0, duration]), c), factor
 
     def _least_jerk(self, begin: float, end: float, speeds: Array) -> tuple[PiecewisePolynomial | None, float]:
-        """Phases of least jerk: of some cruise speeds the one with the largest caps of acceleration and jerk."""
+        """Return the shortest jerk-limited profile within limits, of several cruise speeds and caps, and its k."""
         s = np.linspace(begin, end, _PLACES)
         one, none = np.ones_like(s), np.zeros_like(s)
         even = np.maximum(self.even_speeds(begin, end), speeds.max())
@@ -91,7 +91,7 @@ class _Chain:
                     tried.append((k, *self._under(start, stop, limits)))
                     if tried[-1][2] <= _ENOUGH:
                         break
-                # Narrowed down between the last that is too fast and the first that is not.
+                # Bisect between the last that is too fast and the first that is not.
                 good = min((k for k, _, factor in tried if factor <= _ENOUGH), default=np.inf)
                 bad = max((k for k, _, factor in tried if factor > _ENOUGH and k < good), default=good)
                 slower = np.array([np.sqrt(bad * good)])
@@ -106,7 +106,7 @@ class _Chain:
     def _under(
         self, start: JointState, end: JointState, limits: JerkLimits
     ) -> tuple[PiecewisePolynomial | None, float]:
-        """Phases of least jerk from one state to another, where there are any, and the k; ∞ if they turn back."""
+        """Return the jerk-limited profile from one state to another, if any, and its k; ∞ if it turns back."""
         try:
             law = jerk_limited(start, end, limits)
         except InvalidField:
@@ -119,8 +119,8 @@ class _Chain:
         return law, float(self.factors(places, *rates).max())
 
     def _shortest(self, begin: float, end: float, speeds: Array) -> tuple[float, float]:
-        """The least duration of a polynomial between two speeds; and the k."""
-        assert self.count is not None  # noqa: S101 - what it is called for
+        """Return the least duration of a polynomial between two speeds, and the k that must still slow it down."""
+        assert self.count is not None  # noqa: S101 - only called with a count
         low, high = (end - begin) / self.even_speeds(begin, end).max(), 3.0 * (end - begin) / speeds.max()
         for _ in range(_ZOOMS):
             durations = np.geomspace(min(low, high), high, _DURATIONS)
@@ -136,19 +136,19 @@ class _Chain:
 
 
 def _pieces(count: int, places: Array, speeds: Array, durations: Array) -> Array:
-    """Polynomials from place to place, (2, K), of given speeds there and durations; shape (K, 2 count, 1)."""
+    """Return polynomials between places, (2, K), with given speeds there and durations; shape (K, 2 count, 1)."""
     ends = np.zeros((2, count, len(durations), 1))
     ends[:, 0, :, 0], ends[:, 1, :, 0] = places, speeds
     return hermite_pieces(ends[0], ends[1], durations)
 
 
 def chain_law(geometry: Geometry, count: int | None) -> PiecewisePolynomial | None:
-    """s(t) along blended lines; None of a single line, or where one is too short.
+    """Return s(t) along blended lines; None for a single line, if a line is too short, or if no law is found.
 
     Args:
         geometry: The path, with its blends.
-        count: How many derivatives are given at both ends of each line, the position counted as one: 2 to 4. None for
-            phases of least jerk.
+        count: Number of derivatives fixed at both ends of each line, counting the position: 2 to 4. None for
+            jerk-limited profiles.
     """
     begin, end = geometry.ends
     corners = np.array([corner for corner in geometry.corners if corner[0] < end and corner[1] > begin])

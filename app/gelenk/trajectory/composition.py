@@ -1,9 +1,9 @@
-"""Joints along a path in time, q(s(t)), as one more polynomial in pieces.
+"""Joints along a path over time, q(s(t)), composed into one piecewise polynomial.
 
-Up to degree 10 it is composed exactly: a law of parabolas and q(s) of degree 5, any law along a straight line in joint
-space. Others would be of degree 15 to 35: there each piece is the septic that has the position, velocity, acceleration
-and jerk of q(s(t)) at both of its ends, those on its own side where they jump, and pieces are cut until in between it
-is within a tolerance.
+Up to degree 10 the composition is exact: a law of parabolas with q(s) of degree 5, or any law along a straight line in
+joint space. Other compositions would have degree 15 to 35. There each piece is the septic with the position, velocity,
+acceleration and jerk of q(s(t)) at both its ends, taken from its own side where they jump; pieces are divided until
+the error in between is within a tolerance.
 """
 
 from collections.abc import Sequence
@@ -17,16 +17,16 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.time_laws import hermite_pieces
 
 EXACT_DEGREE = 10
-"""Up to which q(s(t)) is composed exactly."""
+"""Degree up to which q(s(t)) is composed exactly."""
 
 _SHORTEST = 1e-5
-"""The least time between two breaks of an approximation, in fractions of the whole: a double has no jerk for less."""
+"""Least time between two breaks of an approximation, in fractions of the whole: doubles give no jerk for less."""
 _SAME = 1e-13
 _STEPS = 60
 RATES_KNOWN = (1e-8, 1e-7, 1e-5)
 """Error of velocity, acceleration and jerk of an approximation, in fractions of the largest of each joint."""
 _TOLERANCES = np.array([1e-9, *RATES_KNOWN])
-"""The same after that of position, [rad or m]."""
+"""Tolerated error of the position, [rad or m], followed by the three above."""
 _PROBES = np.array([0.25, 0.5, 0.75])
 _ROUNDS = 4
 _MOST_PARTS = 8
@@ -34,14 +34,14 @@ _MOST_PARTS = 8
 
 @dataclass(frozen=True, slots=True)
 class _Expansion:
-    """q(s(t)) piece by piece about the time at which each begins.
+    """q(s(t)) piece by piece, expanded about the start of each piece.
 
     Attributes:
         breaks: [s]; shape (M + 1,).
-        law: s less its value there; shape (M, d + 1, 1).
-        joints: q, less its value there, of that s; shape (M, D + 1, n).
-        starts: The values of q; shape (M, n).
-        places: The values of s; shape (M,).
+        law: s(t) minus its start value; shape (M, d + 1, 1).
+        joints: q as a function of that s, minus its start value; shape (M, D + 1, n).
+        starts: Start values of q; shape (M, n).
+        places: Start values of s; shape (M,).
     """
 
     breaks: Array
@@ -51,14 +51,14 @@ class _Expansion:
     places: Array
 
     def at(self, local: Array) -> Array:
-        """Of q what each piece has added so far, and three derivatives, at a time in it; (M, 1) → (4, M, n)."""
+        """Return q minus its start value and three derivatives at local times, (M, 1); shape (4, M, n)."""
         s, *rates = derivatives(self.law, local)
         return _chained(derivatives(self.joints, s), rates)
 
     def at_edges(self, joints: PiecewisePolynomial) -> tuple[Array, Array]:
-        """The same at the beginning and the end of each piece; shape (4, M, n) each.
+        """Return the same at the start and the end of each piece; shape (4, M, n) each.
 
-        Knots of the joints that are too near to each other in time share a piece. Its edges are then those of the
+        Joint knots that are too close together in time share a piece. The values at its edges are then those of the
         polynomials that belong there, so that nothing jumps.
         """
         widths = np.diff(self.breaks)[:, None]
@@ -81,11 +81,11 @@ class _Expansion:
 
 
 def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewisePolynomial:
-    """q(s(t)).
+    """Compose q(s(t)).
 
     Args:
         joints: q(s).
-        law: s(t), nowhere falling, from the first break of the joints to the last.
+        law: s(t), non-decreasing, from the first break of the joints to the last.
     """
     degree = (joints.coefficients.shape[1] - 1) * (law.coefficients.shape[1] - 1)
     if degree <= EXACT_DEGREE:
@@ -110,7 +110,7 @@ def in_time(joints: PiecewisePolynomial, law: PiecewisePolynomial) -> PiecewiseP
 
 
 def derivatives(c: Array, local: Array) -> tuple[Array, Array, Array, Array]:
-    """Values and three derivatives of polynomials, lowest power first, by Horner's scheme; (M, d + 1, n), (M, 1)."""
+    """Evaluate polynomials, lowest power first, and three derivatives by Horner's scheme; (M, d + 1, n), (M, 1)."""
     value = c[:, -1] + 0.0 * local
     first = second = third = np.zeros_like(value)
     for k in range(c.shape[1] - 2, -1, -1):
@@ -122,7 +122,7 @@ def derivatives(c: Array, local: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def times_at(law: PiecewisePolynomial, s: Array) -> Array:
-    """When a law that nowhere falls is at places between its ends; shape (N,), [s]."""
+    """Return when a non-decreasing law reaches places between its ends; shape (N,), [s]."""
     values = law.at(law.breaks)[:, 0]
     i = np.clip(np.searchsorted(values, s, side="right") - 1, 0, len(values) - 2)
     low, high = law.breaks[i].copy(), law.breaks[i + 1].copy()
@@ -141,7 +141,7 @@ def times_at(law: PiecewisePolynomial, s: Array) -> Array:
 
 
 def _breaks(joints: PiecewisePolynomial, law: PiecewisePolynomial, least: float) -> Array:
-    """When the law or the joints have a break; those of the joints left out that fall on another one."""
+    """Return the times of all breaks; those of the joints that nearly coincide with others are left out."""
     shortest = least * law.duration
     between = times_at(law, joints.breaks[1:-1]) if len(joints.breaks) > 2 else np.empty(0)
     distances = np.abs(between[:, None] - law.breaks).min(axis=1, initial=np.inf)
@@ -158,14 +158,14 @@ def _expanded(joints: PiecewisePolynomial, law: PiecewisePolynomial, breaks: Arr
 
 
 def _chained(along: Sequence[Array], rates: Sequence[Array]) -> Array:
-    """q(s) and its derivatives by s, and those of s by time, to q and its derivatives by time; shape (4, M, n)."""
+    """Apply the chain rule: q and its s-derivatives with ṡ, s̈, s⃛ → q and its time derivatives; shape (4, M, n)."""
     q, first, second, third = along
     v, a, j = rates
     return np.stack((q, first * v, first * a + second * v**2, first * j + second * (3.0 * v * a) + third * v**3))
 
 
 def _composed(joints: Array, law: Array) -> Array:
-    """Coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t² + …, by Horner's scheme; (M, D + 1, n), (M, d, 1)."""
+    """Return the coefficients of Σ c_k σᵏ, σ = a_1 t + a_2 t² + …, by Horner's scheme; (M, D + 1, n), (M, d, 1)."""
     result = joints[:, -1:]
     for k in range(joints.shape[1] - 2, -1, -1):
         size = result.shape[1]
@@ -178,12 +178,12 @@ def _composed(joints: Array, law: Array) -> Array:
 
 
 def _septics(exact: _Expansion, joints: PiecewisePolynomial) -> Array:
-    """The pieces less their values at the start, which would cost digits; shape (M, 8, n)."""
+    """Return the pieces minus their start values, which would cost digits; shape (M, 8, n)."""
     return hermite_pieces(*exact.at_edges(joints), np.diff(exact.breaks))
 
 
 def _parts(exact: _Expansion, coefficients: Array) -> Indices:
-    """Into how many each piece is to be cut; shape (M,)."""
+    """Return the number of parts into which each piece is to be divided; shape (M,)."""
     widths = np.diff(exact.breaks)[:, None]
     errors, sizes = np.zeros((4, len(widths))), np.zeros((4, 1, coefficients.shape[2]))
     for tau in _PROBES:

@@ -1,6 +1,6 @@
-"""Lines in space by their arc length: a straight line, and an arc of a circle through three points.
+"""Curves in space by arc length: a straight line, and an arc of a circle through three points.
 
-A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose length is the curvature. It knows no time.
+A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose length is the curvature. It has no time.
 """
 
 import math
@@ -13,23 +13,23 @@ from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
 
 COLLINEAR = 1e-6
-"""Sine of the angle at the via point, or at either end, below which three points make no circle."""
+"""Sine of the angle at the via point, or at either end, below which three points count as collinear."""
 
 
 class Curve(Protocol):
-    """A line in space."""
+    """A curve in space."""
 
     @property
     def length(self) -> float:
-        """Of the whole of it, [m]."""
+        """Total arc length, [m]."""
 
     def at(self, s: Array) -> tuple[Array, Array, Array]:
-        """Position [m], unit tangent, and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
+        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight line; of no length it is a point, and its tangent is zero.
+    """A straight line; with zero length it is a point whose tangent is zero.
 
     Attributes:
         start: Shape (3,), [m].
@@ -49,7 +49,7 @@ class Line:
         length = self.length
         direction = (self.end - self.start) / length if length > 0.0 else np.zeros(3)
         still = np.zeros((len(s), 3))
-        # From the nearer end, so that both ends are met exactly.
+        # Measure from the nearer end, so that both ends are exact.
         near = s <= 0.5 * length
         from_start, from_end = self.start + s[:, None] * direction, self.end + (s - length)[:, None] * direction
         return np.where(near[:, None], from_start, from_end), still + direction, still
@@ -57,15 +57,15 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """An arc of a circle: p = centre + radius (cos φ x + sin φ y), φ from 0 on.
+    """An arc of a circle: p = centre + radius (cos φ x + sin φ y), from φ = 0.
 
     Attributes:
         centre: Shape (3,), [m].
-        x: Unit vector to the start; shape (3,).
-        y: Unit vector of the first tangent; shape (3,).
+        x: Unit vector from the centre to the start; shape (3,).
+        y: Unit tangent at the start; shape (3,).
         radius: [m].
-        angle: Of the whole arc, in (0, 2π), [rad].
-        via_angle: Where the via point lies, [rad].
+        angle: Angle of the whole arc, in (0, 2π), [rad].
+        via_angle: Angle of the via point, [rad].
     """
 
     centre: Array
@@ -88,7 +88,7 @@ class Arc:
 
 
 def arc_through(start: Array, via: Array, end: Array) -> Arc:
-    """The arc that leads from a start through a via point to an end, in this order.
+    """Return the arc from a start through a via point to an end.
 
     Args:
         start: Shape (3,), [m].
@@ -96,7 +96,7 @@ def arc_through(start: Array, via: Array, end: Array) -> Arc:
         end: Shape (3,), [m].
 
     Raises:
-        InvalidField: Two of the points are the same, or all three lie on a line.
+        InvalidField: Two of the points coincide, or all three lie on a line.
     """
     a, b = start - via, end - via
     lengths = math.hypot(*a), math.hypot(*b), math.dist(start, end)
@@ -122,5 +122,5 @@ def arc_through(start: Array, via: Array, end: Array) -> Arc:
 
 
 def _angle(arm: Array, x: Array, y: Array) -> float:
-    """The angle of a point on the circle, in [0, 2π), [rad]."""
+    """Return the angle on the circle of a point relative to the centre, in [0, 2π), [rad]."""
     return math.atan2(arm @ y, arm @ x) % (2.0 * math.pi)

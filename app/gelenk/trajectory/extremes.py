@@ -1,7 +1,7 @@
-"""The extremes of a motion, exactly: the ends of its pieces, and the roots of the derivative between them.
+"""Exact extremes of a motion: values at the ends of its pieces, and at the roots of the derivative between them.
 
-Of a cubic that takes quadratics, which are solved in closed form; higher degrees take eigenvalues of a companion
-matrix. A root that is a little off costs nothing: what counts is the value there, which is stationary.
+The derivative of a cubic is a quadratic, solved in closed form; higher degrees need eigenvalues of a companion matrix.
+A slightly inexact root does no harm, because the value is stationary there.
 """
 
 from dataclasses import dataclass
@@ -20,8 +20,8 @@ class Peaks:
     """The value of each coordinate of a motion that is furthest from zero, and its time.
 
     Attributes:
-        values: The values there, with their signs; shape (n,).
-        times: When, [s]; of several times the first; shape (n,).
+        values: Peak values with their signs; shape (n,).
+        times: Their times, the first one of several, [s]; shape (n,).
     """
 
     values: Array
@@ -29,11 +29,11 @@ class Peaks:
 
 
 def peaks(motion: PiecewisePolynomial, order: int) -> Peaks:
-    """Largest magnitude of a derivative of a motion, with both ends of each piece.
+    """Find the largest magnitude of a derivative of a motion, including both ends of each piece.
 
     Args:
         motion: The motion.
-        order: Of the derivative: 1 for velocity, 2 for acceleration, 3 for jerk.
+        order: Order of the derivative: 1 for velocity, 2 for acceleration, 3 for jerk.
     """
     times, values = candidates(motion.derivative(order))
     return _largest(times, values)
@@ -49,9 +49,9 @@ def _largest(times: Array, values: Array) -> Peaks:
 
 
 def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
-    """The times at which a motion can be extreme, and its values there; both of shape (M, k, n).
+    """Return the times at which a motion can be extreme, and its values there; shape (M, k, n) each.
 
-    Each piece has its two ends and the zeros of its derivative; what is no zero within the piece is one of its ends.
+    These are both ends of each piece and the zeros of its derivative; zeros outside the piece are moved to its ends.
     """
     lengths = np.diff(motion.breaks)[:, None]
     c = motion.coefficients * (lengths ** np.arange(motion.coefficients.shape[1]))[:, :, None]
@@ -61,13 +61,13 @@ def candidates(motion: PiecewisePolynomial) -> tuple[Array, Array]:
     values = np.broadcast_to(c[:, -1:], u.shape)
     for k in range(c.shape[1] - 2, -1, -1):
         values = values * u + c[:, k : k + 1]
-    # The end of a piece is the next one's start to the last digit, so that whoever looks there knows which one to ask.
+    # The end of a piece is exactly the next one's start, so that a lookup at that time finds the break.
     starts, stops = motion.breaks[:-1, None, None], motion.breaks[1:, None, None]
     return np.where(u == 1.0, stops, starts + u * lengths[:, :, None]), values
 
 
 def _stationary(c: Array) -> Array:
-    """Zeros in [0, 1] of the derivative of polynomials, lowest power first; (M, d + 1, n) → (M, d - 1, n)."""
+    """Find the zeros in [0, 1] of the derivative of polynomials, lowest power first; (M, d + 1, n) → (M, d - 1, n)."""
     degree = c.shape[1] - 1
     if degree < 2:
         return np.empty((c.shape[0], 0, c.shape[2]))
@@ -84,7 +84,7 @@ def _stationary(c: Array) -> Array:
 
 
 def _quadratic_roots(c: Array) -> Array:
-    """Both roots, without cancellation; the real part of complex ones; (M, 3, n) → (M, 2, n)."""
+    """Return both roots, without cancellation; the real part of complex ones; (M, 3, n) → (M, 2, n)."""
     half = -0.5 * c[:, 1]
     root = np.sqrt(np.maximum(half**2 - c[:, 0] * c[:, 2], 0.0))
     outer = half + np.copysign(root, half)
@@ -92,7 +92,7 @@ def _quadratic_roots(c: Array) -> Array:
 
 
 def _roots(c: Array) -> Array:
-    """Real parts of all roots; (M, d + 1, n) → (M, d, n), filled up with 0 where the degree is lower."""
+    """Return the real parts of all roots; (M, d + 1, n) → (M, d, n), padded with 0 where the degree is lower."""
     pieces, size, joints = c.shape
     rows = np.moveaxis(c, 1, 2).reshape(-1, size)
     largest = np.abs(rows).max(axis=1, keepdims=True)

@@ -1,12 +1,12 @@
-"""Passing a corner without stopping: the path A-B-C with a parabola instead of B, at constant acceleration.
+"""Fly-over of a corner without stopping: the path A-B-C with a parabola at B, at constant acceleration.
 
-From A' = B - d₁ K_AB, at the speed v₁ along AB, to C' = B + d₂ K_BC, at the speed v₂ along BC, in the time ΔT:
+The parabola leads from A' = B - d₁ K_AB, at speed v₁ along AB, to C' = B + d₂ K_BC, at speed v₂ along BC, in time ΔT:
 
     p(t) = A' + v₁ K_AB t + (v₂ K_BC - v₁ K_AB) t² / (2 ΔT),   d₁ = v₁ ΔT / 2,   d₂ = v₂ ΔT / 2
 
-This is a parabola in the plane of A, B and C, and its tangents at the ends meet in B. Straight on it is a change of
-speed, and where BC leads back along AB it slows down, turns before it gets to B, and returns. Of ΔT, d₁, d₂ and the
-acceleration ‖v₂ K_BC - v₁ K_AB‖ / ΔT each one determines the others.
+It lies in the plane of A, B and C, and its tangents at the ends meet in B. If A, B and C lie on a line in this order,
+it is a mere change of speed; if BC leads back along AB, it slows down, turns before B, and returns. Any one of ΔT, d₁,
+d₂ and the acceleration ‖v₂ K_BC - v₁ K_AB‖ / ΔT determines the others.
 """
 
 import math
@@ -23,9 +23,9 @@ Turn: TypeAlias = Literal["corner", "straight", "reversal"]
 Given: TypeAlias = Literal["blend_time", "distance_before", "distance_after", "radius", "max_acceleration"]
 
 STRAIGHT = 1e-9
-"""Angle between the legs, or to a reversal, below which a corner is none, [rad]."""
+"""Angle between the legs, or to a reversal, below which there is no corner, [rad]."""
 _ROUNDING = 1e-12
-"""Share by which a blend may be longer than a leg: what rounding makes of one that just fits."""
+"""Share by which a blend may exceed a leg, to allow for rounding if it just fits."""
 _BISECTIONS = 200
 
 
@@ -41,10 +41,10 @@ class Corner:
         speed_after: v₂ ≥ 0 along BC, [m/s].
         length_before: |AB|, [m].
         length_after: |BC|, [m].
-        direction_before: K_AB; shape (k,).
-        direction_after: K_BC; shape (k,).
-        angle: Between the two directions, in [0, π], [rad].
-        turn: What kind of a corner that is.
+        direction_before: K_AB, unit vector along AB; shape (k,).
+        direction_after: K_BC, unit vector along BC; shape (k,).
+        angle: Angle between the two directions, in [0, π], [rad].
+        turn: Kind of corner.
     """
 
     start: Array
@@ -67,7 +67,7 @@ class Corner:
 
     @property
     def longest_blend_time(self) -> float:
-        """ΔT with which d₁ = |AB| or d₂ = |BC|, whichever comes first, [s]."""
+        """Largest ΔT that fits, at which d₁ = |AB| or d₂ = |BC|, [s]."""
         lengths, speeds = (self.length_before, self.length_after), (self.speed_before, self.speed_after)
         return min(2.0 * length / speed for length, speed in zip(lengths, speeds, strict=True) if speed > 0.0)
 
@@ -77,15 +77,15 @@ class Blend:
     """The parabola at a corner.
 
     Attributes:
-        corner: What it belongs to.
-        time: ΔT, [s]; 0 where nothing has to change.
+        corner: The corner it replaces.
+        time: ΔT, [s]; 0 if the velocity does not change.
         distance_before: d₁ from A' to B, [m].
         distance_after: d₂ from B to C', [m].
         entry: A'; shape (k,), [m].
         exit: C'; shape (k,), [m].
-        acceleration: Constant; shape (k,), [m/s²].
-        closest_distance: How near it comes to B, [m].
-        closest_time: When, since A', [s].
+        acceleration: Constant acceleration; shape (k,), [m/s²].
+        closest_distance: Smallest distance from B, [m].
+        closest_time: Time of that, since A', [s].
     """
 
     corner: Corner
@@ -100,15 +100,15 @@ class Blend:
 
     @property
     def coefficients(self) -> Array:
-        """Coefficients of p(t) since A', lowest power first; shape (3, k), [m/sᵏ]."""
+        """Coefficients of p(t) with t = 0 at A', lowest power first; shape (3, k), [m/sᵏ]."""
         return np.array([self.entry, self.corner.speed_before * self.corner.direction_before, 0.5 * self.acceleration])
 
     @property
     def motion(self) -> PiecewisePolynomial:
-        """The motion from A' to C'.
+        """Motion from A' to C'.
 
         Raises:
-            ValueError: It takes no time.
+            ValueError: It has no duration.
         """
         if self.time == 0.0:
             raise ValueError("a blend of zero time is not a motion")
@@ -116,17 +116,17 @@ class Blend:
 
 
 def corner_of(start: Array, corner: Array, end: Array, speed_before: float, speed_after: float) -> Corner:
-    """The path A-B-C.
+    """Return the path A-B-C with the lengths and directions of its legs.
 
     Args:
         start: A; shape (k,), [m].
         corner: B; shape (k,), [m].
         end: C; shape (k,), [m].
         speed_before: v₁ ≥ 0, [m/s].
-        speed_after: v₂ ≥ 0, not zero as well, [m/s].
+        speed_after: v₂ ≥ 0, [m/s]; v₁ and v₂ must not both be 0.
 
     Raises:
-        InvalidField: Two points in succession are the same, or both speeds are zero.
+        InvalidField: Two successive points coincide, or both speeds are zero.
     """
     if speed_before == 0.0 and speed_after == 0.0:
         raise InvalidField("speed_after", "one of the two speeds must be greater than 0: otherwise nothing moves")
@@ -142,16 +142,16 @@ def corner_of(start: Array, corner: Array, end: Array, speed_before: float, spee
 
 
 def blended(corner: Corner, given: Given, value: float) -> Blend:
-    """The blend with a given time, distance, radius or acceleration.
+    """Return the blend with a given time, distance, radius or acceleration.
 
     Args:
         corner: The path and its speeds.
-        given: What `value` is: ΔT, d₁, d₂, the larger of d₁ and d₂, or the acceleration.
+        given: Meaning of `value`: ΔT, d₁, d₂, the larger of d₁ and d₂, or the acceleration.
         value: More than 0; [s], [m] or [m/s²].
 
     Raises:
-        InvalidField: The blend would begin before A or end after C, or a distance is given on a leg at whose end
-            there is rest.
+        InvalidField: The blend would begin before A or end after C, or the given distance is on a leg whose speed
+            is 0.
     """
     time = _time(corner, given, value)
     longest = corner.longest_blend_time
@@ -174,7 +174,7 @@ def blended(corner: Corner, given: Given, value: float) -> Blend:
 
 
 def _time(corner: Corner, given: Given, value: float) -> float:
-    """ΔT, [s]."""
+    """Return ΔT, [s]."""
     if given == "blend_time":
         return value
     if given == "max_acceleration":
@@ -188,7 +188,7 @@ def _time(corner: Corner, given: Given, value: float) -> float:
 
 
 def _too_long(corner: Corner, given: Given, time: float, longest: float) -> str:
-    """Which leg is too short, and what fits."""
+    """Describe which leg is too short, and what would fit."""
     before, after = 0.5 * corner.speed_before * time, 0.5 * corner.speed_after * time
     if before / corner.length_before >= after / corner.length_after:
         what = f"the blend would begin {before:g} m before B, and AB is {corner.length_before:g} m long"
@@ -205,11 +205,11 @@ def _too_long(corner: Corner, given: Given, time: float, longest: float) -> str:
 
 
 def _closest_share(corner: Corner) -> float:
-    """The place in [0, 1] at which the parabola is closest to B.
+    """Return the place in [0, 1] at which the parabola is closest to B.
 
-    With τ = t / ΔT it is p - B = ΔT/2 (v₂ τ² K_BC - v₁ (1 - τ)² K_AB), so the slope of the squared distance has the
-    sign of v₂² τ³ - v₁² (1 - τ)³ - v₁ v₂ cos α τ (1 - τ)(1 - 2τ). That has exactly one zero: what the parabola
-    encloses is convex, and B lies outside of it.
+    With τ = t / ΔT, p - B = ΔT/2 (v₂ τ² K_BC - v₁ (1 - τ)² K_AB), so the slope of the squared distance has the
+    sign of v₂² τ³ - v₁² (1 - τ)³ - v₁ v₂ cos α τ (1 - τ)(1 - 2τ). That has exactly one zero: the region that the
+    parabola encloses is convex, and B lies outside it.
     """
     v1, v2 = corner.speed_before, corner.speed_after
     scale = max(v1, v2)
@@ -226,6 +226,6 @@ def _closest_share(corner: Corner) -> float:
 
 
 def _distance_at(corner: Corner, time: float, share: float) -> float:
-    """The distance from B to the parabola at a share of its time, [m]."""
+    """Return the distance from B to the parabola at a share of its time, [m]."""
     along = corner.speed_after * share**2 * corner.direction_after
     return 0.5 * time * math.hypot(*(along - corner.speed_before * (1.0 - share) ** 2 * corner.direction_before))

@@ -1,4 +1,4 @@
-"""A blend a second time: in small steps along its acceleration, without the formulas that it came from."""
+"""Independent check of a blend: small steps along its acceleration, without the formulas that planned it."""
 
 import math
 from dataclasses import dataclass
@@ -16,13 +16,13 @@ _TOLERANCE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class BlendCheck:
-    """How well a blend and its motion hold together.
+    """Errors found when checking a blend and its motion.
 
     Attributes:
-        steps: Of the path from A' to C'; 0 where that takes no time.
-        max_position_error: At C', and where phases meet, [m].
+        steps: Number of steps from A' to C'; 0 if the blend has no duration.
+        max_position_error: Largest error at C' and where phases meet, [m].
         max_velocity_error: Likewise, [m/s].
-        closest_distance_error: [m].
+        closest_distance_error: Error of the smallest distance from B, [m].
     """
 
     steps: int
@@ -32,7 +32,7 @@ class BlendCheck:
 
 
 def checked(blend: Blend, motion: PiecewisePolynomial | None) -> BlendCheck:
-    """Go along a blend step by step, and look at where the phases of a motion meet.
+    """Integrate a blend step by step, and check that the phases of a motion meet.
 
     Raises:
         CertificationFailed: The blend does not lead to C' at the speed v₂, passes B at another distance, or phases
@@ -65,7 +65,7 @@ def checked(blend: Blend, motion: PiecewisePolynomial | None) -> BlendCheck:
 
 
 def _joints(motion: PiecewisePolynomial) -> tuple[float, float]:
-    """The largest gap and the largest jump of velocity where pieces meet, [m] and [m/s]."""
+    """Return the largest gap [m] and the largest jump of velocity [m/s] where pieces meet."""
     gap, jump = 0.0, 0.0
     for i in range(len(motion.breaks) - 2):
         h, c, following = motion.breaks[i + 1] - motion.breaks[i], motion.coefficients[i], motion.coefficients[i + 1]

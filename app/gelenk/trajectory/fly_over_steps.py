@@ -1,4 +1,4 @@
-"""The worked solution of a fly-over, and what is odd about it."""
+"""Worked solution of a fly-over, and warnings about unusual cases."""
 
 import math
 
@@ -9,12 +9,12 @@ from gelenk.trajectory.fly_over import Blend, Given
 
 
 def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotion | None) -> tuple[Step, ...]:
-    """The worked solution.
+    """Return the worked solution.
 
     Args:
-        blend: What came out.
-        given: What determined it.
-        value: Of that.
+        blend: The blend that was found.
+        given: The quantity that determined it.
+        value: Value of that quantity.
         whole: The motion around it, if requested.
     """
     steps = [_directions(blend), _time(blend, given, value), _ends(blend), _parabola(blend), _closest(blend)]
@@ -24,7 +24,7 @@ def fly_over_steps(blend: Blend, given: Given, value: float, whole: BlendedMotio
 
 
 def fly_over_warnings(blend: Blend) -> list[str]:
-    """Warnings about the motion."""
+    """Return warnings about unusual blends: straight, reversed, without duration, or with a speed of 0."""
     warnings, corner = [], blend.corner
     if corner.turn == "straight":
         warnings.append("A, B and C lie on one line: the blend only changes the speed, and passes through B")
