@@ -1,9 +1,9 @@
-"""The joints' path along a path of the tip: q(s) on one continuous branch of the inverse kinematics.
+"""Joint path along a path of the tip: q(s) on one continuous branch of the inverse kinematics.
 
-Between exact knots q is a quintic with their q, q' and q'': continuous up to q'' but where the path's own derivatives
-jump. Knots are as near to each other as the tolerances ask for in between, and then nearer (`follow_exact`). Where the
-branch cannot be followed any further the path ends, and a verdict says why (`follow_verdict`); `damp` leaves the path
-near singularities instead (`follow_damped`).
+Between exact knots q is the quintic with their q, q' and q'', so it is continuous up to q'' except where the tip path's
+derivatives jump. The tolerances determine the knot spacing; then `follow_exact` refines it. Where the branch cannot be
+followed any further the path ends, and `follow_verdict` says why; `damp` leaves the path near singularities instead
+(`follow_damped`).
 """
 
 from dataclasses import dataclass, replace
@@ -28,28 +28,28 @@ from gelenk.trajectory.problem import Following
 from gelenk.trajectory.time_laws import hermite_pieces
 
 _STILL = 1e-12
-"""Width of the piece that stands for a path of no length, [m or rad]."""
+"""Width of the single piece for a path of zero length, [m or rad]."""
 _LOOSE = (1e-3, 1e-2)
-"""How far from the path's first pose a start may be, [m and rad]."""
+"""Largest distance of a start from the path's first pose, [m and rad]."""
 _PUSHES = (8.0, 40.0)
-"""How hard spare joints are pushed away from their limits, in their rate per rate of the tip."""
+"""Gains that push spare joints away from their limits: joint rate per rate of the tip."""
 
 
 @dataclass(frozen=True, slots=True)
 class JointWay:
-    """The joints along a path of the tip.
+    """The joint path along a path of the tip.
 
     Attributes:
-        positions: q(s) from 0 to `reached`; its breaks include the path's. Where nothing could be done, or the path has
-            no length, one constant piece from 0 to 1e-12.
-        reached: Up to where it could be done; the path's extent if all was, [m or rad].
-        stop: Why it is not all.
-        path_deviation: Largest distance of the tip from the path between the knots that tolerances ask for, [m].
+        positions: q(s) from 0 to `reached`; its breaks include the path's. If nothing was followed, or the path has
+            zero length, one constant piece from 0 to 1e-12.
+        reached: s up to which the path was followed; the path's extent if completely, [m or rad].
+        stop: Why it is incomplete; None if complete.
+        path_deviation: Largest distance of the tip from the path, between the knots that the tolerances require, [m].
         orientation_deviation: Largest angle likewise, [rad].
-        min_singular_value: The smallest σ of the rows that count on it, metres and radians mixed.
-        min_singular_value_s: Where that is, [m or rad].
-        bend_errors: How far q'' is from that of the exact path at most, in each piece of each joint; shape (M, n). None
-            where nothing moves, or the path is left.
+        min_singular_value: The smallest σ of the rows that count along the path, metres and radians mixed.
+        min_singular_value_s: s at that value, [m or rad].
+        bend_errors: Bound on the error of q'' against the exact path, for each piece and joint; shape (M, n). None
+            if nothing moves, or the path is left.
     """
 
     positions: PiecewisePolynomial
@@ -63,17 +63,17 @@ class JointWay:
 
 
 def follow(robot: Robot, chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
-    """The joints that lead the tip along a path, from a configuration on.
+    """Find the joint path that leads the tip along a path, starting at a configuration.
 
     Args:
         robot: The robot.
-        chain: Base and tip.
+        chain: Chain from base to tip.
         path: The path of the tip.
-        start: A configuration with the path's first pose; shape (n,), [rad or m].
-        following: Which directions count, how closely, and what to do near singularities.
+        start: A configuration at the path's first pose; shape (n,), [rad or m].
+        following: Directions that count, tolerances, and what to do near singularities.
 
     Raises:
-        InvalidField: The tolerances ask for more knots than there may be.
+        InvalidField: The tolerances require too many knots.
         ValueError: The start is not at the path's first pose.
     """
     _check_start(chain, path, start, following)
@@ -95,7 +95,7 @@ def follow(robot: Robot, chain: Chain, path: Path, start: Array, following: Foll
 def _damped_way(
     robot: Robot, course: Course, tolerances: tuple[float, float], start: Array, threshold: float, trace: Trace
 ) -> JointWay:
-    """The exact path as far as it goes, and from a singularity on the damped one."""
+    """Follow the exact path up to a singularity, and the damped one from there."""
     inquiry = Inquiry(robot, course, tolerances, threshold, start)
     began_near = bool(trace.pieces) and trace.pieces[0].a.sigma < threshold
     if trace.ending != "threshold" and not began_near:
@@ -109,7 +109,7 @@ def _damped_way(
 
 
 def _exactly(course: Course, way: JointWay) -> JointWay:
-    """The path with as many knots more as its peaks ask for."""
+    """Add the knots that accurate peaks require."""
     if way.reached <= 0.0:
         return way
     positions, bend_errors = refined(course, way.positions)
@@ -125,7 +125,7 @@ def _check_start(chain: Chain, path: Path, start: Array, following: Following) -
 def _away_from_limits(
     course: Course, tolerances: tuple[float, float], start: Array, threshold: float, plain: Trace
 ) -> tuple[Course, Trace]:
-    """What gets farthest of the shortest q' and of those that push joints away from their limits."""
+    """Return the course and trace that get farthest, with and without pushing joints away from their limits."""
     best = course, plain
     for push in _PUSHES:
         pushed = replace(course, push=push)
@@ -141,7 +141,7 @@ def _away_from_limits(
 
 
 def _motionless(chain: Chain, path: Path, start: Array, following: Following) -> JointWay:
-    """The result for a path without length, or for a chain without joints."""
+    """Return the result for a path of zero length, or a chain without joints."""
     stop = None
     at = path.at(np.zeros(1))
     if path.extent > 0.0:
@@ -176,7 +176,7 @@ def _joint_way(start: Array, trace: Trace, stop: Stop | None) -> JointWay:
 
 
 def _polynomial(pieces: list[Piece]) -> PiecewisePolynomial:
-    """The quintics between the knots."""
+    """Return the quintics between the knots."""
     breaks = np.array([pieces[0].a.s, *(piece.b.s for piece in pieces)])
     starts = np.array([[piece.a.q, piece.a.dq, piece.a.ddq] for piece in pieces]).transpose(1, 0, 2)
     ends = np.array([[piece.b.q, piece.b.dq, piece.b.ddq] for piece in pieces]).transpose(1, 0, 2)

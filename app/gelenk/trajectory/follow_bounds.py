@@ -1,7 +1,7 @@
-"""Where a piece of the joints' path leaves the joint limits, or comes too near to a singularity, also between knots.
+"""Where a piece of the joint path leaves the joint limits or comes too near to a singularity, also between knots.
 
-A quintic stays between its Bernstein coefficients; where these do not settle it, its roots do. σ, the smallest
-singular value, changes by no more than ‖dJ/ds‖ per unit of s: places are added until no dip below the floor can hide.
+A quintic stays between its Bernstein coefficients; if these do not decide, its roots do. The smallest singular value σ
+changes by at most ‖dJ/ds‖ per unit of s: samples are added until no dip below the floor can stay hidden.
 """
 
 from dataclasses import dataclass
@@ -14,18 +14,18 @@ from gelenk.trajectory.follow_course import Course, Knot
 from gelenk.trajectory.follow_step import HULL, INNER, TO_POWERS, Piece, knot_within, piece_between
 
 SLACK = 1e-10
-"""Beyond a limit by which a joint still counts as at it, [rad or m]."""
+"""Distance beyond a limit at which a joint still counts as within, [rad or m]."""
 _CERTAIN = 1.5
-"""By how much more σ may change than the derivatives at both knots say."""
+"""Safety factor on the change of σ that the derivatives at both knots give."""
 _FINEST = 0.05
-"""Depth of a dip of σ below the floor, in fractions of it, that may stay unseen."""
+"""Depth of a dip of σ below the floor that may stay undetected, in fractions of the floor."""
 _MOST_PLACES = 4000
 _GROWING = 1.0 + 1e-9
 _SAG = 0.99
-"""Share of the largest σ so far that has to be left on the way out of a singularity."""
+"""Share of the largest σ so far that σ must keep on the way out of a singularity."""
 _ROUNDS = 60
 _CLOSEST = 1e-9
-"""To which a place is located, in fractions of a piece."""
+"""Accuracy of a located place, in fractions of a piece."""
 
 Violation: TypeAlias = Literal["joint_limit", "threshold", "lost"]
 
@@ -35,11 +35,11 @@ class Crossing:
     """The first place at which a bound is violated.
 
     Attributes:
-        good: The last place that is known to be good, [m or rad].
-        bad: A place beyond, at which it is violated.
-        kind: What is.
-        joint: Which joint, of a limit.
-        floor: What σ has to keep there.
+        good: The last place known to be good, [m or rad].
+        bad: A place beyond it where the bound is violated.
+        kind: The kind of bound.
+        joint: Index of the joint that leaves its limits, if any.
+        floor: Lower bound on σ there.
     """
 
     good: float
@@ -50,7 +50,7 @@ class Crossing:
 
 
 def limit_crossing(course: Course, piece: Piece) -> Crossing | None:
-    """The first place in a piece at which a joint leaves its limits."""
+    """Find the first place in a piece at which a joint leaves its limits."""
     lower, upper = course.chain.lower - SLACK, course.chain.upper + SLACK
     hull = HULL @ piece.data
     found: Crossing | None = None
@@ -65,7 +65,7 @@ def limit_crossing(course: Course, piece: Piece) -> Crossing | None:
 
 
 def _first_outside(powers: Array, bound: float, side: float) -> tuple[float, float] | None:
-    """The beginning and the middle of the first part of 0 ≤ τ ≤ 1 in which a polynomial is beyond a bound."""
+    """Return start and middle of the first part of 0 ≤ τ ≤ 1 in which a polynomial is beyond a bound."""
     shifted = side * (powers - bound * (np.arange(6) == 0))
     roots = np.roots(shifted[::-1]) if np.abs(shifted[1:]).max() > 0.0 else np.empty(0)
     real = np.sort(roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real > 0.0) & (roots.real < 1.0)])
@@ -78,15 +78,15 @@ def _first_outside(powers: Array, bound: float, side: float) -> tuple[float, flo
 def threshold_crossing(
     course: Course, piece: Piece, threshold: float, best: float, stretch: tuple[float, float]
 ) -> tuple[Crossing | None, float]:
-    """The first place in a piece at which σ falls below the threshold, and the largest σ so far.
+    """Find the first place in a piece at which σ falls below the threshold, and the largest σ so far.
 
-    Where the path began below the threshold σ has to grow instead, until it is above it.
+    If the path began below the threshold, σ must grow instead until it is above.
 
     Args:
-        course: What is followed.
-        piece: A piece of it.
-        threshold: That σ has to keep.
-        best: The largest σ on the way before.
+        course: The course being followed.
+        piece: A piece of the joint path.
+        threshold: Lower bound on σ.
+        best: The largest σ before the piece.
         stretch: The breaks of the path before and after.
     """
     taus, sigmas = _resolved(course, piece, _floor(threshold, best), stretch)
@@ -107,7 +107,7 @@ def _floor(threshold: float, best: float) -> float:
 
 
 def _resolved(course: Course, piece: Piece, floor: float, stretch: tuple[float, float]) -> tuple[Array, Array]:
-    """Places from 0 to 1 and σ there, so near to each other that σ cannot fall below the floor between them unseen."""
+    """Return places from 0 to 1 and σ there, so dense that σ cannot fall below the floor between them unnoticed."""
     taus, sigmas = np.linspace(0.0, 1.0, len(piece.sigmas)), piece.sigmas
     change = _CERTAIN * piece.width * max(piece.a.change, piece.b.change)
     while len(taus) < _MOST_PLACES:
@@ -128,13 +128,13 @@ def _resolved(course: Course, piece: Piece, floor: float, stretch: tuple[float, 
 def located(
     course: Course, tolerances: tuple[float, float], piece: Piece, crossing: Crossing, stretch: tuple[float, float]
 ) -> tuple[Piece | None, Crossing]:
-    """The part of a piece before a violation, None if that is at its very beginning, and more exactly where that is.
+    """Locate a violation more exactly; return the part of the piece before it (None if empty) and the crossing.
 
     Args:
-        course: What is followed.
+        course: The course being followed.
         tolerances: Of position [m] and orientation [rad].
-        piece: A piece in which something is violated.
-        crossing: Between which places, by the quintic.
+        piece: The piece that contains the violation.
+        crossing: The violation as bracketed on the quintic.
         stretch: The breaks of the path before and after.
     """
     good, bad, kept = piece.a.s, crossing.bad, None
@@ -161,7 +161,7 @@ def located(
 
 
 def _between(good: float, bad: float, room: float, lack: float, closest: float) -> float:
-    """Where the margin may be zero, by the rule of Illinois; a little to its other side where an end is near."""
+    """Estimate where the margin is zero by the Illinois method, a little away from both ends."""
     if not np.isfinite(lack) or room <= 0.0:
         return 0.5 * (good + bad)
     guess = good + (bad - good) * room / (room - lack)
@@ -169,7 +169,7 @@ def _between(good: float, bad: float, room: float, lack: float, closest: float) 
 
 
 def _margin(course: Course, knot: Knot, floor: float) -> float:
-    """The margin to a bound: of σ, or of a joint's range."""
+    """Return the smallest margin: of σ to its floor, or of a joint to its limits."""
     margin = knot.sigma - floor
     if course.limited:
         rooms = np.minimum(knot.q - course.chain.lower, course.chain.upper - knot.q)
@@ -178,7 +178,7 @@ def _margin(course: Course, knot: Knot, floor: float) -> float:
 
 
 def _outside(course: Course, knot: Knot) -> int | None:
-    """The joint that is furthest beyond its limits."""
+    """Return the joint that is furthest beyond its limits; None if all are within."""
     excess = np.maximum(course.chain.lower - knot.q, knot.q - course.chain.upper)
     joint = int(excess.argmax())
     return joint if course.limited and excess[joint] > SLACK else None

@@ -1,10 +1,10 @@
-"""The joints' path near singularities with damping: the tip leaves the path, and returns to it afterwards.
+"""Damped joint path near singularities: the tip leaves the path, and returns to it afterwards.
 
-q' = Jᵀ(JJᵀ + λI)⁻¹(ξ + κe), λ = σ₀²(1 - σ²/σ₀²)³ where σ is below σ₀, else 0: gains grow to little more than 1/σ₀, and
-λ and its derivatives up to the second have no jump. The error e to the path is fed back, with a bound, and less in
-directions whose own σ is below σ₀, so that the tip returns. Joint rates stay below some 2 ‖ξ‖/σ₀, however near the path
-passes. Beside a singularity that differential equation is stiff: it is solved by an L-stable Rosenbrock method of third
-order [Sandu1997, RODAS3].
+q' = Jᵀ(JJᵀ + λI)⁻¹(ξ + κe), with λ = σ₀²(1 - σ²/σ₀²)³ where σ is below σ₀, else 0: gains grow to little more than 1/σ₀,
+and λ and its first two derivatives are continuous. The error e to the path is fed back, bounded, and less in
+directions whose own σ is below σ₀, so that the tip returns. Joint rates stay below about 2 ‖ξ‖/σ₀, however near the
+path passes. Beside a singularity this differential equation is stiff; an L-stable Rosenbrock method of third order
+solves it [Sandu1997, RODAS3].
 """
 
 from collections.abc import Iterator
@@ -25,18 +25,18 @@ from gelenk.trajectory.follow_trace import MOST_KNOTS, Trace
 from gelenk.trajectory.paths import PathSamples
 
 _GAIN = 50.0
-"""κ, per length of the path."""
+"""κ times the length of the path."""
 _STAGES = ((0.0, 0.5), (0.0, 1.5), (1.0, 0.0), (1.0, 0.0))
 _FROM_STAGES = ((), (0.0,), (2.0, 0.0), (2.0, 0.0, 1.0))
 _COUPLED = ((), (4.0,), (1.0, -1.0), (1.0, -1.0, -8.0 / 3.0))
 _RESULT = np.array([2.0, 0.0, 1.0, 1.0])
 _GAMMA = 0.5
 _TOLERANCE = 1e-6
-"""Of a step, [rad or m]."""
+"""Allowed error of a step, [rad or m]."""
 _NUDGE = 1e-6
-"""Of differences, [rad or m]."""
+"""Step of differences, [rad or m]."""
 _FIRST_STEP, _SHORTEST = 1e-3, 1e-12
-"""In fractions of the path."""
+"""Steps in fractions of the path."""
 _GROWTH, _SHRINKAGE = 3.0, 0.2
 _SEARCH = 40
 
@@ -46,7 +46,7 @@ class Damped:
     """The damped field.
 
     Attributes:
-        course: What is followed.
+        course: The course being followed.
         threshold: σ₀.
     """
 
@@ -54,7 +54,7 @@ class Damped:
     threshold: float
 
     def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
-        """Rates q' of the field, shape (N, n), and the smallest singular value, shape (N,)."""
+        """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
         rows = task_rows(self.course.chain, self.course.task, at, qs)
         left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
         near = np.clip(1.0 - np.square(sigmas / self.threshold), 0.0, None) ** 3
@@ -66,12 +66,12 @@ class Damped:
         speeds = np.maximum(speeds, 1e-12)
         back /= np.sqrt(1.0 + np.square(sizes / speeds))
         wanted, returning = (np.einsum("bki,bk->bi", left, values) for values in (rows.rates, back))
-        # What the joints can hardly do they are not to hurry in.
+        # Do not return fast in directions that the joints can hardly serve.
         dqs: Array = np.einsum("bi,bij->bj", gains * (wanted + (1.0 - near) * returning), right)
         return dqs, sigmas[:, -1]
 
     def knot(self, s: float, at: PathSamples, q: Array) -> Knot:
-        """The point of the damped path at a configuration; `at` is one sample."""
+        """Return the point of the damped path at a configuration; `at` is one sample."""
         dqs, sigmas = self.velocities(at, q[None])
         sigma = float(sigmas[0])
         ddq = derivative_along(self, at, q, dqs[0], 0.1 * max(sigma, 0.1 * self.threshold))
@@ -79,14 +79,14 @@ class Damped:
 
 
 def damped(course: Course, tolerances: tuple[float, float], start: Array, threshold: float, since: float) -> Trace:
-    """The damped path from a configuration on, up to a joint limit or the end of the path.
+    """Follow the damped path from a configuration to a joint limit or to the end of the path.
 
     Args:
-        course: What is followed.
+        course: The course being followed.
         tolerances: Of position [m] and orientation [rad].
-        start: Where it begins; shape (n,).
+        start: First configuration; shape (n,).
         threshold: σ₀.
-        since: Where on the path it begins, [m or rad].
+        since: Place on the path where it begins, [m or rad].
 
     Raises:
         InvalidField: It takes too many knots.
@@ -135,7 +135,7 @@ def _leave_out_what_never_returns(course: Course, tolerances: tuple[float, float
 
 
 def cut_short(course: Course, trace: Trace, piece: Piece, tau: float) -> None:
-    """Append the part of a piece up to a place from 0 to 1 of it, if there is any."""
+    """Append the part of a piece up to place `tau`, from 0 to 1, unless it is empty."""
     s = piece.a.s + tau * piece.width
     if not s > piece.a.s:
         return
@@ -148,7 +148,7 @@ def cut_short(course: Course, trace: Trace, piece: Piece, tau: float) -> None:
 
 
 def _pieces(field: Damped, tolerances: tuple[float, float], a: Knot, stretch: tuple[float, float]) -> Iterator[Piece]:
-    """The pieces up to the end of a stretch."""
+    """Yield the pieces up to the end of a stretch."""
     end, extent = stretch[1], field.course.path.extent
     h = min(_FIRST_STEP * extent, end - a.s)
     allowed = SHARE * min(tolerances)
@@ -171,7 +171,7 @@ def _pieces(field: Damped, tolerances: tuple[float, float], a: Knot, stretch: tu
 
 
 def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tuple[Piece, float]:
-    """The quintic between two points, and the largest difference of its rate from the field's."""
+    """Return the quintic between two points, and the largest difference of its rate from the field's."""
     course, data, h = field.course, end_conditions(a, b), b.s - a.s
     at, qs = course.samples(a.s + h * INNER, *stretch), rates_of(INNER, 0, data)
     velocities, sigmas = field.velocities(at, qs)
@@ -181,7 +181,7 @@ def _piece(field: Damped, a: Knot, b: Knot, stretch: tuple[float, float]) -> tup
 
 
 def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) -> tuple[Array, float]:
-    """Take one step; return its end, shape (n,), and the estimate of its error."""
+    """Take one step; return its end, shape (n,), and an estimate of its error."""
     n, at = len(a.q), field.course.samples(np.array([a.s]), *stretch)
     by_q, by_s = _derivatives(field, at, a.q)
     matrix = np.eye(n) / (h * _GAMMA) - by_q
@@ -198,7 +198,7 @@ def _rosenbrock(field: Damped, a: Knot, h: float, stretch: tuple[float, float]) 
 
 
 def _derivatives(field: Damped, at: PathSamples, q: Array) -> tuple[Array, Array]:
-    """∂q'/∂q, shape (n, n), and ∂q'/∂s, shape (n,), by central differences."""
+    """Return ∂q'/∂q, shape (n, n), and ∂q'/∂s, shape (n,), by central differences."""
     n = len(q)
     step = _NUDGE / max(float(np.abs(at.first).max()), 1e-300)
     places = np.zeros(2 * n + 2)

@@ -1,8 +1,8 @@
-"""The joints' path brought as near to the exact one in q'' as it is in q, so that its peaks and durations are those.
+"""Refinement of a joint path until q'' is as accurate as q, so that peaks and durations are those of the exact path.
 
-Quintics that keep a tolerance of the position are off by far more in q'', and with them peaks of acceleration. Where
-they are they get more knots, many at once: a quintic is a few steps of Newton's method away from the exact path, and
-where joints are to spare the nearest one is taken.
+Quintics within a tolerance of the position are far less accurate in q'', and so in peaks of acceleration. Such pieces
+get more knots, many at once: the exact path is a few Newton steps away from a quintic; for redundant arms the nearest
+exact configuration is taken.
 """
 
 import numpy as np
@@ -22,28 +22,28 @@ from gelenk.trajectory.timing import Timed
 TOLERANCE = 1e-6
 """Largest error of q'', in fractions of the largest q'' of its piece, or of q' over the length of the path."""
 _PROBES = np.array([0.14, 0.5, 0.86])
-"""Where in a piece that error is largest: it goes as the second derivative of τ³(1 - τ)³."""
+"""Places in a piece where that error is largest: it varies as the second derivative of τ³(1 - τ)³."""
 _ROUNDS, _MOST_PARTS = 4, 16
 _SHORTEST = 1e-2
 """Least length of a new piece, in fractions of the path."""
 _ROUNDING = 1e-13
-"""Of q, as a share of it or of 1, [rad or m]."""
+"""Rounding of q, in fractions of 1 plus its magnitude, [rad or m]."""
 _FIRST, _THIRD = 0.144, 16.0
-"""The largest errors of the first and third derivative, of that of q'' times and over the length of a piece."""
+"""Largest errors of q' and q''': these factors times that of q'', times or over the length of the piece."""
 _UNSEEN = 1.5
-"""By how much errors may be larger than at the probes."""
+"""Safety factor for errors larger than at the probes."""
 _STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
 
 
 def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
-    """A path with more knots where its q'' is not that of the exact one yet, and how far it is from that.
+    """Add knots to a path where its q'' differs from the exact one, and return the remaining error.
 
     Args:
-        course: What is followed.
-        positions: q(s), quintics along it; what is too near to singularities or joint limits stays as it is.
+        course: The course being followed.
+        positions: q(s), quintics; pieces too near to singularities or joint limits stay unchanged.
 
     Returns:
-        The path in M pieces, and the largest error of each joint's q'' in each, ∞ where that is not known; (M, n).
+        The path in M pieces, and the largest error of q'' for each piece and joint, ∞ where unknown; (M, n).
     """
     for left in reversed(range(_ROUNDS)):
         off, parts = _errors(course, positions)
@@ -54,11 +54,11 @@ def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePo
 
 
 def way_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: MotionLimits) -> WayError:
-    """By how much a motion's ratios to limits differ at most from those of the exact path.
+    """Bound how much a motion's ratios to limits differ from those of the exact path.
 
     Args:
         joints: q(s), in M pieces.
-        off: The largest error of q'' in each; shape (M, n).
+        off: Largest error of q'' in each piece; shape (M, n).
         timing: Its motion in time.
         limits: Of the joints.
     """
@@ -68,7 +68,7 @@ def way_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: Mo
     piece = np.clip(np.searchsorted(joints.breaks, s[:, 0], side="right") - 1, 0, len(off) - 1)
     second, widths = _UNSEEN * off[piece], np.diff(joints.breaks)[piece, None]
     first, third = _FIRST * second * widths, _THIRD * second / widths
-    with np.errstate(invalid="ignore"):  # What is not known, where nothing moves.
+    with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
         errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
     bounds = (limits.velocity, limits.acceleration, limits.jerk)
     return WayError(
@@ -80,7 +80,7 @@ def way_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: Mo
 
 
 def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
-    """The largest error of q'' in each piece, and into how many it is to be divided; shapes (M, n) and (M,)."""
+    """Return the largest error of q'' in each piece, (M, n), and the number of parts to divide it into, (M,)."""
     widths, extent = np.diff(positions.breaks), course.path.extent
     places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
     rates = positions.rates_at(places)
@@ -92,14 +92,14 @@ def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indi
     bend = np.maximum(second.max(axis=1), first.max(axis=1) / extent)
     allowed = TOLERANCE * bend + _ROUNDING * (1.0 + q.max(axis=1)) / widths**2
     ratios = off.max(axis=1) / np.maximum(allowed, np.finfo(float).tiny)
-    # The error is of fourth order.
+    # The error is of fourth order in the piece's length.
     wanted = np.where((ratios > 1.0) & np.isfinite(ratios), np.ceil(1.05 * ratios**0.25), 1.0)
     most = np.clip(widths / (_SHORTEST * extent), 1.0, _MOST_PARTS)
     return off, np.minimum(wanted, most).astype(np.int64)
 
 
 def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
-    """Each piece divided, at exact knots; those that would leave the joints' limits then are so at their own."""
+    """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
     piece = np.repeat(np.arange(len(parts)), parts)
     share = (np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[piece]
     widths = np.diff(positions.breaks)
@@ -120,7 +120,7 @@ def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> 
 
 
 def _exact(course: Course, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
-    """q, q' and q'' of the exact path next to given ones, shape (3, N, n), and whether there is one, else they stay."""
+    """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
     chain, task, at = course.chain, course.task, course.path.at(s)
     rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
     inverses = _inverses(rows.jacobians)

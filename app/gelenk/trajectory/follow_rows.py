@@ -1,8 +1,8 @@
-"""What a task asks of the joints along a path of the tip: J q' = ξ, in the rows that count, and its derivative by s.
+"""Task rows along a path of the tip: J q' = ξ in the rows that count, and its derivative by s.
 
-Of a task that leaves directions free, the rotation's rows are along the target's axes, as in inverse kinematics. Where
-one rotation alone counts, that is a component of the rotation vector ψ from the tip to the target, whose rate is not
-that of the angular velocities but M(ψ) times their difference.
+For a task that leaves directions free, the rotation rows are along the target's axes, as in inverse kinematics. If a
+single rotation counts, its row is a component of the rotation vector ψ from the tip to the target, whose rate is not
+the difference of the angular velocities but M(ψ) times it.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from gelenk.model.chain import Chain
 from gelenk.trajectory.paths import PathSamples
 
 _SMALL = 0.1
-"""Angle below which a series is taken, [rad]."""
+"""Angle below which a series is used, [rad]."""
 _STEP = 1e-3
 _STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
 _PLACES = np.array([-2.0, -1.0, 1.0, 2.0])
@@ -39,12 +39,12 @@ class Rows:
 
 
 def task_rows(chain: Chain, task: Task, at: PathSamples, qs: Array) -> Rows:
-    """The rows at configurations on the way or near to it.
+    """Return the rows at configurations on or near the path.
 
     Args:
-        chain: Base and tip.
-        task: Which directions count.
-        at: The path, one sample a configuration.
+        chain: Chain from base to tip.
+        task: Directions that count.
+        at: The path, one sample per configuration.
         qs: Shape (N, n), [rad or m].
     """
     if len(task) == len(FULL_POSE):
@@ -63,7 +63,7 @@ def task_rows(chain: Chain, task: Task, at: PathSamples, qs: Array) -> Rows:
 
 
 def row_derivatives(chain: Chain, task: Task, at: PathSamples, qs: Array, dqs: Array) -> tuple[Array, Array]:
-    """dJ/ds and dξ/ds along q' of shape (N, n), so that J q'' = dξ/ds - dJ/ds q'; shapes (N, m, n) and (N, m)."""
+    """Return dJ/ds, (N, m, n), and dξ/ds, (N, m), along q' of shape (N, n): J q'' = dξ/ds - dJ/ds q'."""
     changes = np.einsum("bkij,bj->bki", chain_hessians(chain.flat, qs), dqs)
     if len(task) == len(FULL_POSE):
         return changes, at.second
@@ -89,19 +89,19 @@ def _rows_of(task: Task) -> Indices:
 
 
 def _turns_about_one(task: Task) -> bool:
-    """Whether one rotation alone counts."""
+    """Return whether a single rotation counts."""
     return len(task) - task.positions == 1
 
 
 def _turned(Rs: Array, blocks: Array) -> Array:
-    """The angular rows of blocks of shape (N, 6, k) multiplied by matrices of shape (N, 3, 3)."""
+    """Multiply the angular rows of blocks of shape (N, 6, k) by matrices of shape (N, 3, 3)."""
     result = blocks.copy()
     result[:, 3:] = Rs @ blocks[:, 3:]
     return result
 
 
 def _rate_matrices(vectors: Array) -> Array:
-    """M(ψ) = I + [ψ]×/2 + c [ψ]×², c = (1 - θ/2 cot θ/2)/θ², the inverse of SO(3)'s Jacobian; shape (N, 3, 3)."""
+    """Return M(ψ) = I + [ψ]×/2 + c [ψ]×², c = (1 - θ/2 cot θ/2)/θ², the inverse Jacobian of SO(3); shape (N, 3, 3)."""
     angles = np.linalg.norm(vectors, axis=1)
     squares = angles * angles
     series = 1.0 / 12.0 + squares * (1.0 / 720.0 + squares * (1.0 / 30240.0 + squares / 1209600.0))
@@ -115,7 +115,7 @@ def _rate_matrices(vectors: Array) -> Array:
 
 
 def _matrix_changes(vectors: Array, rates: Array) -> Array:
-    """dM/ds where ψ' = rates, by a difference of fourth order; shape (N, 3, 3)."""
+    """Return dM/ds for ψ' = rates, by a difference of fourth order; shape (N, 3, 3)."""
     steps = _STEP / (1.0 + np.linalg.norm(rates, axis=1))[:, None]
     changes = np.zeros((len(vectors), 3, 3))
     for place, weight in zip(_PLACES, _STENCIL, strict=True):

@@ -1,7 +1,7 @@
-"""One piece of the joints' way: from knot to knot, checked in between, and where in it something is violated first.
+"""One piece of the joint path, from knot to knot, and how accurate it is in between.
 
-Between two exact knots q is the quintic with the same q, q' and q'' at both. A piece is accepted where its poses are on
-the path within a share of the tolerance, and its rates those of the field.
+Between two exact knots q is the quintic with the same q, q' and q'' at both. A piece is accepted if its poses are on
+the path within a share of the tolerance, and its rates agree with the field.
 """
 
 from dataclasses import dataclass
@@ -17,15 +17,15 @@ from gelenk.trajectory.paths import PathSamples
 from gelenk.trajectory.time_laws import hermite_pieces
 
 _QUINTIC = hermite_pieces(np.eye(6)[:3, None], np.eye(6)[3:, None], np.ones(1))[0]
-"""Coefficients of the six quintics of which one of the end conditions is 1, by powers of τ; shape (6, 6)."""
+"""Coefficients of the six quintics with one end condition 1 and the others 0, by powers of τ; shape (6, 6)."""
 _BERNSTEIN = np.array([[comb(i, k) / comb(5, k) for k in range(6)] for i in range(6)])
-"""Bernstein coefficients from powers: a quintic stays between the least and the largest of them."""
+"""Bernstein coefficients from power coefficients: a quintic stays between the smallest and the largest of them."""
 INNER = np.arange(1, 8) / 8.0
 """Places between 0 and 1 at which a piece is examined."""
 
 
 def _basis(taus: Array, order: int = 0) -> Array:
-    """Values of the six quintics, or their derivatives of some order; shape (N, 6)."""
+    """Evaluate the six quintics, or a derivative of them; shape (N, 6)."""
     powers = np.arange(6)
     factors = np.array([perm(k, order) for k in range(6)], dtype=float)
     values: Array = (factors * taus[:, None] ** np.maximum(powers - order, 0)) @ _QUINTIC
@@ -34,27 +34,27 @@ def _basis(taus: Array, order: int = 0) -> Array:
 
 _VALUES, _RATES = _basis(INNER), _basis(INNER, 1)
 HULL, TO_POWERS = _BERNSTEIN @ _QUINTIC, _QUINTIC
-"""Bernstein and power coefficients of a piece's quintic from its end conditions."""
+"""Matrices from a quintic's end conditions to its Bernstein and power coefficients."""
 
 RATE_TOLERANCE = 1e-3
 """Largest error of q' between knots, in fractions of the largest q' there."""
 SHARE = 1.0 / 3.0
-"""Of the tolerances that interpolation may use."""
+"""Share of the tolerances that interpolation may use."""
 _SETTLED = 1e-12
-"""Change of the joints that is none, [rad or m]."""
+"""Change of the joints that counts as none, [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A piece of the path between two knots.
+    """A piece of the joint path between two knots.
 
     Attributes:
-        a: Where it begins.
-        b: Where it ends.
+        a: First knot.
+        b: Last knot.
         data: q, hq', h²q'' at both; shape (6, n).
-        sigmas: The smallest singular value at a, between, and at b; shape (9,).
+        sigmas: The smallest singular value at a, in between, and at b; shape (9,).
         deviations: Largest distance [m] and angle [rad] of the tip from the path.
-        ratio: Of the largest error to what is allowed.
+        ratio: Largest ratio of an error to what is allowed.
     """
 
     a: Knot
@@ -66,22 +66,22 @@ class Piece:
 
     @property
     def width(self) -> float:
-        """Width of the piece, [m or rad]."""
+        """Width h of the piece, [m or rad]."""
         return self.b.s - self.a.s
 
     def at(self, taus: Array) -> Array:
-        """Values at places from 0 to 1; shape (N, n)."""
+        """Return configurations at places from 0 to 1; shape (N, n)."""
         return rates_of(taus, 0, self.data)
 
 
 def rates_of(taus: Array, order: int, data: Array) -> Array:
-    """Derivatives by τ of some order of a quintic at places from 0 to 1; shape (N, n)."""
+    """Return a derivative by τ of a quintic at places from 0 to 1; shape (N, n)."""
     result: Array = _basis(taus, order) @ data
     return result
 
 
 def end_conditions(a: Knot, b: Knot) -> Array:
-    """The conditions on a quintic in τ; shape (6, n)."""
+    """Return the end conditions of the quintic in τ between two knots; shape (6, n)."""
     h = b.s - a.s
     return np.array([a.q, h * a.dq, h * h * a.ddq, b.q, h * b.dq, h * h * b.ddq])
 
@@ -89,13 +89,13 @@ def end_conditions(a: Knot, b: Knot) -> Array:
 def attempt(
     course: Course, tolerances: tuple[float, float], a: Knot, s: float, stretch: tuple[float, float]
 ) -> Piece | None:
-    """The piece from a knot to a place, whatever its errors; None where no exact knot is near to what is expected.
+    """Return the piece from a knot to a place, whatever its errors; None if no exact knot is found there.
 
     Args:
-        course: What is followed.
+        course: The course being followed.
         tolerances: Of position [m] and orientation [rad].
-        a: Where the piece begins.
-        s: Where it ends, [m or rad].
+        a: First knot of the piece.
+        s: Place where it ends, [m or rad].
         stretch: The breaks of the path before and after.
     """
     at = course.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
@@ -104,7 +104,7 @@ def attempt(
 
 
 def piece_between(course: Course, tolerances: tuple[float, float], a: Knot, b: Knot, at: PathSamples) -> Piece:
-    """The quintic from knot to knot, and how good it is in between, where the path is `at`."""
+    """Return the quintic between two knots with its errors at the inner samples `at` of the path."""
     h, data = b.s - a.s, end_conditions(a, b)
     qs = _VALUES @ data
     velocities, sigmas = course.velocities(at, qs)
@@ -117,10 +117,10 @@ def piece_between(course: Course, tolerances: tuple[float, float], a: Knot, b: K
 
 
 def next_knot(course: Course, a: Knot, s: float, at: PathSamples) -> Knot | None:
-    """The knot of the same branch at a place, the path's sample being `at`; None where there is none near.
+    """Return the knot of the same branch at a place, `at` being the path's sample there; None if none is near.
 
-    Of joints to spare the self-motion is that of the field, by the formula of fourth order from q' and q'' at both
-    ends; the others have no choice.
+    For a redundant arm the self-motion follows the field, by the formula of fourth order from q' and q'' at both ends;
+    other arms have no choice.
     """
     h = s - a.s
     b = course.next_to(s, at, a.q + h * (a.dq + 0.5 * h * a.ddq))
@@ -136,6 +136,6 @@ def next_knot(course: Course, a: Knot, s: float, at: PathSamples) -> Knot | None
 
 
 def knot_within(course: Course, piece: Piece, s: float, stretch: tuple[float, float]) -> Knot | None:
-    """The exact knot at a place within a piece."""
+    """Return the exact knot at a place within a piece; None if there is none near the quintic."""
     at = course.samples(np.array([s]), *stretch)
     return course.next_to(s, at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])

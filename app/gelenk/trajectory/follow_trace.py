@@ -1,4 +1,4 @@
-"""The joints' path traced from knot to knot, until its end or until it cannot go on."""
+"""Trace of the joint path from knot to knot, until its end or until it cannot go on."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -17,22 +17,22 @@ Ending: TypeAlias = Literal["complete", "joint_limit", "threshold", "lost", "too
 
 MOST_KNOTS = 20_000
 _FIRST_STEP = 0.25
-"""In fractions of a stretch."""
+"""First step, in fractions of a stretch."""
 _FARTHEST = 0.5
-"""That a joint may go in one piece, [rad or m]."""
+"""Largest motion of a joint in one piece, [rad or m]."""
 _SHORTEST = 1e-9
-"""Length of a piece, in fractions of the path or of 1 m or rad, below which the path is lost."""
+"""Piece length below which the path counts as lost, in fractions of the path or of 1 m or rad if that is less."""
 _NOTHING = 1e-2
-"""Share of that length at which rounding tells nothing of rates any more."""
+"""Share of that length below which rounding makes the rates meaningless."""
 _CLEAR = 1e-2
-"""σ above which a path that is lost is so because of rounding."""
+"""σ above which a lost path is due to rounding."""
 _FASTEST = 1e6
 """A joint's rate, in [rad or m] per length of the path, above which the path is given up."""
 _CROWD, _CREEP = 200, 1e-5
-"""Pieces, and the length, in fractions of the path or of 1 m or rad, below which they make the path given up."""
+"""So many pieces within this length (in fractions of the path or of 1 m or rad) make the path given up."""
 _KNOTS_OF_END = 6
 _NEAR_END = 1e-3
-"""σ above which the end of a branch is too far away to be found."""
+"""σ above which the end of a branch is too far away to be extrapolated."""
 _SAME_GROWTH = 0.1
 _GROWTH, _SHRINKAGE, _RESERVE = 3.0, 0.25, 0.85
 
@@ -42,9 +42,9 @@ class Trace:
     """The traced path, and how it ended.
 
     Attributes:
-        pieces: One after the other.
-        ending: Why it ends.
-        crossing: Where it is known to be good, and where not any more.
+        pieces: The pieces in order.
+        ending: Why it ended.
+        crossing: Up to where the path is good, and from where it is not; None if complete.
         best: The largest σ so far.
     """
 
@@ -55,7 +55,7 @@ class Trace:
 
     @property
     def reached(self) -> float:
-        """How far along the path it leads, [m or rad]."""
+        """How far along the path the trace leads, [m or rad]."""
         return self.pieces[-1].b.s if self.pieces else 0.0
 
 
@@ -68,17 +68,17 @@ def traced(
     until_above: float = np.inf,
     most: int | None = None,
 ) -> Trace:
-    """The path from a configuration on.
+    """Trace the path from a configuration on.
 
     Args:
-        course: What is followed.
+        course: The course to follow.
         tolerances: Of position [m] and orientation [rad].
-        start: Where it begins; shape (n,).
-        threshold: σ at which it ends; 0 goes through singularities as long as there is an exact way.
-        since: Where on the path it begins, [m or rad].
-        until_above: σ above which no more is wanted. Where it is given, a path that is about to be lost is given up as
-            soon as it is known where (`_end_of_branch`), instead of on the last nanometre.
-        most: Pieces that it may take; `MOST_KNOTS` if None.
+        start: First configuration; shape (n,).
+        threshold: σ at which it ends; 0 goes through singularities as long as an exact path exists.
+        since: Place on the path where it begins, [m or rad].
+        until_above: σ above which tracing stops. If finite, a path about to be lost is also given up once its end can
+            be extrapolated (`_end_of_branch`), instead of being traced to the last nanometre.
+        most: Largest number of pieces; `MOST_KNOTS` if None.
 
     Raises:
         InvalidField: It takes too many knots.
@@ -113,10 +113,10 @@ def traced(
 
 
 def _end_of_branch(pieces: list[Piece], extent: float) -> float | None:
-    """The end of the branch, if its last knots show it exactly.
+    """Extrapolate the end of the branch; None if its last knots do not determine it.
 
-    There σ falls as the root of what is left of the path, and the rates grow as 1/σ. So s is a smooth function of σ²:
-    what cubics through four knots each say of it at zero is the same then to the length at which a path counts as lost.
+    There σ falls as the square root of the remaining path, and the rates grow as 1/σ. So s is a smooth function of σ²:
+    cubics through four knots each must agree on its value at zero within the length below which a path counts as lost.
     """
     if len(pieces) < _KNOTS_OF_END or pieces[-1].b.sigma > _NEAR_END:
         return None
@@ -142,7 +142,7 @@ def _pieces(
     trace: Trace,
     threshold: float,
 ) -> Iterator[Piece]:
-    """The pieces up to the end of a stretch; where it is not reached, `trace` gets the reason."""
+    """Yield the pieces up to the end of a stretch; if it is not reached, set the reason in `trace`."""
     end, extent = stretch[1], course.path.extent
     shortest = _SHORTEST * min(extent, 1.0)
     h = min(_FIRST_STEP * (end - a.s), _farthest(a))
@@ -174,7 +174,7 @@ def _pieces(
 
 
 def _factor(piece: Piece) -> float:
-    """The factor of the next step; the rates' error is of fifth order."""
+    """Return the factor for the next step; the error of the rates is of fifth order."""
     return float(_RESERVE * max(piece.ratio, 1e-6) ** -0.2)
 
 
@@ -183,7 +183,7 @@ def _farthest(a: Knot) -> float:
 
 
 def _next_place(s: float, h: float, end: float) -> float:
-    """Where the next piece ends, so that none is left over that is much shorter; nearer than with a larger h."""
+    """Return where the next piece ends, leaving no much shorter rest; a smaller h never gives a farther place."""
     left = end - s
     if left <= 1.1 * h:
         return end
@@ -193,7 +193,7 @@ def _next_place(s: float, h: float, end: float) -> float:
 def _first_crossing(
     course: Course, piece: Piece, stretch: tuple[float, float], trace: Trace, threshold: float
 ) -> Crossing | None:
-    """The first violation in a piece."""
+    """Find the first violation in a piece, and update the trace's largest σ."""
     near, best = None, max(trace.best, float(piece.sigmas.max()))
     if threshold > 0.0:
         near, best = threshold_crossing(course, piece, threshold, trace.best, stretch)

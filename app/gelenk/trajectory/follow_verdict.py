@@ -1,9 +1,9 @@
-"""Why the joints cannot follow a path any further: reach, a limit, a singularity, or a change of branch.
+"""Verdict on why the joints cannot follow a path further: reach, a joint limit, a singularity, or a change of branch.
 
-What is out of reach on the rest of the path, at its end above all, no branch can do. Else it is the branch: it ends
-where J loses rank and the path asks for what it has lost, and inverse kinematics from many starts, just beyond that
-place, tell whether only what lies beyond joint limits goes on, or another branch. All this is bounded by counts, so
-that a verdict neither takes long nor depends on how busy the machine is.
+If some of the remaining path is out of reach, its end above all, no branch can follow it. Otherwise the branch ends
+where J loses rank in a direction that the path needs. Inverse kinematics from many starts just beyond that place then
+shows whether only solutions beyond joint limits go on, or another branch. Counts bound all this work, so that a verdict
+is fast and does not depend on the load of the machine.
 """
 
 from dataclasses import dataclass, replace
@@ -24,22 +24,22 @@ from gelenk.trajectory.follow_trace import Trace, traced
 from gelenk.trajectory.words import StopReason
 
 _BEYOND = np.array([1e-4, 1e-3, 1e-2])
-"""How far beyond, in fractions of the path or of 1 m or rad, other solutions are looked for."""
+"""Distances beyond the end, in fractions of the path or of 1 m or rad, at which other solutions are looked for."""
 _IK_TOLERANCE = 1e-8
 _SAME = 0.05
-"""Between two configurations that may be one, [rad or m]."""
+"""Distance below which two configurations may be the same, [rad or m]."""
 _POSES = 16
-"""Poses on the rest of the path that are examined, the last one at its end."""
+"""Number of poses examined on the rest of the path, the last one at its end."""
 _EXACT = 1e-6
-"""Tolerance of inverse kinematics there, [m and rad]."""
+"""Tolerance of inverse kinematics at these poses, [m and rad]."""
 _MOST_BRANCHES, _MOST_SAMPLED = 16, 8
-"""That are tried, of arms with as many joints as directions and with more."""
+"""Largest number of branches tried, for arms with as many joints as directions and for redundant ones."""
 _MOST_PIECES = 300
-"""That are traced at most to tell whether a branch goes on beyond a threshold, and how far the others go."""
+"""Pieces traced to see whether a branch goes on beyond a threshold, and to see how far other branches lead."""
 _ABOVE_ALL = 1e300
-"""σ that no arm has: the end of a branch is wanted as soon as it is known where."""
+"""σ that no arm reaches: tracing then only stops early where the end of a branch is extrapolated."""
 _MISSED = 0.05
-"""Share of what is missing that a direction has to have to be named."""
+"""Smallest share of the missing motion for a direction to be named."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +47,13 @@ class Stop:
     """Why and where the joints cannot go on.
 
     Attributes:
-        reason: `out_of_reach`: nothing reaches the way's end, or a pose before it. `joint_limit`: a joint is in the
-            way. `singularity`: the branch goes on, but too near to a singularity. `branch_change`: the branch ends,
-            another one goes on.
-        s: Where the path cannot be followed any more, [m or rad]: a threshold of σ may have ended it a little before.
-        position: Of the tip there; shape (3,), [m].
-        joint: Whose limit it is.
-        detail: In a sentence.
+        reason: `out_of_reach`: the path's end, or a pose before it, is out of reach. `joint_limit`: a joint limit
+            prevents it. `singularity`: the branch goes on, but too near to a singularity. `branch_change`: the branch
+            ends, and another one goes on.
+        s: Place where the path cannot be followed further, [m or rad]; a threshold of σ may end it a little earlier.
+        position: Position of the tip there; shape (3,), [m].
+        joint: Name of the joint at its limit, if any.
+        detail: An explanation in words.
     """
 
     reason: StopReason
@@ -69,10 +69,10 @@ class Inquiry:
 
     Attributes:
         robot: The robot.
-        course: What was followed.
+        course: The course that was followed.
         tolerances: Of position [m] and orientation [rad].
-        threshold: σ at which it had to end; 0 if at none.
-        start: Where it began; shape (n,).
+        threshold: σ at which following had to end; 0 if at none.
+        start: First configuration; shape (n,).
     """
 
     robot: Robot
@@ -83,7 +83,7 @@ class Inquiry:
 
 
 def verdict(inquiry: Inquiry, trace: Trace) -> Stop | None:
-    """Why a trace ends before the path does; None where it does not."""
+    """Return why a trace ends before the path does; None if it is complete."""
     if trace.ending == "complete" or trace.crossing is None:
         return None
     s = trace.crossing.bad
@@ -100,20 +100,20 @@ def verdict(inquiry: Inquiry, trace: Trace) -> Stop | None:
 
 
 def never_back(inquiry: Inquiry, trace: Trace) -> Stop:
-    """The verdict on a damped path whose tip leaves the path and is still off it at its end."""
+    """Return the verdict on a damped path whose tip leaves the path and is still off it at the end."""
     stop = _at_end_of_branch(inquiry, trace.reached, trace)
     detail = f"{stop.detail}; the damped tip leaves the path there and is still off it at its end"
     return _with_the_rest(inquiry, replace(stop, detail=detail), trace)
 
 
 def _with_the_rest(inquiry: Inquiry, stop: Stop, trace: Trace) -> Stop:
-    """A verdict on a branch, before it what no branch can do, and after it what the others can."""
+    """Extend a verdict on a branch: what no branch can reach goes before it, what other branches can do after it."""
     farthest, words = _of_all_branches(inquiry, trace)
     stop, left = replace(stop, detail=f"{stop.detail}{words}"), inquiry.course.path.extent - farthest
     if not left > 0.0:
         return stop
     places = farthest + left * np.arange(1, _POSES + 1) / _POSES
-    # What has too few joints for all directions follows the way but nearly.
+    # An arm with too few joints for all directions follows the path only approximately.
     few = len(inquiry.start) < len(inquiry.course.task)
     found = _solved(inquiry, places, trace, inquiry.course.residuals if few else (_EXACT, _EXACT))
     missed = [i for i in range(_POSES) if found.statuses[i] == "unreachable"]
@@ -126,7 +126,7 @@ def _with_the_rest(inquiry: Inquiry, stop: Stop, trace: Trace) -> Stop:
 
 
 def _solved(inquiry: Inquiry, places: Array, trace: Trace, tolerances: tuple[float, float]) -> InverseKinematics:
-    """Inverse kinematics of poses on the way, from where the joints came to."""
+    """Solve inverse kinematics for poses on the path, starting at the last configuration that was reached."""
     course = inquiry.course
     options = Options(task=course.task, position_tolerance=tolerances[0], orientation_tolerance=tolerances[1])
     poses = course.path.at(places).poses
@@ -145,7 +145,7 @@ def _at_limit(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
 
 
 def _at_threshold(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
-    """Whether the exact branch ends while σ is below the threshold, or comes out again."""
+    """Return the verdict at a threshold: whether the branch ends while σ is below it, or goes on beyond."""
     course, onward = replace(inquiry.course, limited=False), "the branch continues beyond"
     bounds = trace.reached, 1.01 * inquiry.threshold, _MOST_PIECES
     try:
@@ -173,7 +173,7 @@ def _too_fast(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
 
 
 def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
-    """The verdict from the solutions of inverse kinematics just beyond."""
+    """Return the verdict that the solutions of inverse kinematics just beyond the end give."""
     extent = inquiry.course.path.extent
     places = np.minimum(s + _BEYOND * min(extent, 1.0), extent)
     found = _solved(inquiry, places, trace, (_IK_TOLERANCE, _IK_TOLERANCE))
@@ -181,7 +181,7 @@ def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
     if near is None:
         detail = f"the joints cannot be followed through a singularity {where(inquiry, s)}"
         return _stop(inquiry, "singularity", s, detail)
-    # What goes on for a little only, does not go on.
+    # A branch that goes on for a short distance only does not count.
     near = next((i for i in range(near, len(found)) if found.statuses[i] != "solved"), near)
     if found.statuses[near] == "outside_limits":
         failure = found.failures[near]
@@ -204,14 +204,14 @@ def _at_end_of_branch(inquiry: Inquiry, s: float, trace: Trace) -> Stop:
 
 
 def _is_the_same(found: InverseKinematics, i: int, trace: Trace) -> bool:
-    """Whether what solves a target beyond the end of a branch is that end itself, as near as tolerances can tell."""
+    """Return whether the solution of a target beyond the end of a branch is that end, within tolerances."""
     if found.statuses[i] != "solved" or not trace.pieces:
         return False
     return float(np.abs(found.qs[found.firsts[i]] - trace.pieces[-1].b.q).max()) < _SAME
 
 
 def _missing(inquiry: Inquiry, s: float, trace: Trace) -> str:
-    """Which directions of the task the joints cannot serve, in words."""
+    """Describe the directions of the task in which the joints cannot move the tip."""
     course = inquiry.course
     at, q = course.samples(np.array([s]), 0.0, course.path.extent), _last(inquiry, trace)
     rows = task_rows(course.chain, course.task, at, q[None])
@@ -232,7 +232,7 @@ def _missing(inquiry: Inquiry, s: float, trace: Trace) -> str:
 
 
 def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
-    """How far the branches of the path's first pose lead at best, also in words."""
+    """Return how far the branches of the path's first pose lead at best, and a description."""
     course = inquiry.course
     if course.is_redundant and closed_form(course.chain, course.task) is None:
         return trace.reached, ""
@@ -258,7 +258,7 @@ def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
     farthest = max(end.bad for end in ends)
     share = f"leads beyond {farthest / course.path.extent:.4%} of the path"
     tried = f"{counted(len(traces), 'configuration')} of its first pose"
-    # A joint that meets its limit might have begun a turn away from it; and what is given up might lead on.
+    # A joint at its limit might have begun a turn away from it; and a path given up as too fast might lead on.
     turns = course.chain.upper - course.chain.lower >= 2.0 * np.pi
     joints = [end.joint for end in ends if end.joint is not None]
     if is_whole and not turns[joints].any() and all(one.ending != "too_fast" for one in traces):
@@ -267,12 +267,12 @@ def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
 
 
 def where(inquiry: Inquiry, s: float) -> str:
-    """Words for a place on the path."""
+    """Describe a place on the path, with a preceding "at"."""
     return f"at {place(inquiry, s)}"
 
 
 def place(inquiry: Inquiry, s: float) -> str:
-    """A place on the path in words."""
+    """Describe a place on the path by s, its share of the path, and its position [m]."""
     path = inquiry.course.path
     x, y, z = path.at(np.array([s])).poses.positions[0]
     return f"s = {s:.6g} {path.unit} ({s / path.extent:.4%} of the path, ({x:.6g}, {y:.6g}, {z:.6g}) m)"
@@ -288,6 +288,6 @@ def _last(inquiry: Inquiry, trace: Trace) -> Array:
 
 
 def unit_of(chain: Chain, joint: int) -> str:
-    """The unit of a variable."""
+    """Return the unit of a joint variable: "m" if prismatic, else "rad"."""
     own = chain.flat.joints[chain.flat.joints[:, 1] == joint]
     return "m" if len(own) and own[:, 0].all() else "rad"
