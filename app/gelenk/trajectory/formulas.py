@@ -1,15 +1,15 @@
-"""Motions as formulas of a worked solution."""
+"""LaTeX formulas of motions for worked solutions."""
 
 from collections.abc import Sequence
 
 from gelenk.course.steps import Step, tex
 
 SHOWN_JOINTS = 4
-"""A worked solution goes through so many joints; further ones go the same way."""
+"""Largest number of joints that a worked solution shows; others are computed in the same manner."""
 
 
 def tex_polynomial(coefficients: Sequence[float], variable: str) -> str:
-    """A polynomial, highest power first in formula and list; 0 where all of it is."""
+    """Format a polynomial, highest power first in formula and list; 0 if all coefficients are."""
     text = ""
     for power, value in zip(range(len(coefficients) - 1, -1, -1), coefficients, strict=True):
         if value != 0.0:
@@ -21,16 +21,16 @@ def tex_polynomial(coefficients: Sequence[float], variable: str) -> str:
 
 
 def tex_column(values: Sequence[float]) -> str:
-    """A column vector."""
+    """Format a column vector."""
     return r"\begin{bmatrix}" + r" \\ ".join(tex(value) for value in values) + r"\end{bmatrix}"
 
 
 def tex_matrix(rows: Sequence[Sequence[float]]) -> str:
-    """Rows of numbers as a LaTeX `bmatrix`."""
+    """Format rows of numbers as a LaTeX `bmatrix`."""
     lines = (" & ".join(tex(value) for value in row) for row in rows)
     return r"\begin{bmatrix}" + r" \\ ".join(lines) + r"\end{bmatrix}"
 
 
 def of_joint(step: Step, joint: int, joints: int) -> Step:
-    """The step with its joint in the title, where there are several."""
+    """Return the step with its joint in the title, if there are several joints."""
     return step if joints == 1 else Step(f"Joint {joint + 1}: {step.title}", step.text, step.latex)

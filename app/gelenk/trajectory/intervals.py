@@ -1,9 +1,9 @@
-"""A path cut into intervals: what limits say in each of them, and the path in time.
+"""A path cut into intervals: the constraints that limits impose in each, and the path over time.
 
 With u = s̈ and x = ṡ² at the start of an interval of length Δ, u constant, and τ = (s - s_i)/Δ:
 q̇² = q'² (x + 2Δτu) and q̈ = q' u + q'' (x + 2Δτu) are polynomials in τ whose Bernstein coefficients are linear in
-(u, x). A polynomial lies between its least and its largest Bernstein coefficient, so that limits these keep are kept in
-all of the interval.
+(u, x). A polynomial lies between its smallest and its largest Bernstein coefficient, so limits that these keep are kept
+in the whole interval.
 """
 
 from math import comb
@@ -15,16 +15,16 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 
 def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
-    """Coefficients of a path from each node to the next; shape (N, d + 1, n).
+    """Return the coefficients of a path from each node to the next; shape (N, d + 1, n).
 
     Args:
         path: q(s), in M pieces.
-        nodes: Among them all breaks of the path; shape (N + 1,).
+        nodes: Nodes, including all breaks of the path; shape (N + 1,).
     """
     i = np.clip(np.searchsorted(path.breaks, 0.5 * (nodes[:-1] + nodes[1:]), side="right") - 1, 0, None)
     offsets = (nodes[:-1] - path.breaks[i])[:, None]
     c = path.coefficients[i]
-    # Horner's scheme, over and over, is Taylor's expansion about another point.
+    # Repeated Horner steps give the Taylor expansion about another point.
     size = c.shape[1]
     for k in range(size - 1):
         for m in range(size - 2, k - 1, -1):
@@ -33,7 +33,7 @@ def cut(path: PiecewisePolynomial, nodes: Array) -> Array:
 
 
 def rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
-    """What the limits say of u and x at the start of each interval: αu + βx ≤ 1; both of shape (N, m).
+    """Return α and β of the constraints αu + βx ≤ 1 that the limits impose on each interval; shape (N, m) each.
 
     Args:
         pieces: Coefficients of the path from each node on; shape (N, d + 1, n).
@@ -61,7 +61,7 @@ def rows(pieces: Array, lengths: Array, limits: Array) -> tuple[Array, Array]:
 
 
 def bernstein(c: Array) -> Array:
-    """Bernstein coefficients on [0, 1] of polynomials, from those of the powers; shape (N, d + 1, n)."""
+    """Convert power coefficients of polynomials to Bernstein coefficients on [0, 1]; shape (N, d + 1, n)."""
     degree = c.shape[1] - 1
     matrix = [[comb(j, k) / comb(degree, k) for k in range(degree + 1)] for j in range(degree + 1)]
     result: Array = np.array(matrix) @ c
@@ -69,14 +69,14 @@ def bernstein(c: Array) -> Array:
 
 
 def composed(pieces: Array, advance: Array) -> Array:
-    """Coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t², by Horner's scheme.
+    """Return the coefficients of Σ c_k σᵏ with σ = a_1 t + a_2 t², by Horner's scheme.
 
     Args:
         pieces: c; shape (N, d + 1, n).
         advance: a_1 and a_2; shape (N, 2, 1).
 
     Returns:
-        Shape (N, 2d + 1, n).
+        Coefficients; shape (N, 2d + 1, n).
     """
     result = pieces[:, -1:]
     for k in range(pieces.shape[1] - 2, -1, -1):

@@ -1,8 +1,8 @@
-"""Point to point in the shortest time under limits of velocity, acceleration and jerk, all joints in step.
+"""Point-to-point motion in the least time under limits of velocity, acceleration and jerk, all joints synchronized.
 
-The switching times come from Ruckig [Berscheid2021], which finds them in closed form; nothing of it is used that asks
-a server. Ruckig is content with a target met to 1e-8: what it hands over is integrated here, and where the end is not
-met to rounding its jerks are changed by the least that closes the gap. So the motion ends exactly at its target.
+The switching times come from Ruckig [Berscheid2021], which finds them in closed form; its features that call a server
+are not used. Ruckig accepts an error of 1e-8 at the target. So its profiles are integrated here, and if the end is off
+by more than rounding, the smallest change of the jerks closes the gap: the motion ends exactly at its target.
 """
 
 from dataclasses import dataclass, replace
@@ -19,23 +19,23 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 Synchronization: TypeAlias = Literal["time", "phase"]
 
 LONGEST = 7600.0
-"""The duration up to which Ruckig's arithmetic is good, [s]."""
+"""Longest duration for which Ruckig's arithmetic is accurate, [s]."""
 SMALLEST, LARGEST = 1e-9, 1e9
-"""What a limit can be."""
+"""Range of a limit."""
 
 _SAME = 1e-12
-"""Switching times that differ by less, in fractions of the whole motion, are one."""
+"""Switching times that differ by less, in fractions of the whole motion, are merged."""
 _ROUNDING = 1e-13
 _EXCESS = 1e-9
-"""How far, in fractions of it, a limit may be passed by what closes the gap at the end."""
+"""Allowed relative excess over a limit from closing the gap at the end."""
 _ATTEMPTS = 4
 _OFF_LINE = 1e-9
-"""How far a velocity may be off a straight line, in fractions of its limit."""
+"""Allowed deviation of a velocity or acceleration from a straight line, in fractions of its limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class JointState:
-    """How joints move at an instant.
+    """State of the joints at an instant.
 
     Attributes:
         positions: Shape (n,), [rad or m].
@@ -64,7 +64,7 @@ class JerkLimits:
 
 
 def at_rest(positions: Array) -> JointState:
-    """Joints that stand still; positions of shape (n,), [rad or m]."""
+    """Return the state of joints at rest; positions of shape (n,), [rad or m]."""
     return JointState(positions, np.zeros_like(positions), np.zeros_like(positions))
 
 
@@ -76,32 +76,32 @@ def jerk_limited(
     synchronization: Synchronization = "time",
     minimum_duration: float | None = None,
 ) -> PiecewisePolynomial:
-    """The motion of least duration from one state to another: cubics, C² throughout.
+    """Return the motion of least duration from one state to another: cubics, C² throughout.
 
-    All joints start and end together. In step by `phase` they also keep one proportion throughout, which is a straight
-    line in joint space; it can take longer, and velocities and accelerations at its ends have to lie along it.
+    All joints start and end together. Synchronization by `phase` also keeps one fixed proportion, a straight line
+    in joint space; this can take longer, and velocities and accelerations at the ends must lie along the line.
 
     Args:
-        start: Within the limits, and such that they need not be passed afterwards.
-        end: The same, looking back.
+        start: Within the limits, and able to stay within them afterwards.
+        end: Within the limits, and reachable without exceeding them before.
         limits: Each > 0.
-        synchronization: What keeps joints in step.
-        minimum_duration: ≥ 0, [s]; a moving start or end can make some durations impossible, then the next longer one
-            is taken.
+        synchronization: How joints are synchronized.
+        minimum_duration: ≥ 0, [s]; if a moving start or end makes this duration impossible, the next longer possible
+            one is used.
 
     Returns:
-        The motion, from time 0 on. Of no duration at all it is one piece whose two breaks are the same.
+        The motion, from time 0 on. With zero duration it is one piece whose two breaks are equal.
 
     Raises:
-        InvalidField: A limit is not positive, a state beyond the limits or off the straight line, or no motion shorter
-            than `LONGEST`.
+        InvalidField: A limit is not positive, a state is beyond the limits or off the straight line, or no motion is
+            shorter than `LONGEST`.
     """
     _check_limits(limits)
     _check_state("start", start, limits, direction=1.0)
     _check_state("end", end, limits, direction=-1.0)
     if minimum_duration is not None and not 0.0 <= minimum_duration <= LONGEST:
         raise InvalidField("duration", f"must be a number from 0 to {LONGEST:g} seconds")
-    if len(start.positions) == 0:  # Ruckig divides by their number.
+    if len(start.positions) == 0:  # Ruckig divides by the number of joints.
         return PiecewisePolynomial(np.array([0.0, minimum_duration or 0.0]), np.empty((1, 1, 0)))
     if synchronization == "phase":
         return _along_line(start, end, limits, minimum_duration)
@@ -111,7 +111,7 @@ def jerk_limited(
 def _along_line(
     start: JointState, end: JointState, limits: JerkLimits, minimum_duration: float | None
 ) -> PiecewisePolynomial:
-    """The fastest motion along the straight line, in the coordinate of the joint that goes furthest."""
+    """Return the fastest motion along the straight line, planned for the joint that goes furthest."""
     distances = end.positions - start.positions
     furthest = distances[np.argmax(np.abs(distances))]
     shares = distances / furthest if furthest != 0.0 else np.zeros_like(distances)
@@ -131,7 +131,7 @@ def _along_line(
 
 
 def _on_line(field: str, state: JointState, shares: Array, limits: JerkLimits) -> JointState:
-    """How one joint moves at an end, if all move in these proportions; its position is 0."""
+    """Return the state at an end of the joint that goes furthest, at position 0; refuse a state off the line."""
     found = []
     for name, values, bound in (
         ("velocities", state.velocities, limits.velocity),
@@ -149,7 +149,7 @@ def _on_line(field: str, state: JointState, shares: Array, limits: JerkLimits) -
 def _in_time(
     start: JointState, end: JointState, limits: JerkLimits, minimum_duration: float | None
 ) -> PiecewisePolynomial:
-    """The fastest motion of joints that only start and end together."""
+    """Return the fastest motion of joints that start and end together."""
     tightened = limits
     for _ in range(_ATTEMPTS):
         profiles = _profiles(start, end, tightened, minimum_duration)
@@ -171,7 +171,7 @@ def _check_limits(limits: JerkLimits) -> None:
 
 
 def _check_state(field: str, state: JointState, limits: JerkLimits, *, direction: float) -> None:
-    """Within the limits, now and where the acceleration has been brought to zero: after the start, before the end."""
+    """Check the limits now, and where acceleration has been brought to zero: after the start, or before the end."""
     q, v, a = state.positions, state.velocities, state.accelerations
     room = 1.0 + _ROUNDING
     at_zero_acceleration = v + direction * a * np.abs(a) / (2.0 * limits.jerk)
@@ -196,10 +196,10 @@ def _profiles(
     limits: JerkLimits,
     minimum_duration: float | None,
 ) -> tuple[Array, Array]:
-    """Durations [s] and jerks of the phases of each joint; both of shape (n, phases)."""
+    """Return durations [s] and jerks of the phases of each joint; shape (n, phases) each."""
     joints = len(start.positions)
     task, found = ruckig.InputParameter(joints), ruckig.Trajectory(joints)
-    # Differences alone count, and are exact where positions are far from zero.
+    # Only differences matter, and they are exact even if positions are far from zero.
     task.target_position = (end.positions - start.positions).tolist()
     task.current_velocity, task.current_acceleration = start.velocities.tolist(), start.accelerations.tolist()
     task.target_velocity, task.target_acceleration = end.velocities.tolist(), end.accelerations.tolist()
@@ -210,7 +210,7 @@ def _profiles(
     except ruckig.RuckigError as error:
         reason = "no motion was found: these limits and this distance are too many powers of ten apart"
         raise InvalidField("limits", reason) from error
-    except ValueError as error:  # The binding has no name for the result that says so.
+    except ValueError as error:  # Ruckig's Python binding has no name for this result.
         raise InvalidField("limits", f"the motion would take longer than {LONGEST:g} s") from error
     profiles = found.profiles[0]
     durations = np.array([[*p.brake.t, *p.t, *p.accel.t] for p in profiles])
@@ -218,7 +218,7 @@ def _profiles(
 
 
 def _tightened(limits: JerkLimits, factor: float, start: JointState, end: JointState) -> JerkLimits:
-    """Smaller limits, which the ends still keep."""
+    """Return smaller limits that the ends still keep."""
     velocity = np.maximum.reduce((factor * limits.velocity, np.abs(start.velocities), np.abs(end.velocities)))
     ends = np.abs(start.accelerations), np.abs(end.accelerations)
     return JerkLimits(velocity, np.maximum.reduce((factor * limits.acceleration, *ends)), factor * limits.jerk)
@@ -227,7 +227,7 @@ def _tightened(limits: JerkLimits, factor: float, start: JointState, end: JointS
 def _of_profiles(
     start: JointState, end: JointState, durations: Array, jerks: Array
 ) -> tuple[PiecewisePolynomial, bool]:
-    """One motion from the phases of each joint, and whether their jerks ended it where it should."""
+    """Merge the phases of each joint into one motion; return also whether their jerks ended it exactly."""
     switches = np.cumsum(durations, axis=1)
     breaks = _merged(switches)
     if breaks[-1] == 0.0:
@@ -242,7 +242,7 @@ def _of_profiles(
 
 
 def _merged(switches: Array) -> Array:
-    """All switching times in order, those that differ by rounding once; the longest joint's last at the end."""
+    """Return all switching times in order, merging those that differ by rounding; the last one is kept."""
     times = np.sort(switches, axis=None)
     last = times[-1]
     inner = times[(times > _SAME * last) & (times < last * (1.0 - _SAME))]
@@ -252,7 +252,7 @@ def _merged(switches: Array) -> Array:
 
 
 def _closed(start: JointState, end: JointState, dts: Array, jerks: Array) -> tuple[Array, bool]:
-    """Coefficients of a motion with these jerks, changed by the least that ends it where it should; whether by none."""
+    """Return coefficients with the jerks changed by the least that ends exactly, and whether by none."""
     given = jerks
     for _ in range(_ATTEMPTS):
         coefficients, missed = _integrated(start, end, dts, jerks)
@@ -268,7 +268,7 @@ def _closed(start: JointState, end: JointState, dts: Array, jerks: Array) -> tup
 
 
 def _integrated(start: JointState, end: JointState, dts: Array, jerks: Array) -> tuple[Array, Array]:
-    """Coefficients, shape (M, 4, n), and by how much end, velocity and acceleration are missed; shape (3, n)."""
+    """Return coefficients, (M, 4, n), and the errors of position, velocity and acceleration at the end, (3, n)."""
     dt = dts[:, None]
     a = np.concatenate((start.accelerations[None], start.accelerations + np.cumsum(jerks * dt, axis=0)))
     steps = dt * (a[:-1] + dt * jerks / 2.0)
@@ -280,7 +280,7 @@ def _integrated(start: JointState, end: JointState, dts: Array, jerks: Array) ->
 
 
 def _correction(dts: Array, jerks: Array, missed: Array) -> Array:
-    """The least relative change of the jerks of one joint that makes up for what is missed; shape (M,)."""
+    """Return the least relative change of one joint's jerks that removes its errors at the end; shape (M,)."""
     total = dts.sum()
     ts, left = dts / total, 1.0 - np.cumsum(dts) / total
     effects = np.stack((ts**3 / 6.0 + ts**2 * left / 2.0 + ts * left**2 / 2.0, ts**2 / 2.0 + ts * left, ts))
@@ -291,6 +291,6 @@ def _correction(dts: Array, jerks: Array, missed: Array) -> Array:
 
 
 def _excess(motion: PiecewisePolynomial, limits: JerkLimits) -> float:
-    """The most by which a limit is passed anywhere, in fractions of it."""
+    """Return the largest relative excess over a limit; negative if all limits are kept with room."""
     bounds = (limits.velocity, limits.acceleration, limits.jerk)
     return max(float((np.abs(peaks(motion, k).values) / bound).max()) for k, bound in enumerate(bounds, 1)) - 1.0

@@ -1,4 +1,4 @@
-"""Where a motion of joints leaves their limits: by its exact extremes, between which it is monotonic."""
+"""Where a motion leaves the joint limits, found from its exact extremes, between which it is monotonic."""
 
 from typing import NamedTuple
 
@@ -17,10 +17,10 @@ class LimitExcess(NamedTuple):
     """A joint that leaves its limits.
 
     Attributes:
-        time: When it does, [s].
-        joint: Which, from 0.
-        value: How far it goes in that piece of the motion, [rad or m].
-        bound: The limit that it passes.
+        time: When it leaves them, [s].
+        joint: Index of the joint, from 0.
+        value: Its extreme value in that piece of the motion, [rad or m].
+        bound: The limit that it exceeds, [rad or m].
     """
 
     time: float
@@ -30,11 +30,11 @@ class LimitExcess(NamedTuple):
 
 
 def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess | None:
-    """The first time that a joint goes beyond its limits by more than 1e-9; None where all stay within.
+    """Find the first time that a joint exceeds its limits by more than 1e-9; None if all stay within.
 
     Args:
-        chain: What moves; n variables.
-        motion: Their values in time, or along a path.
+        chain: The moving chain; n variables.
+        motion: Joint values over time, or along a path.
     """
     if _is_surely_within(chain, motion):
         return None
@@ -51,7 +51,7 @@ def first_limit_excess(chain: Chain, motion: PiecewisePolynomial) -> LimitExcess
 
 
 def _is_surely_within(chain: Chain, motion: PiecewisePolynomial) -> bool:
-    """Whether all is within by a rough bound: no piece goes further from its start than Σ |c_k| hᵏ."""
+    """Check by a rough bound that all is within: no piece goes further from its start than Σ |c_k| hᵏ."""
     c = motion.coefficients
     powers = np.diff(motion.breaks)[:, None] ** np.arange(1, c.shape[1])
     swings = np.einsum("mk,mkj->mj", powers, np.abs(c[:, 1:]))
@@ -61,7 +61,7 @@ def _is_surely_within(chain: Chain, motion: PiecewisePolynomial) -> bool:
 def _first_above(
     motion: PiecewisePolynomial, piece: int, joint: int, sign: float, level: float, extremes: Array
 ) -> float:
-    """When a piece first comes above a level that one of its extremes is above, [s]."""
+    """Return when a piece first exceeds a level that one of its extremes exceeds, [s]."""
     start = motion.breaks[piece]
     c = motion.coefficients[piece, ::-1, joint]
     times = np.sort(extremes) - start

@@ -1,10 +1,10 @@
-"""Joints from one configuration to another, at rest at both ends.
+"""Joint motions from one configuration to another, at rest at both ends.
 
-The polynomials lead along the straight line of joint space: q = q_i + s(t) Δq, with one s from 0 to 1 for all joints.
-What s may do are the least of the joints' limits over |Δq_j|, so that the least duration is a closed form of three
-numbers. In the trapezoid each joint has a profile of its own, and all are slowed to the slowest one, as in the course:
-no motion of any shape takes less time, T = max_j T_j, so that it is the time-optimal one too. The jerk-limited motion
-is of that kind as well where the line would take longer: where the joints' limits are not in one proportion.
+The polynomials lead along the straight line in joint space: q = q_i + s(t) Δq, with one s from 0 to 1 for all joints.
+The limits of s are the smallest of the joints' limits over |Δq_j|, so the least duration is a closed form of three
+numbers. In the trapezoid each joint has its own profile, and all are slowed down to the slowest one, as in the course:
+T = max_j T_j. No motion of any shape takes less time, so it is also the time-optimal one. Jerk-limited joints also
+have profiles of their own if the line would take longer, as when their limits are not in one proportion.
 """
 
 import math
@@ -24,22 +24,22 @@ from gelenk.trajectory.trapezoid import Task, fastest, point_to_point
 from gelenk.trajectory.words import Law
 
 SMALLEST, LARGEST = 1e-9, 1e9
-"""What a limit can be; positions and durations are at most as large."""
+"""Range of a limit; positions and durations are at most as large."""
 NO_LENGTH = 1e-12
-"""A displacement up to which joints stand still, [rad or m]."""
+"""Largest displacement that counts as standing still, [rad or m]."""
 ROUNDING = 2e-10
-"""How much shorter than the least a duration may be, in fractions of it: as an answer of ten digits is."""
+"""Allowed relative shortfall of a duration below the least one, because answers are rounded to ten digits."""
 KEEPS_JERK: Final[frozenset[Law]] = frozenset({"quintic", "septic", "jerk_limited"})
-"""Laws without jumps of acceleration, the ends included; they keep limits of jerk."""
+"""Laws whose acceleration does not jump, not even at the ends; they keep jerk limits."""
 
 _SHORTEST_RAMP = 1e-5
-"""Share of a given duration that a trapezoid takes at least to accelerate."""
+"""Least acceleration time of a trapezoid, as a share of a given duration."""
 _LEAST_RAMP = 2e-6
-"""Share of its least duration that it takes at least: a double has no digits for less."""
+"""Least acceleration time, as a share of its least duration: doubles do not resolve less."""
 _WORTH = 1e-6
-"""Share of the duration for which the straight line is left."""
+"""Share of the duration that must be saved for leaving the straight line."""
 _MOST = 1e6
-"""Limits of s beyond that, in units of the time it would take under one of them alone, are as good as none."""
+"""Cap on the limits of s, in units of the time that the tightest limit alone takes; larger ones have no effect."""
 
 
 class _Shape(NamedTuple):
@@ -60,34 +60,34 @@ _SHAPES: Final[dict[Law, _Shape]] = {
 def point_to_point_motion(
     start: Array, target: Array, law: Law, limits: MotionLimits, duration: float | None = None, *, field: str = ""
 ) -> PiecewisePolynomial:
-    """From rest to rest in the least time that the law takes under the limits, or in a given one.
+    """Return the motion from rest to rest, in the least time of a law under the limits or in a given time.
 
     - cubic, quintic, septic: T is the largest of c₁Δ/v, √(c₂Δ/a) and, except for the cubic, ∛(c₃Δ/j) of any joint, with
       the peaks c of the law: 1.5, 6; 1.875, 5.7735, 60; 2.1875, 7.5132, 52.5. Acceleration is zero at both ends of a
-      quintic, jerk too of a septic.
-    - jerk_limited: the least time under limits of velocity, acceleration and jerk, along the straight line where that
+      quintic, and jerk too for a septic.
+    - jerk_limited: the least time under limits of velocity, acceleration and jerk, along the straight line if that
       takes no longer.
-    - trapezoidal: a trapezoid of each joint, the slowest one's as fast as its limits allow, the others slowed by
+    - trapezoidal: a trapezoid for each joint, the slowest one as fast as its limits allow, the others slowed down by
       k = T/T_j: v/k, a/k². In a given time each keeps its acceleration and coasts more slowly. No ramp is shorter than
-      2e-6 of the time: the acceleration is then less than it may be.
-    - time_optimal: the same; in a given time it is slowed as a whole.
+      2e-6 of the time; if it would be, the acceleration is reduced.
+    - time_optimal: the same, except in a given time.
 
-    In a given time all but the trapezoid are slowed as a whole. Limits of the tip are not examined.
+    In a given time all laws but the trapezoid are slowed down as a whole. Tip limits are not considered.
 
     Args:
         start: Shape (n,), [rad or m].
-        target: Shape (n,).
-        law: Of time.
+        target: Shape (n,), [rad or m].
+        law: Time law.
         limits: Of the joints.
-        duration: T, [s]; the least if left out.
-        field: Of the request that this motion stands for; before the names of its fields in refusals.
+        duration: T, [s]; the least if None.
+        field: Field of the request for this motion; prefixes the names of its fields in errors.
 
     Returns:
-        The motion, from time 0 on. Where nothing is to move (≤ 1e-12) it stands still as long as it is to last, and
-        for no time in one piece whose two breaks are the same.
+        The motion, from time 0 on. If nothing moves (≤ 1e-12), it stands still for the given duration; without one, it
+        is one piece whose two breaks are equal.
 
     Raises:
-        InvalidField: The duration is too short; a number is out of the range that can be reckoned with.
+        InvalidField: The duration is too short, or a number is out of the supported range.
     """
     _check(start, target, limits, duration, field)
     steps = target - start
@@ -105,23 +105,23 @@ def point_to_point_motion(
 
 
 def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
-    """Joints of shape (n,) that stand still, [rad or m]."""
+    """Return joints of shape (n,) that stand still for a duration [s], [rad or m]."""
     return PiecewisePolynomial(np.array([0.0, duration]), configuration[None, None].copy())
 
 
 def kept(law: Law, limits: MotionLimits) -> Limits:
-    """The limits that a law keeps."""
+    """Return the limits that a law keeps."""
     return Limits(limits.velocity, limits.acceleration, limits.jerk if law in KEEPS_JERK else None)
 
 
 def lasting(motion: PiecewisePolynomial, duration: float, limits: Limits, field: str = "") -> PiecewisePolynomial:
-    """The same motion in a given time, which has to be no shorter.
+    """Slow a motion down to a given duration.
 
     Args:
         motion: The fastest one of its kind, from time 0 on.
         duration: T, [s].
-        limits: Limits that it keeps; named in the error where the duration is too short.
-        field: What has a duration.
+        limits: Limits that it keeps, named in the error if the duration is too short.
+        field: Field of the request that has the duration.
 
     Raises:
         InvalidField: The duration is too short.
@@ -137,24 +137,24 @@ def lasting(motion: PiecewisePolynomial, duration: float, limits: Limits, field:
 
 
 def _ending(motion: PiecewisePolynomial, time: float) -> PiecewisePolynomial:
-    """Its last break to the last digit where it is wanted, [s]."""
+    """Set the last break to exactly the given time, [s]."""
     return PiecewisePolynomial(np.append(motion.breaks[:-1], time), motion.coefficients)
 
 
 def named(field: str, name: str) -> str:
-    """A field of a part of the request."""
+    """Return the name of a field within a part of the request."""
     return f"{field}.{name}" if field else name
 
 
 class Timings(NamedTuple):
-    """One path at two timings.
+    """Durations of one path with two time laws.
 
     Attributes:
-        uniform_duration: Of the law, scaled so that it just keeps the limits: the larger one of k_vel and √k_acc times
-            1 s, unless jerk asks for more, [s].
+        uniform_duration: Of the law, scaled so that it just keeps the limits: the larger of k_vel and √k_acc times
+            1 s, unless jerk requires more, [s].
         velocity_factor: k_vel of the law lasting 1 s: its largest ratio of a velocity to its limit.
         acceleration_factor: k_acc likewise.
-        time_optimal_duration: Of the fastest motion along the same way under both limits, [s].
+        time_optimal_duration: Of the fastest motion along the same path under both limits, [s].
     """
 
     uniform_duration: float
@@ -164,16 +164,15 @@ class Timings(NamedTuple):
 
 
 def compared_point_to_point(start: Array, target: Array, law: Law, limits: MotionLimits) -> Timings:
-    """A law of time scaled uniformly, and the fastest motion along the same way; all zero where nothing is to move.
+    """Compare a uniformly scaled law with the fastest motion along the same path; all zero if nothing moves.
 
-    The trapezoid leads along a path of its own. Its slowest joint is as fast as its limits allow at all, so that
-    nothing is left to be gained.
+    The trapezoid has its own path. Its slowest joint is already as fast as its limits allow, so nothing can be gained.
 
     Args:
         start: Shape (n,), [rad or m].
-        target: Shape (n,).
-        law: Of time.
-        limits: Of the joints; that of jerk counts for the laws that keep it.
+        target: Shape (n,), [rad or m].
+        law: Time law.
+        limits: Of the joints; jerk limits only matter for laws that keep them.
 
     Raises:
         InvalidField: As for `point_to_point_motion`.
@@ -186,12 +185,12 @@ def compared_point_to_point(start: Array, target: Array, law: Law, limits: Motio
 
 
 def timings(uniform: PiecewisePolynomial, limits: MotionLimits, optimal: float) -> Timings:
-    """The timings of a motion of some duration, with the factors that it would need if it lasted 1 s.
+    """Return the timings of a motion, with the factors that it would need if it lasted 1 s.
 
     Args:
-        uniform: The law, scaled.
+        uniform: The motion with its law, scaled.
         limits: Of the joints.
-        optimal: Duration of the fastest motion along the same way, [s].
+        optimal: Duration of the fastest motion along the same path, [s].
     """
     in_a_second = uniform.scaled(1.0 / uniform.duration)
     by_velocity, by_acceleration = uniform_scaling(in_a_second, Limits(limits.velocity, limits.acceleration)).bounds
@@ -214,7 +213,7 @@ def check_limits(limits: MotionLimits, field: str = "") -> None:
     """Check that limits are usable numbers.
 
     Raises:
-        InvalidField: One is not.
+        InvalidField: A limit is not.
     """
     for quantity in QUANTITIES:
         values = getattr(limits, quantity)
@@ -237,7 +236,7 @@ def check_duration(duration: float | None, field: str = "") -> None:
 
 
 def _bounds(steps: Array, limits: MotionLimits) -> tuple[float, float, float]:
-    """The limits of s: velocity, acceleration and jerk, [1/s, 1/s², 1/s³]."""
+    """Return the limits of s: velocity, acceleration and jerk, [1/s, 1/s², 1/s³]."""
     moves = steps != 0.0
     sizes = np.abs(steps[moves])
     velocity, acceleration, jerk = (float((getattr(limits, name)[moves] / sizes).min()) for name in QUANTITIES)
@@ -245,7 +244,7 @@ def _bounds(steps: Array, limits: MotionLimits) -> tuple[float, float, float]:
 
 
 def _on_line(start: Array, steps: Array, s: PiecewisePolynomial) -> PiecewisePolynomial:
-    """The joints on the straight line, at s(t)."""
+    """Return the joints on the straight line at s(t)."""
     coefficients = s.coefficients * steps
     coefficients[:, 0] += start
     return PiecewisePolynomial(s.breaks, coefficients)
@@ -254,18 +253,18 @@ def _on_line(start: Array, steps: Array, s: PiecewisePolynomial) -> PiecewisePol
 def _beside_line(
     start: Array, target: Array, limits: MotionLimits, on_line: PiecewisePolynomial
 ) -> PiecewisePolynomial:
-    """The jerk-limited motion whose joints only end together, where that takes less time than the one on the line."""
+    """Return the jerk-limited motion off the line, whose joints only start and end together, if it takes less time."""
     bounds = JerkLimits(limits.velocity, limits.acceleration, limits.jerk)
     try:
         found = jerk_limited(at_rest(start), at_rest(target), bounds, synchronization="time")
     except InvalidField:
-        # Numbers too many powers of ten apart for it; the line's have one unit.
+        # The numbers are too many powers of ten apart; along the line they are scaled.
         return on_line
     return found if found.duration < on_line.duration * (1.0 - _WORTH) else on_line
 
 
 def _along_line(law: Law, bounds: tuple[float, float, float]) -> PiecewisePolynomial:
-    """The fastest s from 0 to 1; one coordinate."""
+    """Return the fastest s from 0 to 1; one coordinate."""
     if law == "jerk_limited":
         return _jerk_limited(bounds)
     shape = _SHAPES[law]
@@ -277,7 +276,7 @@ def _along_line(law: Law, bounds: tuple[float, float, float]) -> PiecewisePolyno
 
 
 def _jerk_limited(bounds: tuple[float, float, float]) -> PiecewisePolynomial:
-    """In units of the time it would take under the tightest limit alone, where all numbers are of common size."""
+    """Plan in units of the time that the tightest limit alone takes, so that all numbers have a similar magnitude."""
     unit = max(bound ** (-1.0 / k) for k, bound in enumerate(bounds, 1))
     units = [np.array([min(bound * unit**k, _MOST)]) for k, bound in enumerate(bounds, 1)]
     return jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), JerkLimits(*units)).scaled(unit)
@@ -286,7 +285,7 @@ def _jerk_limited(bounds: tuple[float, float, float]) -> PiecewisePolynomial:
 def _trapezoid(
     start: Array, steps: Array, limits: MotionLimits, duration: float | None, field: str
 ) -> PiecewisePolynomial:
-    """Each joint on its own profile, in step with the slowest or lasting a given time."""
+    """Return each joint on its own profile, slowed down to the slowest one or lasting a given time."""
     most = (1.0 / _LEAST_RAMP - 1.0) * limits.velocity**2
     tasks = [
         Task(float(L), 0.0, 0.0, float(v), min(float(a), float(high) / abs(float(L))) if L else float(a))
@@ -302,7 +301,7 @@ def _trapezoid(
 
 
 def _in_long_time(tasks: Sequence[Task], duration: float) -> list[Task]:
-    """With smaller accelerations where joints would reach their speed too soon for doubles to tell when."""
+    """Reduce the acceleration of joints whose ramps would be too short for doubles to resolve."""
     room = _SHORTEST_RAMP * (1.0 - _SHORTEST_RAMP) * duration**2
     return [
         replace(task, acceleration=min(task.acceleration, abs(task.distance) / room)) if task.distance else task

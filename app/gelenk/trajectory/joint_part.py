@@ -1,4 +1,4 @@
-"""Segments in the space of the joints: to a configuration, to a pose by inverse kinematics, or through waypoints."""
+"""Segments in joint space: to a configuration, to a pose by inverse kinematics, or through waypoints."""
 
 import math
 from typing import cast
@@ -42,22 +42,22 @@ _REASONS: dict[Status, StopReason] = {
     "not_converged": "out_of_reach",
 }
 _MARGIN = 1e-9
-"""By which a motion is slowed down beyond what sampled peaks ask for."""
+"""Extra slowdown, because the sampled peaks of the tip may be slightly too low."""
 
 
 def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Part:
-    """A segment of the joints, as far as it can be done.
+    """Plan a joint segment, as far as it is possible.
 
     Args:
         robot: The robot.
-        chain: What moves.
+        chain: The moving chain.
         start: Configuration at its beginning; shape (n,), [rad or m].
-        segment: Of type `joint`, or a spline through configurations.
+        segment: A segment of type `joint`, or a spline through configurations.
         index: Its number in the trajectory.
-        problem: Whose segment it is.
+        problem: The problem that contains the segment.
 
     Raises:
-        InvalidField: There is no such motion, or not in the time that is given.
+        InvalidField: There is no such motion, or not in the given time.
     """
     field = f"segments.{index}"
     halt: Halt | None = None
@@ -81,14 +81,14 @@ def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index
 
 
 def _refuse_outside(chain: Chain, target: Array, field: str) -> None:
-    """Refuse a target beyond the limits of a joint."""
+    """Refuse a target beyond joint limits."""
     for name, value, lower, upper in zip(chain.joint_names, target, chain.lower, chain.upper, strict=True):
         if not lower - WITHIN <= value <= upper + WITHIN:
             raise InvalidField(field, f"{name} at {value:.10g} is outside its limits [{lower:.10g}, {upper:.10g}]")
 
 
 def _solved(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Array | Halt:
-    """The configuration nearest to the start whose pose is the target; of a redundant arm what a descent leads to."""
+    """Return the target's configuration nearest to the start (for a redundant arm, the one that iteration finds)."""
     following = problem.following
     T = cast(Array, segment.pose)
     target = Poses(T[None, :3, 3], T[None, :3, :3])
@@ -109,7 +109,7 @@ def _solved(robot: Robot, chain: Chain, start: Array, segment: Segment, index: i
 def _through(
     chain: Chain, start: Array, segment: Segment, index: int
 ) -> tuple[PiecewisePolynomial, Halt | None, tuple[str, ...]]:
-    """Through all waypoints, or to the last one before which no joint leaves its limits; and what is to be known."""
+    """Plan through all waypoints, or to the last one before which no joint leaves its limits; with notes."""
     field = f"segments.{index}"
     if segment.blends:
         motion, note = _beside(chain, start, segment, field)
@@ -130,7 +130,7 @@ def _through(
 
 
 def _beside(chain: Chain, start: Array, segment: Segment, field: str) -> tuple[PiecewisePolynomial, str]:
-    """Past waypoints on straight lines with parabolic blends, which stay between the waypoints; and how far past."""
+    """Plan straight lines with parabolic blends, which stay within the waypoints' range; note the largest miss."""
     waypoints = cast(Array, segment.configurations)
     check_within(chain, waypoints, field)
     limits, times = segment.limits, segment.times
@@ -144,10 +144,10 @@ def _beside(chain: Chain, start: Array, segment: Segment, field: str) -> tuple[P
 
 
 def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
-    """Slowed down as a whole where the tip would be too fast.
+    """Slow the whole motion down if the tip would be too fast.
 
     Raises:
-        InvalidField: The time that it takes is given.
+        InvalidField: Its duration or times are given.
     """
     tip = segment.limits.tip
     bounds = {name: getattr(tip, name) for name in ("speed", "angular_speed", "acceleration", "angular_acceleration")}
@@ -168,12 +168,12 @@ def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segme
 def _comparison(
     chain: Chain, start: Array, target: Array | None, segment: Segment, index: int
 ) -> TimingComparison | None:
-    """Two timings of the same way; none where its times are given."""
+    """Compare two timings of the same path; None if its times are given."""
     if segment.times is not None or segment.blends:
         return None
     law, limits = segment.law, segment.limits
     if target is not None:
-        # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
+        # As in the course, compare the time-optimal motion with the scaled cubic.
         law = "cubic" if law == "time_optimal" else law
         numbers = compared_point_to_point(start, target, law, limits)
         return TimingComparison((index,), law, *numbers) if numbers.uniform_duration > 0.0 else None

@@ -1,17 +1,17 @@
-"""Joints through waypoints along a cubic spline, at rest at both ends.
+"""Joint motion through waypoints along a cubic spline, at rest at both ends.
 
-A clamped spline, and one of assigned ends, is at rest there by itself: it is a motion in time. The others are not; for
-them the spline is a path, q(u), and a law of time s(t) leads from rest to rest along it, q(s(t)). What a law means:
+A `clamped` or `assigned` spline is at rest at its ends by itself: it is a motion in time. Another spline is a
+path q(u), and a time law s(t) leads from rest to rest along it, q(s(t)). Meaning of the laws:
 
 - `cubic`, `trapezoidal` on a clamped or assigned spline: the spline in time, all times multiplied by the k that just
-  keeps the limits of velocity and acceleration. (A trapezoid along such a way would start twice over: the faster it
-  comes to its speed the better, and at once is allowed.) Elsewhere that law along the path.
-- `quintic`, `septic`, `jerk_limited`: that law along the path, limits of jerk kept too.
+  keeps the limits of velocity and acceleration. (Since q' = 0 at the ends, the limits would let a trapezoid along
+  the path reach its speed at once.) On other splines: that law along the path.
+- `quintic`, `septic`, `jerk_limited`: that law along the path, which also keeps jerk limits.
 - `time_optimal`: the fastest motion along the path under the limits of velocity and acceleration.
 
-With `times` a clamped or assigned spline takes exactly these. They are the law of time then; what a law promises and
-they cannot keep is refused: `time_optimal` any, `jerk_limited` those of a clamped spline, whose acceleration jumps at
-both ends.
+With `times` a clamped or assigned spline takes exactly these; they are then the time law. Laws whose promise they
+cannot keep are refused: `time_optimal` always, and `jerk_limited` on a clamped spline, whose acceleration jumps at both
+ends.
 """
 
 from dataclasses import replace
@@ -47,25 +47,25 @@ _AT_REST = ("clamped", "assigned")
 _SCALED = ("cubic", "trapezoidal")
 """Laws for which such a spline is the motion itself, all times multiplied by one factor."""
 _STILL = 1e-12
-"""q' at an end, in fractions of the steepest step, that counts as rest."""
+"""Largest q' at an end that counts as rest, in fractions of the steepest step."""
 
 
 def spline_motion(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> PiecewisePolynomial:
-    """The motion through the waypoints of a segment; see the module for what its law, times and boundary mean.
+    """Return the motion through the waypoints of a segment; the module explains its law, times and boundary.
 
-    Between waypoints a spline can go beyond the limits of a joint: ask `first_limit_excess`.
+    Between waypoints a spline can exceed joint limits: check with `first_limit_excess`.
 
     Args:
-        start: Where it begins, its first knot; shape (n,), [rad or m].
-        segment: With `configurations`.
-        chain: What moves.
-        field: The segment, before the names of its fields in refusals.
+        start: The first knot; shape (n,), [rad or m].
+        segment: A segment with `configurations`.
+        chain: The moving chain.
+        field: Field of the segment; prefixes the names of its fields in errors.
 
     Returns:
-        From time 0 on, and at rest at both ends.
+        The motion from time 0 on, at rest at both ends.
 
     Raises:
-        InvalidField: There is no such spline, not at these times or in this duration, or a waypoint is outside limits.
+        InvalidField: There is no such spline, its times or duration are impossible, or a waypoint is outside limits.
         TooLarge: It has too many pieces for the fastest motion.
     """
     points = _checked(start, segment, chain, field)
@@ -78,13 +78,13 @@ def spline_motion(start: Array, segment: Segment, chain: Chain, *, field: str = 
 
 
 def spline_way(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> PiecewisePolynomial:
-    """The spline of a segment, without its law of time: q(u), at its knots in `times` or where none are given spaced.
+    """Return the spline of a segment without its time law: q(u), with knots at `times` or, without them, spaced.
 
     Args:
-        start: Its first knot; shape (n,), [rad or m].
-        segment: With `configurations`.
-        chain: What moves.
-        field: The segment, before the names of its fields in refusals.
+        start: The first knot; shape (n,), [rad or m].
+        segment: A segment with `configurations`.
+        chain: The moving chain.
+        field: Field of the segment; prefixes the names of its fields in errors.
 
     Raises:
         InvalidField: There is no such spline.
@@ -93,13 +93,13 @@ def spline_way(start: Array, segment: Segment, chain: Chain, *, field: str = "")
 
 
 def compared_spline(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> Timings:
-    """The law of a segment without `times`, and the fastest motion along the same path.
+    """Compare the law of a segment without `times` with the fastest motion along the same path.
 
     Args:
-        start: Its first knot; shape (n,), [rad or m].
-        segment: With `configurations`.
-        chain: What moves.
-        field: The segment, before the names of its fields in refusals.
+        start: The first knot; shape (n,), [rad or m].
+        segment: A segment with `configurations`.
+        chain: The moving chain.
+        field: Field of the segment; prefixes the names of its fields in errors.
 
     Raises:
         InvalidField: There is no such spline.
@@ -116,8 +116,8 @@ class Prefix(NamedTuple):
     """The part of a spline that stays within the joint limits.
 
     Attributes:
-        motion: To the last waypoint that is reached, at rest there.
-        waypoints: How many of them that are.
+        motion: Motion to the last waypoint that is reached, at rest there.
+        waypoints: Number of waypoints reached.
     """
 
     motion: PiecewisePolynomial
@@ -125,16 +125,16 @@ class Prefix(NamedTuple):
 
 
 def longest_prefix(start: Array, segment: Segment, chain: Chain, *, field: str = "") -> Prefix:
-    """As many waypoints of a segment as a spline through them stays within the limits of the joints.
+    """Plan through as many waypoints as a spline can pass within the joint limits.
 
-    The spline ends with the last of them, at rest. A part of a periodic one is natural; a part at given times that
-    comes to a stop too fast takes longer.
+    The spline ends at rest at the last of them. Part of a periodic spline gets a natural boundary; part of a spline at
+    given times is slowed down if its stop would exceed the limits.
 
     Args:
-        start: Shape (n,), [rad or m].
-        segment: Whose spline goes beyond limits somewhere.
-        chain: What moves.
-        field: The segment, before the names of its fields in refusals.
+        start: The first knot; shape (n,), [rad or m].
+        segment: A segment whose spline exceeds joint limits.
+        chain: The moving chain.
+        field: Field of the segment; prefixes the names of its fields in errors.
 
     Raises:
         InvalidField: There is no such spline.
@@ -155,10 +155,10 @@ def longest_prefix(start: Array, segment: Segment, chain: Chain, *, field: str =
 
 
 class Promise(NamedTuple):
-    """How smooth a motion is.
+    """Smoothness of a motion.
 
     Attributes:
-        continuous: Derivatives of the joints up to this order do not jump within it.
+        continuous: Order up to which derivatives of the joints do not jump within it.
         has_bounded_jerk: Whether acceleration jumps neither within it nor at its ends, and jerk is limited.
     """
 
@@ -167,7 +167,7 @@ class Promise(NamedTuple):
 
 
 def promised(segment: Segment) -> Promise:
-    """How smooth the motion of a segment of joints is: of a spline, or from point to point."""
+    """Return how smooth the motion of a joint segment is, for a spline or from point to point."""
     keeps_jerk = kept(segment.law, segment.limits).jerk is not None
     if segment.configurations is None:
         return Promise(2 if keeps_jerk else 1, keeps_jerk)
@@ -178,7 +178,7 @@ def promised(segment: Segment) -> Promise:
 
 
 def _checked(start: Array, segment: Segment, chain: Chain, field: str) -> Knots:
-    """The knots of a segment that makes sense."""
+    """Check a segment, and return its knots."""
     check_limits(segment.limits, field)
     check_duration(segment.duration, field)
     points = knots(start, segment.configurations, segment.times, segment.limits.velocity, field)
@@ -216,7 +216,7 @@ def _spline(points: Knots, segment: Segment) -> PiecewisePolynomial:
 
 
 def _is_at_rest(way: PiecewisePolynomial) -> bool:
-    """Whether a spline is so at both ends, as it stands: a clamped or assigned one, or by chance any."""
+    """Return whether a spline is at rest at both ends: a clamped or assigned one, or another one by chance."""
     chords = np.diff(way.at(way.breaks), axis=0) / np.diff(way.breaks)[:, None]
     ends = way.derivative().at(way.breaks[[0, -1]])
     return bool(np.abs(ends).max(initial=0.0) <= _STILL * np.abs(chords).max(initial=0.0))
@@ -236,17 +236,17 @@ def _at_given_times(points: Knots, segment: Segment, field: str) -> PiecewisePol
 
 
 def _slowed(motion: PiecewisePolynomial, segment: Segment) -> PiecewisePolynomial:
-    """The motion at its times, or if these are too short, as fast as the limits allow."""
+    """Return the motion at its times, slowed down if it exceeds the limits."""
     return motion.scaled(uniform_scaling(motion, _kept_at_times(segment)).course_factor)
 
 
 def _kept_at_times(segment: Segment) -> Limits:
-    """The limits of a spline in time: of jerk only where the acceleration does not jump at its ends anyway."""
+    """Return the limits of a spline in time; jerk is limited only if acceleration does not jump at its ends."""
     return kept(segment.law if segment.boundary == "assigned" else "cubic", segment.limits)
 
 
 def _fastest(way: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
-    """The motion from rest to rest along a path in the least time that the law takes."""
+    """Return the motion from rest to rest along a path in the least time of the law."""
     limits = segment.limits
     if segment.law in _SCALED and _is_at_rest(way):
         factor = uniform_scaling(way, kept(segment.law, limits)).factor

@@ -1,7 +1,7 @@
-"""The knots of a motion of joints through waypoints, and when they are: checked, and spaced where no times are given.
+"""Knots of a joint motion through waypoints, with their times: checked, and spaced if no times are given.
 
-Without times a step takes what its slowest joint needs for it at its limit of velocity, h = max_j |Δq_j|/v_j. That is
-the length of the chord where joints are unlike, and no time yet: it spaces the knots.
+Without times a step takes as long as its slowest joint needs at its velocity limit, h = max_j |Δq_j|/v_j. This is the
+chord length for joints of different kinds; it spaces the knots, and is not yet a time.
 """
 
 from typing import NamedTuple
@@ -15,14 +15,14 @@ from gelenk.trajectory.joint_motion import LARGEST, NO_LENGTH, named
 from gelenk.trajectory.splines import CLOSED, NEAREST, Boundary, checked_times
 
 WITHIN = 1e-9
-"""How far beyond its limits a joint still counts as within, [rad or m]."""
+"""Distance beyond a limit at which a joint still counts as within, [rad or m]."""
 
 
 class Knots(NamedTuple):
-    """The waypoints, the start included, and their times.
+    """The waypoints, including the start, and their times.
 
     Attributes:
-        times: From 0 on; where none are given those that space the knots; shape (N,), [s].
+        times: Times from 0 on; without given times, the spacing of the knots; shape (N,), [s].
         positions: Shape (N, n), [rad or m].
     """
 
@@ -31,18 +31,18 @@ class Knots(NamedTuple):
 
 
 def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: Array, field: str = "") -> Knots:
-    """The start and the waypoints after it.
+    """Return the start and the waypoints after it as knots.
 
     Args:
         start: Shape (n,), [rad or m].
-        waypoints: Shape (m, n).
-        times: When each is passed, the start being left at 0 s; shape (m,), [s].
-        velocity: Limit of each joint, where times are to be found; shape (n,), [rad/s or m/s].
-        field: The segment, before the names of its fields in refusals.
+        waypoints: Shape (m, n), [rad or m].
+        times: Time of each waypoint, with the start at 0 s; shape (m,), [s].
+        velocity: Limit of each joint, used to space knots without times; shape (n,), [rad/s or m/s].
+        field: Field of the segment; prefixes the names of its fields in errors.
 
     Raises:
-        InvalidField: No waypoints, or such as are no numbers to reckon with; times that do not increase; without times
-            one that is the same as the one before.
+        InvalidField: There are no waypoints, or numbers that are too large or not finite; times do not increase; or,
+            without times, two successive waypoints coincide.
     """
     name = named(field, "waypoints")
     if waypoints is None or len(waypoints) == 0:
@@ -59,7 +59,7 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
 
 
 def _spaced(positions: Array, velocity: Array, name: str) -> Array:
-    """Times by the steps of the slowest joint."""
+    """Return times spaced by the steps of the slowest joint."""
     steps = np.abs(np.diff(positions, axis=0))
     lengths = (steps / velocity).max(axis=1, initial=0.0)
     is_same = steps.max(axis=1, initial=0.0) <= NO_LENGTH
@@ -87,12 +87,12 @@ def check_within(chain: Chain, waypoints: Array, field: str = "") -> None:
     """Check that waypoints are within the joint limits.
 
     Args:
-        chain: Whose joints.
+        chain: Chain with the joint limits.
         waypoints: Shape (m, n), [rad or m].
-        field: The segment.
+        field: Field of the segment.
 
     Raises:
-        InvalidField: The first one that is not.
+        InvalidField: A waypoint is outside; the first one is named.
     """
     outside = np.argwhere(~((waypoints >= chain.lower - WITHIN) & (waypoints <= chain.upper + WITHIN)))
     if len(outside) == 0:
