@@ -26,35 +26,35 @@ from gelenk.model.poses import Poses
 _Number = TypeVar("_Number", np.float64, np.int64)
 
 _PIECE = 1024
-"""Targets that one thread takes at once, some milliseconds; the clock is checked before the next."""
+"""Targets that one thread solves between two checks of the clock, in some milliseconds."""
 _APART = 1e-6
-"""How far apart two solutions are that a closed form and a search have found, [rad or m]."""
+"""Distance beyond which solutions from two methods are different, [rad or m]."""
 _BESIDE = 1e-6
-"""How far beside a target its branches are counted once more, along each axis, [m]: where two links fold up upon each
-other, rounding costs branches up to some 1e-8 m around."""
+"""Shift of a target along each axis at which its branches are counted again, [m]: where two links fold onto each
+other, rounding costs branches within some 1e-8 m."""
 _NEIGHBOURS, _NEIGHBOURS_EACH = (1e-6, 1e-7, 1e-8), 8
-"""How far beside a doubtful target others are solved, [m, rad], and how many at each distance."""
+"""Distances of the targets solved around a doubtful one, [m, rad], and the number at each distance."""
 _ROUNDED = 1e-9
-"""How far an arm is from a form's geometry where that is rounding of its description, [m, rad]."""
+"""Deviation from a form's geometry that counts as rounding of the arm's description, [m, rad]."""
 _EXACT, _ROUNDING = 1e-11, 1e-14
-"""Errors up to which refining has come to a solution: of the arm where a form is only nearly its own, and of a form
-next to a singularity, [m, rad]."""
+"""Largest errors of refined solutions, [m, rad]: of an arm that deviates from its form's geometry, and of an arm next
+to a singularity."""
 _FREE_SAMPLED = 24
-"""Positions of a joint that a singularity leaves free."""
+"""Number of positions sampled of joints that a singularity leaves free."""
 _ELBOWS_TRIED, _ELBOWS_SAMPLED = 24, 96
-"""Angles of a free elbow: where the seed's does not fit into the limits, and where all solutions are wanted."""
+"""Number of elbow angles: tried if the seed's does not fit the limits, and sampled for all solutions."""
 
 
 def nearest(
     question: Question, form: ClosedForm, elbow_angle: float | None, deadline: float | None
 ) -> InverseKinematics:
-    """Of each target the branch that is nearest to the seed, none where there is none within the limits.
+    """Find the branch of each target that is nearest to the seed, if there is one within the limits.
 
     Args:
-        question: The targets.
+        question: The problem.
         form: The closed form of the chain.
-        elbow_angle: Where a free elbow is to be, [rad]; where the seed has it if left out, and if that does not fit
-            into the limits wherever it does, nearest to the seed.
+        elbow_angle: Desired angle of a free elbow, [rad]; by default the seed's, or the nearest solution's if that does
+            not fit the limits.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
     """
     count, n = len(question), len(question.chain)
@@ -100,7 +100,7 @@ def nearest(
 
 
 def _seeds_that_solve(question: Question) -> tuple[Indices, Array]:
-    """Which targets their seeds meet already, and these: at two singularities at once a form may lack that branch."""
+    """Find targets that their seeds solve, and these seeds: at a double singularity a form may lack that branch."""
     targets, seeds = question.targets, question.seeds
     poses = Poses(*chain_poses(question.chain.flat, seeds))
     rows = np.flatnonzero(np.abs(targets.positions - poses.positions).max(axis=1) <= _EXACT)
@@ -126,16 +126,16 @@ def every(
     *,
     sample: bool,
 ) -> InverseKinematics:
-    """All branches of each target within the limits, nearest to the seed first.
+    """Find all branches of each target within the limits, nearest to the seed first.
 
     Args:
-        question: The targets.
+        question: The problem.
         form: The closed form of the chain.
         most: Largest number of solutions of a target.
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
-        elbow_angle: Where a free elbow is to be, [rad]; all the way round, in steps, if left out.
+        elbow_angle: Desired angle of a free elbow, [rad]; by default a sample of the full circle.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
-        sample: Whether of joints that a singularity leaves free other positions than the seed's are given too.
+        sample: Whether to also sample positions other than the seed's of joints that a singularity leaves free.
     """
     tables: list[Branches] = []
     complete: list[bool] = []
@@ -164,7 +164,7 @@ def every(
 
 
 def _doubt(answer: InverseKinematics, i: int, most: int) -> str:
-    """Why the solutions of a target may not be all."""
+    """Return why a target may have other solutions."""
     rows = slice(answer.firsts[i], answer.firsts[i + 1])
     if rows.stop - rows.start >= most:
         return "this is the requested number; there may be others"
@@ -185,9 +185,9 @@ def _piece(
     *,
     sample: bool,
 ) -> list[tuple[Branches, bool]]:
-    """The branches of some targets, and whether they are all; see `every`.
+    """Return the branches of some targets, and whether they are all, see `every`.
 
-    In one table where there is nothing special about any of them, else a table for each.
+    The result has one table for all targets if none of them is special, else a table for each.
     """
     count, n = part.stop - part.start, len(question.chain)
     if is_over(deadline):
@@ -196,7 +196,7 @@ def _piece(
     table = _solved(question, form, part, elbow_angle, respect_limits=True) if question.respect_limits else anywhere
     unsteady = _unsteady(question, form, part, elbow_angle, anywhere)
     doubtful = unsteady | _doubtful(question, form, anywhere)
-    # Whether rounding has cost a root, or what the arm is off the form's geometry by, only a count can tell.
+    # Only a count shows whether rounding, or the arm's deviation from the form's geometry, has cost a root.
     is_counted = form.plan.kind == GENERAL or bool(form.tolerance > _ROUNDED and _system(question))
     special = windings or is_counted or anywhere.free.any() or doubtful.any()
     if not (special or np.diff(table.firsts).max(initial=0) > most):
@@ -208,7 +208,7 @@ def _piece(
         i, own, free = part.start + k, _row(table, k), _row(anywhere, k).free
         whole = len(own.qs) <= most and not free.any()
         if free.any() and (sample or not own.free.any()):
-            # Where the seed's position of a free joint is none of the limits', others may be.
+            # If the seed's position of a free joint is outside the limits, others may be inside.
             own = _spread(question, form, i, own, np.unique(free[free > 0]), most, elbow_angle)
         if is_counted or doubtful[k]:
             counted, places = _counted(question, i, own) if not free.any() else (None, own.qs[:0])
@@ -231,7 +231,7 @@ def _extended(
     is_doubtful: bool,
     is_steady: bool,
 ) -> Branches:
-    """The branches of one target, which nothing proves to be all, and what else is found without one."""
+    """Add other solutions to the branches of one target that no count proves complete."""
     if not is_doubtful:
         return _joined(question, i, table, refined(question, i, places, _ROUNDING), most)
     if not form.is_exact:
@@ -242,9 +242,9 @@ def _extended(
 
 
 def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
-    """At which targets a closed form may lack solutions, for being next to a singularity; shape (N,).
+    """Flag targets next to a singularity, where the closed form may lack solutions; shape (N,).
 
-    There rounding tells, and where the geometry is only nearly special the arm may have others than the form.
+    Rounding may cost solutions there, and an arm that deviates from the form's geometry may have other solutions.
     """
     count = len(table.firsts) - 1
     owners = np.repeat(np.arange(count), np.diff(table.firsts))
@@ -254,11 +254,11 @@ def _doubtful(question: Question, form: ClosedForm, table: Branches) -> Flags:
 
 
 def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: float | None, table: Branches) -> Flags:
-    """Targets next to which there is another number of branches: where some meet, rounding may have cost one."""
+    """Flag targets next to which the number of branches differs: where two meet, rounding may cost one; (N,)."""
     if len(question.chain) < len(DIRECTIONS):
         return np.zeros(part.stop - part.start, dtype=bool)
     targets, seeds = question.part(part)
-    # Where an arm is only nearly a form's, it loses branches elsewhere, by as much as its geometry is off.
+    # An arm that deviates from the form's geometry loses branches at places shifted by that much.
     shift = max(_BESIDE, 10.0 * form.tolerance)
     unsteady = np.zeros(len(targets), dtype=bool)
     for by in (shift, -shift):
@@ -274,10 +274,10 @@ def _unsteady(question: Question, form: ClosedForm, part: slice, elbow_angle: fl
 
 
 def _near_singular(Js: Array, directions: int, least: float) -> Flags:
-    """Whether the smallest singular value of each Jacobian is below a bound; shape (N,)."""
+    """Flag Jacobians whose smallest singular value is below a bound; shape (N,)."""
     rows = np.arange(len(Js))
     if Js.shape[1] == Js.shape[2]:
-        # The others' product is at most what equal ones would have: most are cleared without decomposing them.
+        # A bound on the product of the other singular values clears most by the determinant, without an SVD.
         others = np.square(Js).sum(axis=(1, 2)) / (Js.shape[1] - 1)
         rows = np.flatnonzero(np.abs(np.linalg.det(Js)) < least * others ** (0.5 * (Js.shape[1] - 1)))
     near = np.zeros(len(Js), dtype=bool)
@@ -287,7 +287,7 @@ def _near_singular(Js: Array, directions: int, least: float) -> Flags:
 
 
 def _completed(question: Question, i: int, table: Branches, most: int, places: Array) -> Branches:
-    """The branches of one target, and what a search finds beside them and near some places, whose code is -1."""
+    """Add what a search and a refinement of `places` find to the branches of one target, with code -1."""
     found = all_branches(
         question.chain,
         target_rows(question.target(i))[0],
@@ -305,12 +305,12 @@ def _completed(question: Question, i: int, table: Branches, most: int, places: A
 
 
 def _system(question: Question) -> Continuation | None:
-    """How the solutions are counted; None where they cannot be."""
+    """Return the continuation that counts the solutions; None if the chain or the task has none."""
     return continuation(question.chain) if len(question.task) == len(DIRECTIONS) else None
 
 
 def _counted(question: Question, i: int, table: Branches) -> tuple[Branches | None, Array]:
-    """The branches of one target with those that are lost, None if no count proves these to be all; and places."""
+    """Complete branches by continuation, None without a proof; also return its solutions or places near them."""
     system = _system(question)
     qs, doubt = system.solve(question.target(i)) if system else (table.qs[:0], SEARCHED)
     if doubt:
@@ -325,9 +325,9 @@ def _counted(question: Question, i: int, table: Branches) -> tuple[Branches | No
 def _from_neighbours(
     question: Question, form: ClosedForm, i: int, table: Branches, most: int, places: Array
 ) -> Branches:
-    """The branches of one target next to a singularity, and what places and the branches of targets beside it lead to.
+    """Add solutions refined from `places` and from the branches of neighbouring targets to those of one target.
 
-    Where two roots nearly meet, rounding may leave neither of them, or a place far from the solution.
+    Where two roots nearly meet, rounding may lose both, or leave a place far from the solution.
     """
     target, rng = question.target(i), np.random.default_rng(0)
     sizes = np.repeat(_NEIGHBOURS, _NEIGHBOURS_EACH)[:, None]
@@ -351,11 +351,11 @@ def _joined(
     code: int = -1,
     pick: Callable[[Array], Indices] | None = None,
 ) -> Branches:
-    """The branches of one target and other solutions, of one code, nearest to the seed first; one of each."""
+    """Merge the branches of one target with other solutions, without duplicates, nearest to the seed first."""
     qs = np.concatenate((table.qs, more))
     codes = np.concatenate((table.codes, np.full(len(more), code, dtype=np.int64)))
     free = np.concatenate((table.free, np.zeros(len(more), dtype=np.int64)))
-    # The form's come first, so that of two that are the same the named one stays.
+    # The form's branches come first, so that of two duplicates the named one stays.
     order = (pick(qs) if pick else distinct(question, i, qs))[:most]
     order = order[np.argsort(np.square(qs[order] - question.seed(i)).sum(axis=1), kind="stable")]
     return Branches(qs[order], codes[order], free[order], _firsts_of_one(len(order)))
@@ -364,7 +364,7 @@ def _joined(
 def _sampled(
     question: Question, form: ClosedForm, i: int, most: int, windings: bool, deadline: float | None
 ) -> tuple[Branches, bool]:
-    """A sample of the self-motion of a free elbow, which is never all there is."""
+    """Sample the self-motion of a free elbow; the flag is False, as a sample is never complete."""
     if is_over(deadline):
         return _nothing(len(question.chain), 1), False
     table = _thinned(question, form, i, most)
@@ -374,12 +374,12 @@ def _sampled(
 
 
 def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> InverseKinematics:
-    """The answer of a closed form, and in it what a search found of the targets that were left to it.
+    """Insert the results of a search into the answer of a closed form.
 
     Args:
-        found: The one.
-        left: The targets to answer again; shape (k,).
-        rest: What was found of these.
+        found: The answer of the closed form.
+        left: Indices of the targets that it left unsolved; shape (k,).
+        rest: The answer of the search for these.
     """
     by_form = np.ones(len(found), dtype=bool)
     by_form[left] = False
@@ -418,11 +418,11 @@ def joined(found: InverseKinematics, left: Indices, rest: InverseKinematics) -> 
 
 
 def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinematics:
-    """Targets that a search solved, but not as requested, as failures.
+    """Turn solutions of a search into failures, because they do not meet the request.
 
     Args:
-        rest: What the search came to.
-        elbow_angle: The requested angle of the elbow; None where only a closed form was requested.
+        rest: The answer of the search.
+        elbow_angle: The requested angle of the elbow, [rad]; None if only a closed form was requested.
     """
     failures, statuses = dict(rest.failures), list(rest.statuses)
     reason = "no branch with the elbow at this angle meets the request; with another angle one does"
@@ -450,7 +450,7 @@ def unmet(rest: InverseKinematics, elbow_angle: float | None) -> InverseKinemati
 
 
 def first_of_each(found: InverseKinematics) -> InverseKinematics:
-    """The first solution of each target, of all of them."""
+    """Reduce an answer with all solutions to the first one of each target."""
     solved = np.diff(found.firsts) > 0
     rows, branches = found.firsts[:-1][solved], found.branches
     return replace(
@@ -468,14 +468,14 @@ def first_of_each(found: InverseKinematics) -> InverseKinematics:
 
 
 def _woven(ours: Flags, a: npt.NDArray[_Number], b: npt.NDArray[_Number]) -> npt.NDArray[_Number]:
-    """Rows of the one where a flag is set, of the other elsewhere, each in order."""
+    """Interleave rows: from `a` where the flag is set, else from `b`, each in order."""
     table = np.empty((len(ours), *a.shape[1:]), dtype=a.dtype)
     table[ours], table[~ours] = a, b
     return table
 
 
 def _answer(question: Question, form: ClosedForm, table: Branches) -> InverseKinematics:
-    """The branches that are solutions when they are recomputed through Pinocchio."""
+    """Build the answer from the branches that Pinocchio confirms as solutions."""
     counts = np.diff(table.firsts)
     owners = np.repeat(np.arange(len(counts)), counts)
     asked = question if (counts == 1).all() else question.taken(owners)
@@ -513,7 +513,7 @@ def _solved(
 
 
 def _row(table: Branches, k: int) -> Branches:
-    """The branches of one of the targets."""
+    """Return the branches of one target of a table."""
     rows = slice(table.firsts[k], table.firsts[k + 1])
     return Branches(table.qs[rows], table.codes[rows], table.free[rows], _firsts_of_one(rows.stop - rows.start))
 
@@ -523,7 +523,7 @@ def _firsts_of_one(count: int) -> Indices:
 
 
 def _around(question: Question, form: ClosedForm, i: int, count: int, most: int) -> Branches:
-    """The branches of one target with the elbow at angles all the way round, the seed's first."""
+    """Solve one target with the elbow at angles all around the circle, the seed's first."""
     target, seed = question.target(i), question.seed(i)[None]
     steps = np.arange(count) * (2.0 * np.pi / count)
     rows = np.zeros(count, dtype=np.int64)
@@ -538,7 +538,7 @@ def _around(question: Question, form: ClosedForm, i: int, count: int, most: int)
 
 
 def _thinned(question: Question, form: ClosedForm, i: int, most: int) -> Branches:
-    """A sample of the self-motion, nearest to the seed first."""
+    """Sample the self-motion of a free elbow, nearest to the seed first."""
     table = _around(question, form, i, _ELBOWS_SAMPLED, MOST)
     order = np.argsort(np.square(table.qs - question.seed(i)).sum(axis=1), kind="stable")
     order = order[thin_out(table.qs[order], free_variables(question.chain), SPACING, most)]
@@ -554,16 +554,16 @@ def _spread(
     most: int,
     elbow_angle: float | None,
 ) -> Branches:
-    """The branches of one target, and a sample of those that a singularity joins to a continuum.
+    """Add a sample of the continuum that free joints form at a singularity to the branches of one target.
 
     Args:
-        question: The targets.
+        question: The problem.
         form: The closed form.
-        i: Which target.
+        i: Index of the target.
         table: Its branches.
-        masks: Which joints are free together.
+        masks: Bit masks of joints that are free together.
         most: Largest number of solutions.
-        elbow_angle: Where a free elbow is to be, [rad].
+        elbow_angle: Desired angle of a free elbow, [rad].
     """
     target, seed = question.target(i), question.seed(i)
     rng, seeds = np.random.default_rng(0), []
@@ -592,17 +592,17 @@ def _spread(
 
 
 def _turned(question: Question, i: int, table: Branches, most: int, whole: bool) -> tuple[Branches, bool]:
-    """Each branch in all the full turns that the limits allow."""
+    """Expand each branch to all full turns that the limits allow."""
     qs, owners, whole = wound(question.chain, table.qs, question.seed(i), most, whole, question.respect_limits)
     return Branches(qs, table.codes[owners], table.free[owners], _firsts_of_one(len(qs))), whole
 
 
 def _first(table: Branches, most: int) -> Branches:
-    """The first solutions of one target."""
+    """Return the first `most` solutions of one target."""
     return Branches(table.qs[:most], table.codes[:most], table.free[:most], _firsts_of_one(min(len(table.qs), most)))
 
 
 def _nothing(n: int, count: int = 1) -> Branches:
-    """No branch of so many targets."""
+    """Create a table without solutions for a number of targets."""
     none = np.zeros(0, dtype=np.int64)
     return Branches(np.empty((0, n)), none, none, np.zeros(count + 1, dtype=np.int64))

@@ -1,8 +1,8 @@
-"""Every branch of a closed form, polished and judged, in batches.
+"""All branches of a closed form, polished and checked, in batches.
 
-A closed form is as exact as the geometry that it assumes, and loses digits where two branches meet. So its candidates
-stand side by side in vector registers, eight at a time, and are driven to rounding by damped least squares on the
-chain as it is; what does not come within the tolerances is no solution.
+A closed form is only as exact as the geometry it assumes, and loses digits where two branches meet. Damped least
+squares on the actual chain therefore drives its candidates to rounding, eight at a time in vector registers. A
+candidate that does not come within the tolerances is no solution.
 """
 
 from typing import Any, NamedTuple
@@ -30,40 +30,40 @@ from gelenk.model.compilation import compiled, inlined, unmanaged
 
 _TURN = 2.0 * np.pi
 _ROUNDS = 40
-"""Iterations of polishing at most; nearly always one or two are enough, but where two branches meet each halves."""
+"""Most iterations of polishing: one or two mostly suffice, but where two branches meet each only halves the error."""
 _PERFECT = 1e-28
-"""Squared error that is left alone, [m² + rad²]."""
+"""Squared error that needs no refinement, [m² + rad²]."""
 _REFINEMENTS, _SHORTEST_SHARE = 40, 1e-4
-"""Steps of Newton's method, and the share of one after which a lane is given up."""
+"""Most steps of Newton's method, and the share of a step at which a lane is given up."""
 _CORRECTIONS = 2
-"""Steps back into the valley after each along it."""
+"""Correction steps back into the valley after each step along it."""
 _SINGULAR, _WEAK = 1e-15, 1e-3
-"""Shares of the largest pivot: what is none but rounding, and what leads along a valley."""
+"""Shares of the largest pivot below which one is rounding, and below which it belongs to a valley."""
 DIRECTIONS = 6
-"""Of a whole pose."""
+"""Directions of a full pose."""
 _EXACT = 1e-20
-"""Squared error up to which a target is met, [m² + rad²]."""
+"""Squared error up to which a solution meets its target exactly, [m² + rad²]."""
 _DAMPING, _LEAST_DAMPING = 1e-12, 1e-22
-"""λ of the first step, and how far steps that succeed bring it down: next to a singularity it must not hold back."""
+"""λ of the first step, and its lower bound after successful steps, so small that it works next to singularities."""
 _SAME = 1e-7
-"""Candidates no further apart in any joint are one, [rad or m]."""
+"""Distance in every joint up to which two candidates are the same, [rad or m]."""
 _MOVED = 1e-4
-"""By how much polishing moves a joint that is not free, [rad or m]."""
+"""Motion by polishing beyond which a joint is not free, [rad or m]."""
 _ROUNDING = 1e-10
-"""How far beyond a limit counts as at it, [rad or m]."""
+"""Distance beyond a limit that still counts as at it, [rad or m]."""
 _POSITION, _ORIENTATION = SINCE, COUNT
-"""Rows of the state that hold the squared errors."""
+"""State rows that hold the squared errors."""
 
 
 class Branches(NamedTuple):
-    """Solutions of N targets in one table: those of target i are its rows firsts[i] to firsts[i + 1].
+    """Solutions of N targets in one table: rows firsts[i] up to, but not including, firsts[i + 1] belong to target i.
 
     Attributes:
-        qs: Nearest to the seed first; shape (M, n), [rad or m].
-        codes: Which roots each took; shape (M,).
-        free: Bit j where variable j was free and has kept the seed's value; shape (M,).
-        firsts: Where each target's begin; shape (N + 1,).
-        doubtful: 1 of a target where rounding may have cost solutions; shape (N,), or empty where that is not needed.
+        qs: Solutions, nearest to the seed first; shape (M, n), [rad or m].
+        codes: Bits of the roots chosen; shape (M,).
+        free: Bit mask: bit j is set if variable j was free and kept the seed's value; shape (M,).
+        firsts: First row of each target's solutions, and M at the end; shape (N + 1,).
+        doubtful: 1 if rounding may have cost solutions of a target; shape (N,), or empty if not needed.
     """
 
     qs: Array
@@ -74,7 +74,7 @@ class Branches(NamedTuple):
 
 
 class _Kept(NamedTuple):
-    """The solutions of one target, sorted; rows of MOST, and one behind them. Then room for refining them."""
+    """Sorted solutions of one target, in MOST rows and a spare one behind them, and space for their refinement."""
 
     qs: Array
     distances: Array
@@ -95,19 +95,19 @@ def branches(
     elbow_angles: Array,
     most: int,
 ) -> Branches:
-    """The solutions of each target within the limits.
+    """Find the solutions of each target within the limits.
 
     Args:
         flat: The chain.
-        plan: How it is solved.
-        goal: What counts, and the tolerances.
-        limits: Lower and upper limit of each variable, infinite where none counts; shape (2, n).
+        plan: The plan of the closed form.
+        goal: Task and tolerances.
+        limits: Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m].
         targets: Rotation row by row, then position; shape (N, 12).
-        seeds: One configuration for all, or one each; shape (1 or N, n).
-        elbow_angles: Likewise, of arms that have a free elbow, [rad]; shape (1 or N,).
-        most: Bound on the solutions of one target: 1 for the nearest to the seed.
+        seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
+        elbow_angles: Angles of a free elbow, one for all targets or one each, [rad]; shape (1 or N,).
+        most: Largest number of solutions of one target: 1 for the nearest to the seed.
     """
-    # To hand over a tuple costs a compiled function much more than its parts.
+    # Passing a tuple to a compiled function costs much more than passing its parts.
     arguments: tuple[Any, ...] = (*flat, *plan, *goal, limits, targets, seeds, elbow_angles, min(most, MOST))
     qs, labels, firsts, doubtful = _branches(*arguments)
     return Branches(qs, labels[0], labels[1], firsts, doubtful)
@@ -178,7 +178,7 @@ def _branches(
 
 
 def elbow_angles(flat: FlatChain, plan: Plan, qs: Array) -> Array:
-    """Where the elbow of each configuration is about the line from shoulder to wrist; shape (N,), [rad]."""
+    """Compute the elbow angle of each configuration about the line from shoulder to wrist; shape (N,), [rad]."""
     arguments: tuple[Any, ...] = (flat.drives, *plan, qs)
     angles: Array = _elbow_angles(*arguments)
     return angles
@@ -224,7 +224,7 @@ def _solve_all(
     work: Work,
     table: tuple[Array, Indices, Indices, Indices],
 ) -> None:
-    """Fill the table, a target after the other."""
+    """Fill the table, one target after another."""
     qs, labels, firsts, doubtful = table
     total, n = 0, seeds.shape[1]
     for i in range(len(targets)):
@@ -252,7 +252,7 @@ def _solve(
     kept: _Kept,
     work: Work,
 ) -> int:
-    """The solutions of one target, sorted, into `kept`; their number."""
+    """Put the sorted solutions of one target into `kept` and return their number."""
     n = len(seed)
     own = kept.qs[MOST]
     for i in range(n):
@@ -284,13 +284,13 @@ def _solve(
 
 @unmanaged
 def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
-    """Drive the lanes to rounding, never to the worse; `previous` is where they end.
+    """Drive the lanes to rounding without ever raising an error; `previous` holds the results.
 
     Returns:
-        A bit for each lane that is within the tolerances.
+        Bit mask of the lanes that are within the tolerances.
     """
     least, stalled, damping = lanes(np.inf), lanes(0.0), lanes(_DAMPING)
-    # With fewer joints than directions JJᵀ is singular everywhere, and needs what damping there is.
+    # With fewer joints than directions JJᵀ is singular everywhere and needs damping.
     floor = _LEAST_DAMPING if len(work.q) >= 6 * LANES and goal.kind == FULL else _DAMPING
     for _ in range(_ROUNDS):
         e = linearise(flat, goal, work)
@@ -316,14 +316,14 @@ def _polish(flat: FlatChain, goal: Goal, work: Work) -> int:
 
 @unmanaged
 def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
-    """Newton's method on J itself for the lanes that are not at rounding yet.
+    """Apply Newton's method with J itself to the lanes that are not at rounding yet.
 
-    Next to a singularity the square of a small singular value is lost in JJᵀ, and damped steps stop too early. There a
-    solution lies somewhere along a narrow valley in which all but one equation hold; so after each step the others are
-    met again before the errors are compared, or every step along the bent valley would seem to lead astray.
+    Next to a singularity JJᵀ loses the square of a small singular value, and damped steps stop too early. The solution
+    lies along a narrow curved valley in which all equations but one hold. Each step is corrected back into the valley
+    before the errors are compared, or every step along it would seem to raise the error.
 
     Returns:
-        A bit for each lane that is within the tolerances.
+        Bit mask of the lanes that are within the tolerances.
     """
     state, share = work.state, kept.residuals[DIRECTIONS * LANES :]
     share[:] = 1.0
@@ -339,7 +339,7 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
         e = linearise(flat, goal, work)
         position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
         better = position + orientation < before
-        # What has gone too far goes a quarter of the way next time.
+        # A lane that has gone too far takes a quarter of the step next time.
         store(share, 0, where(better, min_lanes(2.0 * load(share, 0), 1.0), 0.25 * load(share, 0)))
         for j in range(DIRECTIONS):
             store(work.previous, j, where(better, load(work.q, j), load(work.previous, j)))
@@ -354,7 +354,7 @@ def _refine(flat: FlatChain, goal: Goal, work: Work, kept: _Kept) -> int:
 
 @unmanaged
 def _newton_step(flat: FlatChain, goal: Goal, work: Work, kept: _Kept, least: float) -> None:
-    """One step of the lanes that are not at rounding; pivots below a share of the largest are left out of it."""
+    """Step the lanes that are not at rounding, ignoring pivots below a share of the largest."""
     A, share = kept.system, kept.residuals[DIRECTIONS * LANES :]
     e = linearise(flat, goal, work)
     for k in range(DIRECTIONS):
@@ -374,9 +374,9 @@ def _newton_step(flat: FlatChain, goal: Goal, work: Work, kept: _Kept, least: fl
 
 @unmanaged
 def _eliminate(A: Array, order: Indices, least: float) -> None:
-    """Solve six linear equations by full pivoting; the last column becomes the solution, no entry larger than 0.5.
+    """Solve six linear equations with full pivoting; the last column becomes the solution, scaled to entries ≤ 0.5.
 
-    What belongs to a pivot of no more than a least share of the largest is left alone.
+    Unknowns whose pivot is at most the share `least` of the largest become 0.
     """
     n = DIRECTIONS
     for j in range(n):
@@ -412,7 +412,7 @@ def _eliminate(A: Array, order: Indices, least: float) -> None:
 
 @unmanaged
 def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
-    """Turn each joint by full turns into its limits and as near to the seed as they allow; whether that can be."""
+    """Turn joints by full turns into their limits, as near to the seed as possible; return whether all fit."""
     inside = True
     for j in range(len(q)):
         lower, upper = limits[0, j], limits[1, j]
@@ -430,7 +430,7 @@ def _wound(flat: FlatChain, limits: Array, seed: Array, q: Array) -> bool:
 
 @unmanaged
 def _unmoved(flat: FlatChain, plan: Plan, found: Candidates, work: Work, row: int, lane: int) -> int:
-    """Of a candidate's free joints those that polishing has left alone: what had to move was not free; in its order."""
+    """Bits of a candidate's free joints, in solving order, without those that polishing has moved."""
     n = found.values.shape[1]
     free: int = found.free[row]
     for j in range(n):
@@ -443,7 +443,7 @@ def _unmoved(flat: FlatChain, plan: Plan, found: Candidates, work: Work, row: in
 
 @inlined
 def _mask(free: int, n: int, backwards: int) -> int:
-    """Bits of joints in solving order as bits of variables."""
+    """Convert bits of joints in solving order to bits of variables."""
     if not backwards:
         return free
     mask = 0
@@ -454,7 +454,7 @@ def _mask(free: int, n: int, backwards: int) -> int:
 
 @unmanaged
 def _insert(kept: _Kept, count: int, flat: FlatChain, seed: Array) -> int:
-    """Put the row behind the last among the solutions, nearest to the seed first, unless it stands there already."""
+    """Insert the spare row in the sorted solutions unless it is a duplicate; return their number."""
     own = kept.qs[MOST]
     distance = 0.0
     for j in range(len(seed)):
@@ -489,7 +489,7 @@ def _copy(kept: _Kept, source: int, place: int) -> None:
 
 @inlined
 def _without_near_misses(kept: _Kept, count: int) -> int:
-    """Where a target is met exactly, what is only within the tolerances is no branch; how many are left."""
+    """If a solution is exact, drop those that are only within the tolerances; return the number left."""
     least = np.inf
     for k in range(count):
         least = min(least, kept.errors[k])

@@ -1,4 +1,4 @@
-"""Every distinct solution of a target: starts spread over the joints, what they converge to sorted out."""
+"""All distinct solutions of a target by search: starts spread over joint space, duplicates removed."""
 
 import math
 from dataclasses import dataclass
@@ -17,24 +17,24 @@ from gelenk.model.compilation import compiled
 from gelenk.model.poses import Poses
 
 STARTS = 2048
-"""Starts of one target, half of them without regard to the limits: what they find may still be within."""
+"""Starts of one target; half of them ignore the limits, since their solutions may still be within."""
 
 _TIGHT = 1e-10
-"""Tolerances to which solutions are found, [m] and [rad]."""
+"""Tolerances of the search, [m] and [rad]."""
 _SAME = 1e-4
-"""Distance in every joint up to which two solutions are one, [rad or m]."""
+"""Distance in every joint up to which two solutions are the same, [rad or m]."""
 SPACING = 0.2
-"""The same where solutions form a continuum, of which a sample is given."""
+"""Spacing in some joint of the sample of a continuum of solutions, [rad or m]."""
 _NEIGHBOURS = 0.02
-"""Distance up to which two solutions are one if the middle between them is a solution too, [rad or m]."""
+"""Distance up to which two solutions are the same if the midpoint is a solution too, [rad or m]."""
 _MOST_DISTINCT = 256
-"""Solutions that are examined for whether they form a continuum."""
+"""Most solutions examined for a continuum."""
 _MOST_ISOLATED = 32
-"""More solutions than this form a continuum: a 6R arm has at most 16 that stand alone [Raghavan1993]."""
+"""More solutions than this form a continuum: a 6R arm has at most 16 isolated ones [Raghavan1993]."""
 _MOST_WINDINGS = 100_000
-"""Solutions with all their full turns that are examined."""
+"""Most combinations of solutions and full turns examined."""
 _ROUNDING = 1e-9
-"""How far beyond a limit counts as at it, [rad or m]."""
+"""Distance beyond a limit that still counts as at it, [rad or m]."""
 _TURN = 2.0 * np.pi
 SEARCHED = "these are the results of a search from many starts; there may be others"
 TRUNCATED = "this is the requested number; there are others"
@@ -45,8 +45,8 @@ class Branches:
     """Solutions of one target, nearest to the seed first.
 
     Attributes:
-        qs: Shape (k, n), [rad or m].
-        doubt: Why these may not be all: a search never proves that they are.
+        qs: Solutions; shape (k, n), [rad or m].
+        doubt: Why these may not be all; a search never proves that they are.
     """
 
     qs: Array
@@ -65,19 +65,19 @@ def all_branches(
     most: int,
     windings: bool,
 ) -> Branches:
-    """Every distinct solution, modulo full turns unless `windings` are wanted.
+    """Search for all distinct solutions, modulo full turns unless `windings` is set.
 
-    A redundant arm, and any arm at a singularity where a joint turns for nothing, has infinitely many: then the answer
-    is a sample of them, no two nearer than 0.2 rad or m in every joint, picked from the nearest to the seed outwards.
+    A redundant arm, or an arm at a singularity where a joint moves without effect, has infinitely many. The result is
+    then a sample, no two within 0.2 rad or m in every joint, chosen from the nearest to the seed outwards.
 
     Args:
         chain: Base and tip.
         row: The target: rotation row by row, then position; shape (12,).
-        seed: What distances are measured from; shape (n,).
+        seed: Configuration from which distances are measured; shape (n,), [rad or m].
         task: Which directions count.
         tolerances: Of position [m] and orientation [rad].
-        respect_limits: Whether solutions are to be within the limits.
-        random_seed: Of the starts.
+        respect_limits: Whether solutions must be within the joint limits.
+        random_seed: Seed of the random starts.
         most: Largest number of solutions.
         windings: Whether solutions that differ by full turns count as different, where limits allow them.
     """
@@ -92,7 +92,7 @@ def all_branches(
         continuum = True
     if continuum:
         candidates = sorted_by_distance(candidates, seed)
-        # Of infinitely many the nearest is none of those found, but close to the first.
+        # Of infinitely many solutions the nearest is not among those found, but close to the first.
         objective = Objective("posture", seed)
         nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
         candidates = np.concatenate((nearest, candidates))
@@ -104,7 +104,7 @@ def all_branches(
 
 
 def _without_doubles(chain: Chain, target: Poses, qs: Array, task: Task, tolerances: tuple[float, float]) -> Array:
-    """One of two neighbours between which everything is a solution too: there two solutions meet in a singularity."""
+    """Drop solutions whose midpoint to an earlier one is a solution too, as at a singularity; shape (k, n)."""
     kept: list[int] = []
     free = free_variables(chain)
     for i in range(len(qs)):
@@ -128,11 +128,11 @@ def _converged(
     respect_limits: bool,
     random_seed: int,
 ) -> Array:
-    """Where starts converge, within the limits and as near to the seed as full turns allow; shape (k, n)."""
+    """Converged starts, within the limits and as near to the seed as full turns allow; shape (k, n)."""
     found = []
     ways = (True, False) if respect_limits else (False,)
     for limited in ways:
-        # Rounding apart, so that a double solution does not come as two; if it is beyond that, as near as asked for.
+        # Search to rounding, so that a double solution is found once; if that fails, to the given tolerances.
         for tolerance in ((_TIGHT, _TIGHT), tolerances):
             goal = make_goal(
                 chain,
@@ -158,20 +158,20 @@ def _converged(
 
 
 def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:
-    """Configurations with their free variables turned by full turns into the limits, as near to the seed as they allow.
+    """Turn free variables by full turns into the limits, as near to the seed as possible; shape (N, n).
 
-    What has no place within the limits is left as near to them as full turns bring it; what rounding has carried over
-    a limit is put back on it.
+    A variable that fits nowhere within its limits ends as near to them as full turns bring it; one that rounding has
+    carried over a limit is put back on it.
     """
     wound = qs.copy()
     for j in np.flatnonzero(free_variables(chain)):
-        # Whole turns are counted first and added once: going there and back would round.
+        # Count full turns first and add them once: adding and subtracting would round.
         turns = np.rint((seed[j] - qs[:, j]) / _TURN)
         if np.isfinite(upper[j]):
             turns -= np.maximum(0.0, np.ceil((qs[:, j] + _TURN * turns - upper[j] - _ROUNDING) / _TURN))
         if np.isfinite(lower[j]):
             raised = turns + np.maximum(0.0, np.ceil((lower[j] - qs[:, j] - _TURN * turns - _ROUNDING) / _TURN))
-            # Where neither is within, the nearer of the two.
+            # If neither is within, take the nearer of the two.
             above, below = qs[:, j] + _TURN * raised - upper[j], lower[j] - qs[:, j] - _TURN * turns
             turns = np.where((above > _ROUNDING) & (above > below), turns, raised)
         wound[:, j] = np.where(turns == 0.0, qs[:, j], qs[:, j] + _TURN * turns)
@@ -180,22 +180,22 @@ def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array)
 
 
 def sorted_by_distance(qs: Array, seed: Array) -> Array:
-    """Configurations, nearest to the seed first; shape (N, n)."""
+    """Sort configurations by their distance to the seed, the nearest first; shape (N, n)."""
     return qs[np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")]
 
 
 @compiled
 def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
-    """Pick rows in order, each further than `spacing` in some variable from all before it; at most so many.
+    """Select rows in order that differ from all selected before by more than `spacing` in some variable.
 
     Args:
         qs: Configurations; shape (N, n).
         free: Which variables count modulo full turns; shape (n,).
-        spacing: [rad or m].
-        most: Bound on the number.
+        spacing: Least difference, [rad or m].
+        most: Largest number of rows.
 
     Returns:
-        Their indices; shape (k,).
+        Indices of the selected rows; shape (k,).
     """
     chosen = np.empty(min(most, len(qs)), np.int64)
     count = 0
@@ -222,20 +222,20 @@ def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
 def wound(
     chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool
 ) -> tuple[Array, Indices, bool]:
-    """Each solution in all the full turns that the limits allow, nearest to the seed first.
+    """Expand each solution to all combinations of full turns that the limits allow, nearest to the seed first.
 
-    A joint without limits keeps the turn nearest to the seed.
+    A joint without limits keeps its value.
 
     Args:
         chain: The chain.
-        qs: The solutions; shape (k, n).
-        seed: What distances are measured from; shape (n,).
-        most: Largest number of them.
-        complete: Whether these are all.
+        qs: Solutions; shape (k, n), [rad or m].
+        seed: Configuration from which distances are measured; shape (n,), [rad or m].
+        most: Largest number of configurations returned.
+        complete: Whether `qs` contains all solutions modulo full turns.
         respect_limits: Whether the limits count; without them nothing is turned.
 
     Returns:
-        Configurations, shape (m, n); the solution that each is a turn of, shape (m,); and whether they are all.
+        Configurations, shape (m, n); the index in `qs` of each, shape (m,); and whether these are all solutions.
     """
     free = free_variables(chain)
     results: list[tuple[float, ...]] = []
@@ -256,7 +256,7 @@ def wound(
 
 
 def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
-    """The numbers of full turns by which a variable may be moved within its limits."""
+    """Range of the full turns by which a variable can move within its limits."""
     lower, upper = chain.lower[j], chain.upper[j]
     if not (turning and np.isfinite(lower) and np.isfinite(upper)):
         return range(1)

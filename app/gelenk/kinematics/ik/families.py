@@ -1,6 +1,6 @@
-"""Families: where infinitely many solutions meet a target, which joints move among them and how they are tied.
+"""Families of infinitely many solutions of a target: the joints that move, and the relations between them.
 
-A singular Jacobian is no proof of a family: from there the arm may not be able to go on. So each family is walked, step
+A singular Jacobian does not prove a family: the arm may be unable to move on from there. So each family is walked step
 by step on the target, and only what the walk has shown is reported.
 """
 
@@ -22,31 +22,31 @@ MOST_FAMILIES = 32
 """Most families reported for a target: an arm of six joints has at most 16 branches [Raghavan1993]."""
 
 _SINGULAR, _USELESS = 1e-6, 1e-8
-"""Shares of σ_max below which a direction counts as lost, and below which a correction leaves it alone."""
+"""Shares of σ_max below which a direction counts as lost, and below which a correction ignores it."""
 _STEPS = (0.2, 0.05, 0.0125, 0.003)
-"""Steps that are tried in turn, of the joint that moves most, [rad or m]."""
+"""Step sizes tried in turn, for the joint that moves most, [rad or m]."""
 _DRIFT, _OFF_TARGET = 1e-8, 5e-10
-"""How far off the target a step may lead, for each rad or m of it and at most, [m, rad]."""
+"""Largest error after a step, per rad or m of the step and in total, [m, rad]."""
 _ROUNDING, _CORRECTIONS = 1e-12, 8
 _MOST_STEPS = 200
-"""In each direction, where a walk comes neither back nor to a limit."""
+"""Most steps in each direction, if a walk neither closes nor reaches a limit."""
 _EXPLORED = 4
-"""Steps in each of several directions, where there is more than one to go."""
+"""Steps in each direction of a family of more than one dimension."""
 _MOVES = 1e-3
-"""By how much a joint of a family moves at least, [rad or m]."""
+"""Least motion of a joint that counts as moving, [rad or m]."""
 _LARGEST, _TIED = 4.0, 1e-6
-"""Of sums of joints that stay: the largest factor, and how nearly they do, [rad or m]."""
+"""Largest factor in a constant sum of joints, and its largest variation, [rad or m]."""
 _TURN = 2.0 * np.pi
 
 
 @dataclass(frozen=True, slots=True)
 class _Motion:
-    """A walk along a family.
+    """A walk along a family of solutions.
 
     Attributes:
         path: Configurations; shape (k, n), [rad or m].
         moving: Which joints move; shape (n,).
-        ties: Factors of the sums of moving joints that stay; shape (r, n).
+        ties: Factors of the sums of moving joints that stay constant; shape (r, n).
     """
 
     path: Array
@@ -54,7 +54,7 @@ class _Motion:
     ties: Array
 
     def has(self, chain: Chain, q: Array) -> bool:
-        """Whether a configuration has the other joints, and the sums, where the walk has them."""
+        """Check whether a configuration has the same unmoved joints and constant sums as the walk."""
         kept = np.concatenate((np.eye(len(q))[~self.moving], self.ties))
         apart = kept @ (q - self.path[0])
         whole_turns = np.abs(kept) @ ~free_variables(chain) == 0.0
@@ -63,13 +63,13 @@ class _Motion:
 
 
 def families_of(question: Question, i: int, qs: Array, most: int, deadline: float | None) -> tuple[Family, ...]:
-    """The families to which solutions of a target belong, those of the first solutions first.
+    """Find the families to which solutions of a target belong, in the order of the solutions.
 
     Args:
-        question: The targets.
-        i: Which of them.
+        question: The problem.
+        i: Index of the target.
         qs: Its solutions; shape (k, n), [rad or m].
-        most: Largest number of configurations in all sweeps together.
+        most: Largest number of sample configurations of all families together.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
     """
     own = question.taken(np.array([i]))
@@ -87,7 +87,7 @@ def families_of(question: Question, i: int, qs: Array, most: int, deadline: floa
 
 
 def _family(chain: Chain, motion: _Motion, most: int) -> Family:
-    """A walk in words, and at most so many configurations of it."""
+    """Describe a walk in words, with at most `most` sample configurations."""
     whole, path = widened(chain, motion.path)
     names = [quoted(name) for name in chain.joint_names]
     symbols = [f"q_{whole.joint_names.index(name) + 1}" for name in chain.joint_names]
@@ -106,7 +106,7 @@ def _family(chain: Chain, motion: _Motion, most: int) -> Family:
 
 
 def _sum(factors: Array, names: list[str]) -> str:
-    """`q_4 + q_6`, `q_2 - 2 q_3`."""
+    """Format a sum, such as `q_4 + q_6` or `q_2 - 2 q_3`."""
     terms = [
         f"{'-' if factor < 0 else '+'} {'' if abs(factor) == 1 else f'{abs(factor)} '}{name}"
         for factor, name in zip(factors.astype(int).tolist(), names, strict=True)
@@ -116,7 +116,7 @@ def _sum(factors: Array, names: list[str]) -> str:
 
 
 def _motion(question: Question, q: Array) -> _Motion | None:
-    """The motion on the target from a solution, where there is one."""
+    """Return the motion from a solution along the target, or None if there is no motion."""
     q, kernel, _ = _corrected(question, q)
     for direction in kernel:
         ahead, is_loop = _walk(question, q, direction, _MOST_STEPS)
@@ -127,7 +127,7 @@ def _motion(question: Question, q: Array) -> _Motion | None:
     else:
         return None
     ways = path
-    # Where the walk began families may cross; further on it is in one alone, of as many directions as the kernel has.
+    # Families may cross where the walk began; further on it is in only one, whose dimension is that of the kernel.
     on, kernel, _ = _corrected(question, path[len(path) // 4])
     if len(kernel) > 1:
         directions = [sign * direction for direction in (*kernel, kernel.sum(axis=0)) for sign in (1.0, -1.0)]
@@ -141,10 +141,10 @@ def _motion(question: Question, q: Array) -> _Motion | None:
 
 
 def _corrected(question: Question, q: Array) -> tuple[Array, Array, float]:
-    """A configuration brought onto the target by Newton's steps of least length.
+    """Bring a configuration onto the target by Newton steps of least length.
 
     Returns:
-        It, shape (n,); orthonormal motions that leave the target met there to first order, shape (k, n); the error.
+        The configuration, shape (n,); an orthonormal basis of the kernel of J there, shape (k, n); the error.
     """
     for k in range(_CORRECTIONS + 1):
         es, Js = linearise(question.chain, question.targets, q[None], question.task)
@@ -158,7 +158,7 @@ def _corrected(question: Question, q: Array) -> tuple[Array, Array, float]:
 
 
 def _walk(question: Question, start: Array, direction: Array, most: int) -> tuple[Array, bool]:
-    """Configurations on the target from one onwards, until a limit or nothing comes next, and whether back to it."""
+    """Walk on the target from a start until a limit or dead end; return the path, and whether it closed."""
     lower, upper = limits_of(question.chain, question.respect_limits)
     free = free_variables(question.chain)
     path = [start]
@@ -180,7 +180,7 @@ def _walk(question: Question, start: Array, direction: Array, most: int) -> tupl
 
 
 def _ties(ways: Array, moving: Flags) -> Array:
-    """Factors, whole numbers, of the sums of moving joints that stay along all ways; shape (r, n)."""
+    """Integer factors of the sums of moving joints that stay constant on all paths; shape (r, n)."""
     joints = np.flatnonzero(moving)
     _, sizes, Vt = np.linalg.svd(ways[:, joints])
     rest = _reduced(Vt[int((sizes > _TIED * sizes[0]).sum()) :])
@@ -193,7 +193,7 @@ def _ties(ways: Array, moving: Flags) -> Array:
 
 
 def _reduced(rows: Array) -> Array:
-    """Rows of the same span in reduced echelon form."""
+    """Reduced row echelon form of a matrix of full row rank."""
     rows, column = rows.copy(), 0
     for k in range(len(rows)):
         while np.abs(rows[k:, column]).max() < _TIED:

@@ -1,7 +1,7 @@
-"""One iteration of damped least squares, eight configurations at a time: errors, columns, step.
+"""One iteration of damped least squares, eight configurations at a time: error, Jacobian, step.
 
-The step is Δq = Jᵀ(JJᵀ + λI)⁻¹e. A variable at its bound that the descent pushes outwards is left out of it.
-Orientation errors are 2 sin(θ/2) times the axis, which has no false zero at 180°.
+The step is Δq = Jᵀ(JJᵀ + λI)⁻¹e, without variables at a bound that it would push outwards. Orientation errors are
+2 sin(θ/2) times the axis, which has no false zero at 180°.
 """
 
 import math
@@ -28,40 +28,40 @@ from gelenk.model.chain import FlatChain
 from gelenk.model.compilation import compiled, inlined
 
 Error: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
-"""Errors in registers, linear before angular."""
+"""Pose error in registers, linear before angular."""
 
 _Symmetric: TypeAlias = tuple[
     Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes,
     Lanes, Lanes, Lanes, Lanes, Lanes,
 ]  # fmt: skip
-"""A symmetric matrix in registers, lower triangle row by row."""
+"""Symmetric 6 × 6 matrix in registers, lower triangle row by row."""
 
 FULL, AXIS, SOME = 0, 1, 2
-"""The requested part of a pose: all of it; position and one axis's direction; another choice."""
+"""Requested part of a pose: all of it; position and the direction of one axis; another choice."""
 
 ERROR, BEST, SINCE, COUNT, REACHED, FIRST, STATE_ROWS = 12, 13, 14, 15, 16, 17, 18
-"""Rows of a state: the target takes the first twelve."""
+"""Row indices of `Work.state`, whose first twelve rows hold the target."""
 
 KEPT = 64
-"""Failed starts that are remembered, a multiple of the lanes."""
+"""Number of failed starts remembered, a multiple of the lanes."""
 
 
 class Goal(NamedTuple):
-    """The target of a search, and its bounds.
+    """The task, tolerances and bounds of a search.
 
     Attributes:
-        bounds: Lower and upper bound of each variable, infinite where it turns freely; the interval from which starts
-            are drawn; and the limits of those that turn freely, NaN for others; shape (6, n), [rad or m].
+        bounds: Rows 0 and 1, bounds of each variable, infinite if it turns freely; 2 and 3, the interval from which
+            starts are drawn; 4 and 5, limits of freely turning variables, else NaN; shape (6, n), [rad or m].
         weights: 1 for each direction that counts, else 0: x y z in the base's axes, rx ry rz about the target's;
             shape (6,).
         kind: `FULL`, `AXIS` or `SOME`.
-        axis: With `AXIS`, which axis of the tip is to point as the target's does.
-        position_tolerance: [m].
-        chord_tolerance: Of 2 sin(θ/2), θ the angle of the orientation's error, or of its components that count.
-        slack: Share of the tolerances that errors are made smaller by: 0 drives them to zero, which is best, and 0.9
-            uses what loose tolerances allow.
-        starts: How many starts a target gets.
-        random_seed: Of the starts.
+        axis: For `AXIS`, index of the tip's axis to align with the target's.
+        position_tolerance: Largest position error, [m].
+        chord_tolerance: Largest 2 sin(θ/2), θ being the angle of the orientation error, or of its parts that count.
+        slack: Share of the tolerances subtracted from the errors: 0, the best, drives errors to zero; 0.9 makes use
+            of loose tolerances.
+        starts: Number of starts of each target.
+        random_seed: Seed of the random starts.
     """
 
     bounds: Array
@@ -76,19 +76,19 @@ class Goal(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Rows of lanes: what a search remembers of each lane, and room for one iteration.
+    """Memory of a search, in rows of lanes: the state of each lane, and space for one iteration.
 
     Attributes:
         state: Target, errors and counts of each lane.
-        q: The configuration of each lane.
-        previous: Where it stood when it was last judged.
-        columns: The Jacobian by joints.
-        J: The Jacobian by variables.
-        candidates: The nearest configurations among those that failed starts came to, one after the other.
-        errors: How near those are, squared, infinite where there is none; shape (KEPT,).
-        starts: Which start each lane is at; shape (LANES,).
-        owners: Which target each lane is at; shape (LANES,).
-        coupled: Whether the columns by variables are others than those by joints.
+        q: Configuration of each lane.
+        previous: Configuration of each lane when it was last judged.
+        columns: Jacobian with one column per joint.
+        J: Jacobian with one column per variable.
+        candidates: The nearest configurations that failed starts reached, one after another.
+        errors: Squared errors of the candidates, infinite in empty places; shape (KEPT,).
+        starts: Number of each lane's current start; shape (LANES,).
+        owners: Index of each lane's current target; shape (LANES,).
+        coupled: Whether the columns by variable differ from those by joint.
     """
 
     state: Array
@@ -105,7 +105,7 @@ class Work(NamedTuple):
 
 @compiled
 def workspace(flat: FlatChain, n: int) -> Work:
-    """Room for a chain of n variables."""
+    """Allocate the memory of a search for a chain of n variables."""
     joints = len(flat.joints)
     coupled = joints != n
     for i in range(joints):
@@ -132,9 +132,9 @@ def workspace(flat: FlatChain, n: int) -> Work:
 
 @inlined
 def linearise(flat: FlatChain, goal: Goal, work: Work, as_angles: bool = False) -> Error:
-    """The error of every lane, and its Jacobian in `J`; components that do not count are zero in both.
+    """Return the error of every lane and put its Jacobian into `J`; components that do not count are zero in both.
 
-    `as_angles`: whether a rotation counts its angle θ instead of 2 sin(θ/2), in a time of its own.
+    `as_angles` scales rotation errors from length 2 sin(θ/2) to length θ, at extra cost.
     """
     columns = work.J
     if work.coupled:
@@ -164,7 +164,7 @@ def linearise(flat: FlatChain, goal: Goal, work: Work, as_angles: bool = False) 
 
 @inlined
 def _with_angles(work: Work, w: tuple[Lanes, Lanes, Lanes]) -> tuple[Lanes, Lanes, Lanes]:
-    """Vectors that are 2 sin(θ/2) long, made θ long."""
+    """Scale vectors of length 2 sin(θ/2) to length θ."""
     store(work.state, ERROR, 0.25 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]))
     for k in range(ERROR * LANES, (ERROR + 1) * LANES):
         sine = math.sqrt(min(work.state[k], 1.0))
@@ -175,7 +175,7 @@ def _with_angles(work: Work, w: tuple[Lanes, Lanes, Lanes]) -> tuple[Lanes, Lane
 
 @inlined
 def _in_target(state: Array, w0: Lanes, w1: Lanes, w2: Lanes) -> tuple[Lanes, Lanes, Lanes]:
-    """A vector of the base expressed in the target's axes."""
+    """Express a vector of the base in the target's axes."""
     return (
         load(state, 0) * w0 + load(state, 3) * w1 + load(state, 6) * w2,
         load(state, 1) * w0 + load(state, 4) * w1 + load(state, 7) * w2,
@@ -187,8 +187,8 @@ def _in_target(state: Array, w0: Lanes, w1: Lanes, w2: Lanes) -> tuple[Lanes, La
 def _turn(state: Array, frame: Frame) -> tuple[Lanes, Lanes, Lanes]:
     """2 sin(θ/2) times the axis of the rotation from the tip to the target, in the base.
 
-    The skew part of R = R_target R_tipᵀ is sin θ times the axis. Near 180° it vanishes, and the axis is read from a
-    column of the symmetric part instead, I cos θ + (1 - cos θ) a aᵀ.
+    The skew part of R = R_target R_tipᵀ is sin θ times the axis. It vanishes near 180°, where a column of the
+    symmetric part, I cos θ + (1 - cos θ) a aᵀ, gives the axis instead.
     """
     t = (
         load(state, 0), load(state, 1), load(state, 2), load(state, 3), load(state, 4), load(state, 5),
@@ -224,7 +224,7 @@ def _turn(state: Array, frame: Frame) -> tuple[Lanes, Lanes, Lanes]:
 
 @inlined
 def _swing(state: Array, frame: Frame, axis: int) -> tuple[Lanes, Lanes, Lanes]:
-    """2 sin(θ/2) times the axis of the shortest rotation of one axis of the tip onto the target's, in the base."""
+    """2 sin(θ/2) times the axis of the shortest rotation from an axis of the tip to the target's, in the base."""
     t0, t1, t2 = load(state, axis), load(state, axis + 3), load(state, axis + 6)
     a0, a1, a2 = frame[axis], frame[axis + 3], frame[axis + 6]
     cosine_squared = 0.5 * (1.0 + a0 * t0 + a1 * t1 + a2 * t2)
@@ -232,7 +232,7 @@ def _swing(state: Array, frame: Frame, axis: int) -> tuple[Lanes, Lanes, Lanes]:
     w0, w1, w2 = scale * (a1 * t2 - a2 * t1), scale * (a2 * t0 - a0 * t2), scale * (a0 * t1 - a1 * t0)
     reversed_ = cosine_squared < 1e-4
     if bits(reversed_):
-        # Any axis square to it will do; the tip's next one is.
+        # Any perpendicular axis will do: take the tip's next one.
         other = (axis + 1) % 3
         w0 = where(reversed_, 2.0 * frame[other], w0)
         w1 = where(reversed_, 2.0 * frame[other + 3], w1)
@@ -242,9 +242,9 @@ def _swing(state: Array, frame: Frame, axis: int) -> tuple[Lanes, Lanes, Lanes]:
 
 @inlined
 def descend(goal: Goal, work: Work, e: Error, damping: Lanes, keep: Lanes, most: float) -> None:
-    """Step q by Jᵀ(JJᵀ + λI)⁻¹e within the bounds and let `previous` be q; where `keep` is 0, take `previous` back.
+    """Save q in `previous` and step q by Jᵀ(JJᵀ + λI)⁻¹e within the bounds; where `keep` is 0, restore `previous`.
 
-    No joint steps further than `most`.
+    No joint moves further than `most` [rad or m].
     """
     J, n = work.J, len(work.J) // (6 * LANES)
     x0, x1, x2, x3, x4, x5 = _solve(_normal_matrix(goal, work, e, damping), e)
@@ -266,7 +266,7 @@ def descend(goal: Goal, work: Work, e: Error, damping: Lanes, keep: Lanes, most:
 
 @inlined
 def _normal_matrix(goal: Goal, work: Work, e: Error, damping: Lanes) -> _Symmetric:
-    """JJᵀ + λI, lower triangle row by row; in `J` the column of each variable that is blocked becomes zero."""
+    """Return JJᵀ + λI, lower triangle row by row, after setting the columns of blocked variables in `J` to zero."""
     J, bounds = work.J, goal.bounds
     n = len(J) // (6 * LANES)
     e0, e1, e2, e3, e4, e5 = e
@@ -335,13 +335,13 @@ def _solve(a: _Symmetric, e: Error) -> Error:
 
 @inlined
 def set_target(work: Work, lane: int, target: Array) -> None:
-    """Give a lane its target."""
+    """Set the target of a lane: rotation row by row, then position; shape (12,)."""
     for k in range(12):
         work.state[k * LANES + lane] = target[k]
 
 
 @inlined
 def read_lane(rows: Array, lane: int, q: Array) -> None:
-    """A lane of rows as a configuration."""
+    """Copy the configuration of a lane into q; shape (n,)."""
     for j in range(len(q)):
         q[j] = rows[j * LANES + lane]

@@ -1,10 +1,10 @@
 """Damped least squares, eight starts or eight targets at a time.
 
-A *start* is a configuration from which the error is driven down: start 0 is the seed, the others are drawn from the
-random seed and their number alone. The answer to a target is the one of its first start that converges, whichever
-lane or thread came to it first; so it does not depend on what else is in the batch.
+A *start* is an initial configuration: start 0 is the seed, the others depend only on the random seed and their number.
+The answer to a target is that of its lowest-numbered start that converges, whichever lane or thread finishes first, so
+it does not depend on the rest of the batch.
 
-The damping λ is in proportion to ‖e‖² [Sugihara2011], and no step is longer than 1 rad or m in any joint.
+The damping λ is proportional to ‖e‖² [Sugihara2011], and no step is longer than 1 rad or m in any joint.
 """
 
 from typing import Any
@@ -34,63 +34,62 @@ from gelenk.model.chain import FlatChain
 from gelenk.model.compilation import compiled, inlined, unmanaged
 
 _STAGNATION = 6
-"""Iterations without halving the squared error after which a start is given up."""
+"""Iterations without halving of the squared error after which a start is given up."""
 LONGEST = 40
-"""Iterations after which it is given up in any case."""
+"""Iterations after which a start is given up in any case."""
 DAMPING, FLOOR = 0.05, 1e-10
-"""λ as a share of the squared error, and what is added to it."""
+"""λ as a share of the squared error, and its lower bound, which is added."""
 APPROACHES = 200
-"""Iterations spent on following a path closely."""
+"""Iterations spent on following the path from a seed closely."""
 _APART = 0.2
-"""How far apart what failed starts came to must be for both to be kept, [rad or m]."""
+"""Distance beyond which the configurations of two failed starts are both kept, [rad or m]."""
 _FINALISTS = 2 * LANES
-"""How many of what is kept are driven to the bottom."""
+"""Number of kept configurations that are driven to a minimum of the error."""
 _SCREENING, _POLISHING, _IDLE = 40, 1600, 60
-"""Iterations spent on each of what is kept, at most on the best of them, and without one's squared
-error falling by a billionth, of what is above 1 m² by 1e-9 m²."""
+"""Iterations for all kept configurations, for the finalists, and without progress before stopping. Progress means
+that a squared error falls by a share of 1e-9, or by 1e-9 m² if it is above 1 m²."""
 CLOSE = 0.01
-"""Share of the tolerances that is good enough; above it a start within them takes one step more."""
+"""Share of the tolerances above which a start within them takes one more step."""
 _ROUNDING = 1e-10
-"""How far beyond a limit counts as at it, [rad]."""
+"""Distance beyond a limit that still counts as at it, [rad]."""
 LONGEST_STEP, CAREFUL_STEP = 1.0, 0.05
-"""Largest step of a joint, and where a path is followed closely, [rad or m]."""
+"""Largest step of a joint in general, and in following a path closely, [rad or m]."""
 _NEAR, _JUMP, _STRETCH = 0.3, 0.2, 4.0
-"""A seed with no larger error is near its target: an answer that is further from it than a jump, and than so many
-times that error, has left its branch."""
+"""A seed with an error below `_NEAR` is near its target. An answer further from it than `_JUMP`, and than `_STRETCH`
+times that error, has left the seed's branch."""
 
 _POSITION, _ORIENTATION, _START_DAMPING = SINCE, COUNT, SINCE
-"""What three of them hold while candidates are improved: squared errors, and before that the damping to begin with."""
+"""State rows reused by `_improve` for squared errors, and before that for the initial damping."""
 
 
 def search(
     flat: FlatChain, goal: Goal, targets: Array, seeds: Array, *, all_or_none: bool = False
 ) -> tuple[Array, Indices, Indices, Indices]:
-    """Solve each target by the first of its starts that converges.
+    """Solve each target by its first start that converges.
 
     Args:
         flat: The chain.
-        goal: What counts.
+        goal: Task, tolerances and bounds.
         targets: Rotation row by row, then position; shape (N, 12).
-        seeds: One configuration for all, or one each; shape (1 or N, n).
-        all_or_none: Whether to give up at the first target that is not solved, without a look for what is nearest.
+        seeds: One configuration for all targets or one each; shape (1 or N, n).
+        all_or_none: Whether to give up at the first unsolved target, without a search for the nearest configuration.
 
     Returns:
-        Configurations, of an unsolved target the nearest that was found, shape (N, n); the start that converged or
-        -1, shape (N,); its iterations, shape (N,); and where the seed had to be followed closely, by how many powers
-        of ten the damping began below 1, else -1, shape (N,).
+        Solutions, or the nearest configurations found, shape (N, n); the start that converged or -1, shape (N,); its
+        iterations, shape (N,); and k if the seed was followed closely with initial damping 10⁻ᵏ, else -1, shape (N,).
     """
-    # To hand over a tuple costs a compiled function much more than its parts.
+    # Passing a tuple to a compiled function costs much more than passing its parts.
     arguments: tuple[Any, ...] = (*flat, *goal, targets, seeds, all_or_none)
     qs, outcomes = _search(*arguments)
     return qs, outcomes[0], outcomes[1], outcomes[2]
 
 
 def gather(flat: FlatChain, goal: Goal, target: Array, seed: Array) -> Array:
-    """The configurations to which the starts of one target converge, in that order; shape (k, n).
+    """Return the configurations to which starts of one target converge, in order of convergence; shape (k, n).
 
     Args:
         flat: The chain.
-        goal: What counts.
+        goal: Task, tolerances and bounds.
         target: Rotation row by row, then position; shape (12,).
         seed: The first start; shape (n,).
     """
@@ -162,7 +161,7 @@ def _search_all(
     qs: Array,
     outcomes: Indices,
 ) -> None:
-    """A sweep over many targets, then a race for each that it leaves."""
+    """Sweep over the targets if there are many, then run a race for each unsolved one."""
     outcomes[:] = -1
     if len(targets) >= 2 * LANES:
         _sweep(flat, goal, targets, seeds, work, qs, outcomes[0], outcomes[1])
@@ -178,7 +177,7 @@ def _search_all(
 
 @unmanaged
 def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: Work, found: Array) -> int:
-    """Fill `found` and say how many there are."""
+    """Fill `found` with the configurations of `gather` and return their number."""
     count = 0
     starts = work.starts
     for lane in range(LANES):
@@ -205,7 +204,7 @@ def _gather_all(flat: FlatChain, goal: Goal, target: Array, seed: Array, work: W
 def _sweep(
     flat: FlatChain, goal: Goal, targets: Array, seeds: Array, work: Work, qs: Array, winners: Indices, its: Indices
 ) -> None:
-    """A target a lane, at most `LANES` starts each; what is not solved then, or not near, is left to a race."""
+    """Solve one target per lane from at most `LANES` starts; leave unsolved targets and jumps to a race."""
     most = min(goal.starts, LANES)
     count = len(targets)
     owners, starts = work.owners, work.starts
@@ -249,10 +248,10 @@ def _sweep(
 def _race(
     flat: FlatChain, goal: Goal, target: Array, seed: Array, approach: bool, work: Work, q: Array
 ) -> tuple[int, int, int]:
-    """A start a lane: the one of the lowest number that converges; or -1, and `q` the nearest where that is wanted.
+    """Run one start per lane; put the solution of the lowest-numbered one, or if `approach` the nearest, into `q`.
 
     Returns:
-        That start, its iterations, and how the seed was followed, as `search` tells it.
+        That start or -1, its iterations, and how the seed was followed, see `search`.
     """
     starts = work.starts
     work.errors[:] = np.inf
@@ -264,7 +263,7 @@ def _race(
     while starts[leader] < winner:
         ended, e, damping = _judge(flat, goal, work)
         if _has(ended, leader + LANES):
-            # None of the others can come before it.
+            # No other start has a lower number.
             winner, iterations = starts[leader], int(work.state[COUNT * LANES + leader])
             read_lane(work.q, leader, q)
             break
@@ -299,7 +298,7 @@ def _race(
 
 @unmanaged
 def _remember(work: Work, lane: int, n: int) -> None:
-    """Keep where a failed start came to, if it is among the nearest; of those close together one, to look wide."""
+    """Keep the end of a failed start if it is among the nearest; of ends close together keep only one."""
     error, place = work.state[ERROR * LANES + lane], 0
     for k in range(KEPT):
         if work.errors[k] > work.errors[place]:
@@ -322,7 +321,7 @@ def _remember(work: Work, lane: int, n: int) -> None:
 
 @unmanaged
 def _approach(flat: FlatChain, goal: Goal, work: Work, q: Array) -> None:
-    """Drive what the failed starts came to downhill, and the best of that to the bottom; `q` becomes the nearest."""
+    """Drive the kept configurations downhill, then the best of them to a minimum; put the nearest into `q`."""
     n, nearest = len(q), 0
     for first in range(0, KEPT, LANES):
         if work.errors[first] < np.inf:
@@ -348,9 +347,9 @@ def _approach(flat: FlatChain, goal: Goal, work: Work, q: Array) -> None:
 
 @unmanaged
 def _approach_from(flat: FlatChain, goal: Goal, work: Work, first: int, n: int, rounds: int) -> None:
-    """Drive eight of the candidates downhill, one a lane."""
+    """Drive eight of the candidates downhill, one per lane."""
     for lane in range(LANES):
-        # Where fewer starts than lanes have failed, some take the same.
+        # If fewer starts than lanes have failed, some lanes share a candidate.
         k = first + lane if work.errors[first + lane] < np.inf else first
         for j in range(n):
             work.q[j * LANES + lane] = work.previous[j * LANES + lane] = work.candidates[k * n + j]
@@ -364,11 +363,11 @@ def _approach_from(flat: FlatChain, goal: Goal, work: Work, first: int, n: int, 
 
 @unmanaged
 def _follow(flat: FlatChain, goal: Goal, seed: Array, work: Work, q: Array) -> tuple[int, int]:
-    """Go from the seed by small steps, each lane with a damping of its own; `q` becomes what is nearer to the seed.
+    """Follow the path from the seed in small steps; if a solution nearer to the seed is found, put it into `q`.
 
     Returns:
-        The lane that came nearest, which is the power of ten below 1 at which its damping began, and how many
-        iterations took it within the tolerances; -1 and 0 if none came nearer.
+        The lane k that found it, with initial damping 10⁻ᵏ, and its iterations until it was within the tolerances; -1
+        and 0 if none did.
     """
     for lane in range(LANES):
         _set_start(goal, work, lane, seed, 0)
@@ -395,11 +394,11 @@ def _follow(flat: FlatChain, goal: Goal, seed: Array, work: Work, q: Array) -> t
 def _improve(
     flat: FlatChain, goal: Goal, work: Work, damping: Lanes, most: float, rounds: int, as_angles: bool
 ) -> None:
-    """Levenberg-Marquardt with a damping of its own for each lane, never to the worse [Marquardt1963].
+    """Run Levenberg-Marquardt with a separate damping for each lane [Marquardt1963].
 
-    A step that makes it worse is taken back and damped ten times more, any other halves the damping twice. In the end
-    `previous` is where each lane stands; `BEST`, `_POSITION` and `_ORIENTATION` hold its squared errors, `REACHED`
-    the iteration that came within the tolerances, or 0.
+    A step that raises the error is undone and the damping multiplied by ten; any other divides it by four. At the end
+    `previous` holds the best configurations, `BEST`, `_POSITION` and `_ORIENTATION` their squared errors, and
+    `REACHED` the iteration that came within the tolerances, or 0.
     """
     least, idle = lanes(np.inf), 0
     for round_ in range(rounds):
@@ -424,7 +423,7 @@ def _improve(
 
 @inlined
 def _has_jumped(work: Work, lane: int, seed: Array, q: Array) -> bool:
-    """Whether an answer is far from a seed that was near its target."""
+    """Check whether an answer is far from a seed that was near its target."""
     first = np.sqrt(work.state[FIRST * LANES + lane])
     jumped: bool = first < _NEAR and _largest_difference(q, seed) > max(_JUMP, _STRETCH * first)
     return jumped
@@ -440,7 +439,7 @@ def _largest_difference(q: Array, other: Array) -> float:
 
 @inlined
 def _first(starts: Indices) -> int:
-    """The lane of the start with the lowest number."""
+    """Return the lane of the start with the lowest number."""
     first = 0
     for lane in range(LANES):
         if starts[lane] < starts[first]:
@@ -455,13 +454,13 @@ def _has(ended: int, bit: int) -> bool:
 
 @inlined
 def _wind(goal: Goal, seed: Array, q: Array) -> None:
-    """Turn what turns freely by full turns into its limits and as near to the seed as they allow."""
+    """Turn freely turning joints by full turns into their limits, as near to the seed as possible."""
     turn = 2.0 * np.pi
     for j in range(len(q)):
         lower, upper = goal.bounds[4, j], goal.bounds[5, j]
         if lower <= upper:
             value = q[j] + turn * np.rint((seed[j] - q[j]) / turn)
-            # Rounding may carry a joint over its limit: that is no reason to turn it all the way round.
+            # Rounding may carry a joint over its limit, which is no reason for a full turn.
             if value > upper + _ROUNDING:
                 value -= turn * np.ceil((value - upper - _ROUNDING) / turn)
             elif value < lower - _ROUNDING:
@@ -471,7 +470,7 @@ def _wind(goal: Goal, seed: Array, q: Array) -> None:
 
 @inlined
 def _set_start(goal: Goal, work: Work, lane: int, seed: Array, start: int) -> None:
-    """Put a lane at a start, within the bounds."""
+    """Set a lane to a start, clipped to the bounds."""
     for j in range(len(seed)):
         value = seed[j]
         if start > 0:
@@ -488,7 +487,7 @@ def _set_start(goal: Goal, work: Work, lane: int, seed: Array, start: int) -> No
 
 @inlined
 def uniform(random_seed: int, start: int, variable: int) -> float:
-    """A number in [0, 1) that the three determine, by the mixing function of SplitMix64 [Steele2014]."""
+    """Pseudo-random number in [0, 1) determined by the arguments, by the SplitMix64 mixing function [Steele2014]."""
     z = np.uint64(random_seed) * np.uint64(0xD1342543DE82EF95)
     z += np.uint64(start) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(variable) * np.uint64(0xBF58476D1CE4E5B9)
     for factor in (np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)):
@@ -502,8 +501,8 @@ def _iterate(flat: FlatChain, goal: Goal, work: Work) -> int:
     """Take one iteration in every SIMD lane: judge the state, then step.
 
     Returns:
-        Bits 0 to LANES - 1: the lane's start has ended; the next LANES bits: because it has converged, and then
-        `previous` is its configuration.
+        Bits 0 to LANES - 1 flag lanes whose start has ended; the next LANES bits those that have converged, whose
+        solutions are in `previous`.
     """
     ended, e, damping = _judge(flat, goal, work)
     descend(goal, work, e, damping, lanes(1.0), LONGEST_STEP)
@@ -512,7 +511,7 @@ def _iterate(flat: FlatChain, goal: Goal, work: Work) -> int:
 
 @inlined
 def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
-    """Which lanes have ended at `q`, in bits as `_iterate` gives them; and the error and damping of the next step."""
+    """Return bits of the lanes that have ended at `q`, see `_iterate`, and error and damping of the next step."""
     state = work.state
     e = linearise(flat, goal, work)
     position, orientation = e[0] * e[0] + e[1] * e[1] + e[2] * e[2], e[3] * e[3] + e[4] * e[4] + e[5] * e[5]
@@ -523,7 +522,7 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
         b = _shortening(orientation, goal.slack * goal.chord_tolerance)
         e = (a * e[0], a * e[1], a * e[2], b * e[3], b * e[4], b * e[5])
         error = a * a * position + b * b * orientation
-        # What is good enough must not hold the joints back either.
+        # An error that is small enough must not hold the joints back either.
         for row in range(0, len(work.J) // LANES, 6):
             for k in range(3):
                 store(work.J, row + k, a * load(work.J, row + k))
@@ -532,7 +531,7 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
     since = where(halved, 0.0, load(state, SINCE) + 1.0)
     count = load(state, COUNT) + 1.0
     given_up = (since >= float(_STAGNATION)) | (count >= float(LONGEST))
-    # One step more than needed takes the error from the tolerance to rounding.
+    # One more step than needed takes the error from the tolerance to rounding.
     near = (position <= (CLOSE * goal.position_tolerance) ** 2) & (orientation <= (CLOSE * goal.chord_tolerance) ** 2)
     converged = within & ((load(state, REACHED) > 0.5) | given_up | near)
     store(state, ERROR, error)
@@ -546,5 +545,5 @@ def _judge(flat: FlatChain, goal: Goal, work: Work) -> tuple[int, Error, Lanes]:
 
 @inlined
 def _shortening(square: Lanes, length: float) -> Lanes:
-    """The factor that makes vectors of a squared length shorter by a length, those that are no longer to nothing."""
+    """Factor that shortens vectors, given by their squared lengths, by a length, but not below zero."""
     return max_lanes(1.0 - length / sqrt_lanes(max_lanes(square, 1e-300)), 0.0)

@@ -1,4 +1,4 @@
-"""What to do with the freedom that a task leaves: move along the self-motion towards something better."""
+"""Use of the freedom that a task leaves: motion along the self-motion that minimises an objective."""
 
 from dataclasses import dataclass
 
@@ -15,11 +15,11 @@ from gelenk.model.poses import Poses
 
 _ROUNDS = 80
 _LONGEST_STEP = 0.2
-"""Largest joint step of a round, [rad or m]."""
+"""Largest joint step in a round, [rad or m]."""
 _PASSES = 8
-"""How often joints at their limits are looked for."""
+"""Number of passes that look for joints at their limits."""
 _AT_LIMIT = 1e-6
-"""How near to a limit counts as at it, [rad or m]."""
+"""Distance from a limit that counts as at it, [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Objective:
         name: `posture`: ½‖q - posture‖². `mid_range`: ½ Σ ((q - middle) / range)² of the joints with limits. `limits`:
             Σ range² / (4 (upper - q)(q - lower)), which grows without bound at the limits. `manipulability`: -log of
             Yoshikawa's measure √det JJᵀ of the directions that count, metres and radians mixed.
-        posture: For `posture`; shape (n,), or (N, n) for one each.
+        posture: Target of `posture`; shape (n,), or (N, n) for one per solution, [rad or m].
     """
 
     name: ObjectiveName
@@ -47,19 +47,19 @@ def settle(
     respect_limits: bool = True,
     deadline: float | None = None,
 ) -> Array:
-    """Solutions moved along the self-motion to the nearest minimum of an objective; shape (N, n).
+    """Move solutions along their self-motion to a nearby minimum of an objective; shape (N, n).
 
-    Each round steps down the gradient projected onto the kernel of J, brings the error back to zero by damped steps
-    (both with the joints that are at a limit left out), and is kept if the objective has fallen [Liegeois1977].
-    A solution is never made worse; without freedom it stays as it is.
+    Each round steps down the gradient projected onto the kernel of J, and brings the error back to zero by damped
+    steps, both without joints blocked at a limit. It is kept if the objective has fallen [Liegeois1977], so that no
+    solution becomes worse. A solution without freedom stays unchanged.
 
     Args:
         chain: Base and tip.
-        targets: T_base_tip; N of them.
+        targets: Desired T_base_tip; N of them.
         qs: Solutions; shape (N, n), [rad or m].
-        objective: What is to become small.
+        objective: Function to minimise.
         task: Which directions count.
-        respect_limits: Whether joint limits hold.
+        respect_limits: Whether to respect joint limits.
         deadline: When to stop improving, on `gelenk.model.compilation.clock`, [s].
     """
     bounds = np.array(limits_of(chain, respect_limits))
@@ -74,7 +74,7 @@ def settle(
         steps *= -sizes[:, None]
         longest = np.abs(steps).max(axis=1, initial=0.0)
         steps /= np.maximum(1.0, longest / _LONGEST_STEP)[:, None]
-        # Each for itself: where one comes to rest must not depend on which others it is together with.
+        # Stop each solution separately: its result must not depend on the rest of the batch.
         moving &= longest >= 1e-9
         if not moving.any():
             break
@@ -87,9 +87,9 @@ def settle(
 
 
 def _up_to_limits(qs: Array, steps: Array, bounds: Array) -> Array:
-    """Each configuration gone along its step as far as the first limit that it meets; shape (N, n).
+    """Move each configuration along its step as far as the first limit it meets; shape (N, n).
 
-    To clip it joint by joint would bend the step, and off the self-motion.
+    Clipping joint by joint would bend the step away from the self-motion.
     """
     room = np.where(steps > 0.0, bounds[1] - qs, qs - bounds[0])
     shares = np.where(np.abs(steps) > 0.0, room / np.maximum(np.abs(steps), 1e-300), np.inf)
@@ -99,7 +99,7 @@ def _up_to_limits(qs: Array, steps: Array, bounds: Array) -> Array:
 
 
 def _corrected(chain: Chain, targets: Poses, qs: Array, task: Task, bounds: Array) -> tuple[Array, Array]:
-    """The configurations brought back onto their targets, and the errors that remain; shapes (N, n) and (N,)."""
+    """Bring configurations back onto their targets; return them and the remaining errors; shapes (N, n), (N,)."""
     for _ in range(4):
         es, Js = linearise(chain, targets, qs, task)
         qs = np.clip(qs + _damped(_unblocked(Js, es, qs, bounds), es), *bounds)
@@ -107,9 +107,9 @@ def _corrected(chain: Chain, targets: Poses, qs: Array, task: Task, bounds: Arra
 
 
 def _damped(Js: Array, es: Array) -> Array:
-    """Jᵀ(JJᵀ + λI)⁻¹e of each; shape (N, n)."""
+    """Damped steps Jᵀ(JJᵀ + λI)⁻¹e; shape (N, n)."""
     grams = Js @ Js.transpose(0, 2, 1)
-    # In proportion to JJᵀ, so that it keeps the matrix regular however long the arm is.
+    # In proportion to JJᵀ, to keep the matrix regular whatever the size of the arm.
     floor = 1e-12 * np.trace(grams, axis1=1, axis2=2) + 1e-300
     grams += floor[:, None, None] * np.eye(Js.shape[1])
     steps: Array = (Js.transpose(0, 2, 1) @ np.linalg.solve(grams, es[:, :, None]))[:, :, 0]
@@ -117,7 +117,7 @@ def _damped(Js: Array, es: Array) -> Array:
 
 
 def _unblocked(Js: Array, es: Array, qs: Array, bounds: Array) -> Array:
-    """J with zero columns for joints at a bound that would be pushed further."""
+    """J with zero columns for joints at a bound that the step would push further; shape (N, m, n)."""
     slopes = np.einsum("bmi,bm->bi", Js, es)
     blocked = ((qs <= bounds[0]) & (slopes < 0.0)) | ((qs >= bounds[1]) & (slopes > 0.0))
     unblocked: Array = np.where(blocked[:, None, :], 0.0, Js)
@@ -127,10 +127,9 @@ def _unblocked(Js: Array, es: Array, qs: Array, bounds: Array) -> Array:
 def _projected_gradient(
     chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task, bounds: Array
 ) -> Array:
-    """The gradient's part in the kernel of J; joints at a limit that its descent would push further stand still.
+    """Project the gradient onto the kernel of J, without joints at a limit that its descent would push further.
 
-    Which of them do shows only when the others are known: a joint that the gradient itself pushes outwards may have to
-    give way to the rest.
+    Fixing one joint changes the projection for the others, so the joints to fix are found in several passes.
     """
     gradients = objective_gradients(chain, targets, qs, objective, task)
     Js = linearise(chain, targets, qs, task)[1]
@@ -148,14 +147,14 @@ def _projected_gradient(
 
 
 def _spans(chain: Chain) -> tuple[Array, Array, Array]:
-    """Lower and upper limits and 1 / range, which is 0 where a joint lacks one."""
+    """Lower limits, upper limits and 1 / range, which is 0 for a joint that lacks a limit; shape (n,) each."""
     limited = np.isfinite(chain.lower) & np.isfinite(chain.upper) & (chain.upper > chain.lower)
     ranges = np.where(limited, chain.upper, 1.0) - np.where(limited, chain.lower, 0.0)
     return np.where(limited, chain.lower, -1.0), np.where(limited, chain.upper, 1.0), np.where(limited, 1 / ranges, 0.0)
 
 
 def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
-    """The objective at each configuration; shape (N,)."""
+    """Evaluate the objective at each configuration; shape (N,)."""
     lower, upper, inverse_ranges = _spans(chain)
     value: Array
     match objective.name:
@@ -174,7 +173,7 @@ def _value(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: 
 
 
 def objective_gradients(chain: Chain, targets: Poses, qs: Array, objective: Objective, task: Task) -> Array:
-    """The objective's gradient at each configuration; shape (N, n)."""
+    """Compute the gradient of the objective at each configuration; shape (N, n)."""
     lower, upper, inverse_ranges = _spans(chain)
     gradient: Array
     match objective.name:

@@ -73,8 +73,8 @@ class Options:
         every: Whether to find all solutions.
         most: Largest number of solutions of one target.
         windings: Whether solutions that differ by full turns count as different.
-        method: `auto`; `analytic`, a closed form, an elimination or a continuation; or one of the course's methods from
-            the seed alone.
+        method: `auto`; `analytic`, a closed form, an elimination or a continuation; or one of the course's methods,
+            which start from the seed alone.
         rule: Parameters of the course's method.
         max_iterations: Budget for a target; None for the method's default.
         time_limit: Time for all targets without compilation, [s].

@@ -1,7 +1,7 @@
-"""Solutions next to a singularity, from places near them.
+"""Search for solutions next to a singularity, from configurations near them.
 
-There all equations but one or two hold along a narrow valley, somewhere on which a solution lies, and solutions come in
-pairs: where the path of the tip bends back, both of its crossings with the target are one step apart.
+Near a singularity, all equations but one or two hold along a narrow valley of joint space, on which the solutions lie.
+They come in pairs: where the tip's path along the valley folds back, it passes the target twice within a short step.
 """
 
 import numpy as np
@@ -15,35 +15,35 @@ from gelenk.kinematics.kernels import chain_hessians, chain_jacobians
 from gelenk.model.arrays import Array, Indices
 
 _STEPS, _CORRECTIONS, _LONGEST, _SHORTEST_SHARE = 30, 4, 0.5, 1e-3
-"""Of refining: steps, corrections after each, the longest step [rad or m], the share of one after which it ends."""
+"""Refinement: steps, corrections after each, the longest step [rad or m], and the share of a step at which it ends."""
 _SINGULAR, _WEAK = 1e-15, 1e-3
-"""Shares of the largest singular value: what is none but rounding, and what leads along a valley."""
+"""Shares of the largest singular value below which one is rounding, and below which it belongs to a valley."""
 _PERFECT = 1e-15
-"""Error that is left alone, [m, rad]."""
+"""Error that needs no refinement, [m, rad]."""
 _SAME, _NEAR, _BETWEEN = 1e-7, 1e-3, 2e-14
-"""Distance up to which two solutions are one, [rad or m]; and up to which they are if halfway along the valley the
-error is rounding, [m, rad]: so far that moves them."""
+"""Distance up to which two solutions are the same [rad or m]; distance up to which they are if the error halfway
+between them, on the valley, is rounding; and the bound on that error [m, rad]."""
 _FURTHEST = 0.7
-"""How far a partner may be for the curvature to tell where it is, [rad or m]."""
+"""Largest distance at which the curvature predicts a partner, [rad or m]."""
 _MOST = 64
-"""Solutions of a target."""
+"""Most solutions of a target."""
 _LANES, _LANES_APART, _NARROW = 8, 0.3, 1e-6
-"""Valleys that are walked along: how many, how far apart they begin [rad], and the singular value of one [m, rad]."""
+"""Walks along valleys: how many, how far apart they begin [rad], and the singular value below which one begins."""
 _WALK, _STRIDE = 16, 0.3
-"""Of such a walk: steps, and how long each is, [rad]."""
+"""Number of configurations on a walk, and length of a step, [rad]."""
 
 
 def refined(question: Question, i: int, qs: Array, least: float) -> Array:
-    """Configurations driven to rounding by Newton's method; those that come to an error so small, the best first.
+    """Refine configurations by Newton's method; return those whose error is small enough, the best first; (k, n).
 
-    The equations that a valley meets are met first, and again after each step before the errors are compared, as in
-    `branch_kernels`: off the valley the one that is left tells nothing.
+    Each configuration is corrected back onto the valley first, and again after each step before its error is compared,
+    as in `branch_kernels`: off the valley, the remaining equation means nothing.
 
     Args:
-        question: The targets.
-        i: Which of them.
-        qs: Where to begin; shape (N, n), [rad or m].
-        least: The error, [m, rad].
+        question: The problem.
+        i: Index of the target.
+        qs: Initial configurations; shape (N, n), [rad or m].
+        least: Largest error of a solution, [m, rad].
     """
     chain, target = question.chain, question.target(i)
     limits = limits_of(chain, question.respect_limits)
@@ -77,18 +77,18 @@ def refined(question: Question, i: int, qs: Array, least: float) -> Array:
 
 
 def _steps(es: Array, Js: Array, weak: float) -> Array:
-    """Newton's steps, without what leads along directions whose singular value is below a share of the largest."""
+    """Newton steps without directions whose singular value is below the share `weak` of the largest; shape (N, n)."""
     return np.asarray(np.einsum("kij,kj->ki", np.linalg.pinv(Js, rcond=weak), es))
 
 
 def with_partners(question: Question, i: int, qs: Array, least: float) -> Array:
-    """Configurations refined, and the solutions that pair with these; of those that are the same one, (k, n).
+    """Refine configurations and add the solutions that pair with them, without duplicates; shape (k, n).
 
     Args:
-        question: The targets.
-        i: Which of them.
-        qs: Where to begin; shape (N, n), [rad or m].
-        least: The error that solutions come to, [m, rad].
+        question: The problem.
+        i: Index of the target.
+        qs: Initial configurations; shape (N, n), [rad or m].
+        least: Largest error of a solution, [m, rad].
     """
     found = refined(question, i, qs, least)
     for look in (_further, _partners):
@@ -98,15 +98,15 @@ def with_partners(question: Question, i: int, qs: Array, least: float) -> Array:
 
 
 def distinct(question: Question, i: int, qs: Array) -> Indices:
-    """Which solutions of a target are one each: the first of those that rounding alone tells apart.
+    """Select distinct solutions of a target: the first of each group that differs only by rounding.
 
     Args:
-        question: The targets.
-        i: Which of them.
+        question: The problem.
+        i: Index of the target.
         qs: Its solutions; shape (N, n), [rad or m].
 
     Returns:
-        Their indices; shape (k,).
+        Indices of the distinct solutions; shape (k,).
     """
     chain, target, free = question.chain, question.target(i), free_variables(question.chain)
     kept: list[int] = []
@@ -126,7 +126,7 @@ def distinct(question: Question, i: int, qs: Array) -> Indices:
 
 
 def _further(question: Question, i: int, qs: Array) -> Array:
-    """Places along the valleys of some solutions where the error that is left changes its sign, or is least; (k, n)."""
+    """Configurations along some valleys where the remaining error changes its sign or is smallest; shape (k, n)."""
     if not _is_square(question) or not len(qs):
         return qs[:0]
     qs = qs[thin_out(qs, free_variables(question.chain), _LANES_APART, _LANES)]
@@ -139,20 +139,20 @@ def _further(question: Question, i: int, qs: Array) -> Array:
     picked[:-1] |= turns
     picked[1:] |= turns
     picked[1:-1] |= (sizes[1:-1] <= sizes[:-2]) & (sizes[1:-1] <= sizes[2:])
-    # Where it is rounding all along, every place is as good a solution as the next.
+    # If the error is rounding all along, the whole valley consists of solutions.
     return np.asarray(path[picked & (sizes.max(axis=0) > _BETWEEN)])
 
 
 def _walk(question: Question, i: int, qs: Array) -> tuple[Array, Array]:
-    """Along valleys in steps, from which the other equations are met again.
+    """Walk along valleys in steps, each followed by corrections back onto the valley.
 
     Args:
-        question: The targets.
-        i: Which of them.
-        qs: Solutions, each twice, as the walk goes both ways; shape (N, n), [rad or m].
+        question: The problem.
+        i: Index of the target.
+        qs: Solutions, each twice for the two directions of its valley; shape (N, n), [rad or m].
 
     Returns:
-        Configurations, shape (k, N, n), and the error in the direction that is left, shape (k, N).
+        Configurations, shape (k, N, n), and the errors in the remaining direction, shape (k, N).
     """
     path, levels = np.empty((_WALK, *qs.shape)), np.empty((_WALK, len(qs)))
     ahead, beside = np.zeros(qs.shape), np.zeros(qs.shape)
@@ -164,7 +164,7 @@ def _walk(question: Question, i: int, qs: Array) -> tuple[Array, Array]:
         u, v = Us[:, :, -1], Vs[:, -1]
         if k == 0:
             ahead, beside = np.where(np.arange(len(qs)) % 2, 1.0, -1.0)[:, None] * v, u
-        # A singular vector's sign is arbitrary: on the walk it stays.
+        # A singular vector's sign is arbitrary: keep it the same along the walk.
         beside = u * np.where((u * beside).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
         ahead = v * np.where((v * ahead).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
         path[k], levels[k] = qs, (beside * es).sum(axis=1)
@@ -177,10 +177,10 @@ def _is_square(question: Question) -> bool:
 
 
 def _partners(question: Question, _: int, qs: Array) -> Array:
-    """Where the solutions are to be that pair with given ones along one of the two weakest directions, or along both.
+    """Predict the partners of solutions along one of the two weakest directions, or along both; shape (k, n).
 
-    Along y in the direction v of a singular value σ the error's part along u is -σ y - ½ uᵀH(v, v) y², which vanishes
-    a second time at y = -2σ / uᵀH(v, v): the equation of a fold, of Liapunov's and Schmidt's reduction.
+    At distance y along the right singular vector v of a singular value σ, the error's part along u is
+    -σ y - ½ uᵀH(v, v) y². It vanishes again at y = -2σ / uᵀH(v, v): the fold of a Lyapunov-Schmidt reduction.
     """
     chain = question.chain
     if not _is_square(question) or not len(qs):
