@@ -1,4 +1,4 @@
-"""Commands about a chain of a robot: where its tip is, how it gets there, how well it moves."""
+"""Commands about a robot's chain: forward and inverse kinematics, the Jacobian, manipulability."""
 
 from functools import partial
 from pathlib import Path
@@ -36,9 +36,9 @@ QOption = Annotated[
 ]
 _DEFAULT_POSE = "quaternion_xyzw"
 _TARGETS_FIRST = 50
-"""Targets of the first call: one that cannot be reached takes a thousand times as long as one that can."""
+"""Targets of the first call: an unreachable target takes a thousand times as long as a reachable one."""
 UNREACHED = 1
-"""Exit code."""
+"""Exit code if a target cannot be reached, or a motion cannot be completed."""
 
 
 def fk(
@@ -71,7 +71,7 @@ def fk(
 
 
 def _with_configurations(client: "Client", name: str, given: "Given", body: dict[str, Any]) -> dict[str, Any]:
-    """The fields of a request with the configurations that were given, unless the fields have others."""
+    """Add the given configurations to the fields of a request, unless the fields have others."""
 
     def joint_names() -> list[str]:
         ends = {end: body[end] for end in ("base_frame", "tip_frame")}
@@ -147,7 +147,7 @@ def ik(
     fields: FieldsOption = None,
     later: LaterOption = False,
 ) -> None:
-    """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if there is none for one."""
+    """Inverse kinematics: configurations that bring the tip to each target; exit code 1 if a target has none."""
     shared, given = session(context), rows_of(target or [], file, "targets")
     if later:
         shared.check_server()
@@ -181,7 +181,7 @@ def _solutions(answer: "InverseAnswer") -> Rows:
             (index, result.status, *one.joint_positions, one.position_error, one.orientation_error) for one in found
         ]
     reasons = [f"{index}: {result.reason}" for index, result in enumerate(answer.results) if result.reason]
-    # As the API's npy: of each target a solution, or what comes nearest.
+    # As in the API's npy: for each target a solution, or the nearest configuration.
     first = [result.solutions[0] if result.solutions else result.nearest for result in answer.results]
     array = [one.joint_positions for one in first if one is not None]
     return Rows(columns, rows, reasons[:20], array=array if len(array) == len(first) == len(rows) else None)

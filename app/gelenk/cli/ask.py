@@ -1,4 +1,4 @@
-"""The way to every operation: its fields as JSON."""
+"""The command `ask`, which calls any operation with its fields as JSON."""
 
 import inspect
 from functools import cache
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from gelenk.calls.call import Call, Sent
 
 _BY_FILES = {"add_archive", "replace_archive"}
-"""What takes a file: `add` has it."""
+"""Operations that take a file; the command `add` calls them."""
 
 
 @cache
 def operations() -> "dict[str, Sent[Any, Any]]":
-    """All operations by name; loaded on demand, because that takes seconds."""
+    """Return all operations by name; loaded on demand, because that takes seconds."""
     from gelenk.calls.call import Sent  # noqa: PLC0415
     from gelenk.calls.operations import Operations  # noqa: PLC0415
 
@@ -63,13 +63,13 @@ def ask(
 
 
 def _is_about_robot(method: "Sent[Any, Any]") -> bool:
-    """Whether its first argument is a robot; as a field of a request it would be one of keywords alone."""
+    """Check whether the first argument is a robot; as a field of a request it would be keyword-only."""
     first = next(iter(inspect.signature(method.describe).parameters.values()), None)
     return first is not None and first.name == "robot" and first.kind is not inspect.Parameter.KEYWORD_ONLY
 
 
 def _call(method: "Sent[Any, Any]", /, *arguments: str, **fields: Any) -> "Call[Any]":
-    """Raises InvalidField where the operation has no such fields; where it has a body, the service says that better."""
+    """Describe a call. Raises InvalidField for unknown arguments; unknown fields of a body are left to the service."""
     try:
         call: Call[Any] = method.describe(*arguments, **fields)
     except TypeError as error:

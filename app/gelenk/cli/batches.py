@@ -1,4 +1,4 @@
-"""A large batch as calls one after the other, so that a bar can tell how far it is and no answer is too large."""
+"""A large batch as several calls in turn, so that a bar shows progress and no answer is too large."""
 
 import re
 import time
@@ -15,39 +15,39 @@ if TYPE_CHECKING:
 A = TypeVar("A", bound="Answer")
 
 FIRST = 1_000
-"""Rows of the first call: a batch of so many is answered as the API does it, certificate included."""
+"""Rows of the first call: a batch of this size is answered exactly as by the API, certificate included."""
 _MOST = 10_000
 _SECONDS = 0.3
-"""What a call is to take."""
+"""Intended duration of a call, [s]."""
 _GROWTH = 8
 _EACH = frozenset(
     {"poses", "frames", "results", "jacobians", "ranks", "singular_values", "condition_numbers"}
     | {"time_variations", "hessians"}
 )
-"""Fields of an answer with one entry a row; all others are the same in each call, except the certificate."""
+"""Fields of an answer with one entry per row; all others except the certificate are the same in each call."""
 _INDEX = re.compile(r"\b(configuration|entry) (\d+)\b|(?<=#/)(joint_positions|targets|seeds)/(\d+)")
 
 
 def in_calls(
     ask: Callable[..., A], body: Mapping[str, Any], rows: str, progress: Callable[[float], None], first: int = FIRST
 ) -> A:
-    """The answer to a batch.
+    """Send a batch in several calls, and return one answer.
 
-    Numbers are those of one call with all rows, because none depends on the rows beside it. The certificate has more
-    samples, some of every call, and the largest of their errors.
+    Numbers are those of one call with all rows, because no row depends on another. The certificate counts the samples
+    of all calls, and has the largest of their errors.
 
     Args:
         ask: The operation; takes the fields of a request by name.
-        body: These fields.
-        rows: The name of the field with the rows.
+        body: Fields of the request.
+        rows: Name of the field with the rows.
         progress: Called with the finished share of the batch, 0 to 1.
         first: Rows of the first call; the others have as many as are answered in a third of a second.
 
     Raises:
-        Refused: Something is wrong with a row; it is named by its place in the whole batch.
+        Refused: Something is wrong with a row; the message gives its place in the whole batch.
     """
     given = body.get(rows)
-    if not isinstance(given, list) or len(given) <= first or "time_limit" in body:  # a limit is the whole batch's
+    if not isinstance(given, list) or len(given) <= first or "time_limit" in body:  # that limit is for all rows
         return ask(**body)
     each = {name: value for name, value in body.items() if isinstance(value, list) and len(value) == len(given)}
     answers: list[A] = []
@@ -78,14 +78,14 @@ def _joined(answers: Sequence[A]) -> A:
 
 
 def _certificate(certificates: Sequence["BaseModel"]) -> "BaseModel":
-    """That of all: as many samples as there are together, the largest of each error."""
+    """Join certificates: the sum of their samples, the largest of each error."""
     columns = {name: [getattr(one, name) for one in certificates] for name in type(certificates[0]).model_fields}
     largest = {name: max(values) for name, values in columns.items() if None not in values}
     return certificates[0].model_copy(update={**largest, "samples": sum(columns["samples"])})
 
 
 def _of_the_whole(refused: Refused, first: int) -> Refused:
-    """The same with the places of rows in the whole batch, whose first rows were answered before."""
+    """Return the refusal with places of rows in the whole batch, whose first rows were answered before."""
 
     def moved(found: re.Match[str]) -> str:
         return f"{found[1]} {int(found[2]) + first}" if found[1] else f"{found[3]}/{int(found[4]) + first}"

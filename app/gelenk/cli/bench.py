@@ -1,4 +1,4 @@
-"""How quickly calls are answered: by this process, or by a server and the network to it."""
+"""The command `bench`: how fast calls are answered by this process, or by a server over the network."""
 
 import json
 import statistics
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 _KEYS = ("operation", "single_milliseconds", "batch_microseconds_each", "ratio")
 _FEWEST = 5
-"""Calls of a measurement, however long each takes."""
+"""Minimum number of calls in a measurement."""
 _WARM = 2
-"""Calls before, which are not measured."""
+"""Calls before these, which are not measured."""
 _WIDEST = 3.141592653589793
-"""Where a joint has no limits, [rad or m]."""
+"""Bound of a joint without limits, [rad or m]."""
 
 
 def bench(
@@ -35,7 +35,7 @@ def bench(
     base: BaseOption = None,
     tip: TipOption = None,
 ) -> None:
-    """How quickly fk, jacobian and ik are answered, one by one and in batches: one caller, call after call."""
+    """Measure how fast fk, jacobian and ik are answered, one by one and in batches: one caller, call after call."""
     shared = session(context)
     ends = {name: frame for name, frame in (("base_frame", base), ("tip_frame", tip)) if frame is not None}
     with shared.robot(robot) as (client, name), shared.bar("bench") as progress:
@@ -55,7 +55,7 @@ def bench(
 def _measured(
     client: "Client", name: str, ends: dict[str, Any], batch: int, seconds: float, progress: Callable[[float], None]
 ) -> list[tuple[Any, ...]]:
-    """A row an operation: its name, [ms] of a single call, [µs] of each in a batch, how often these go into that."""
+    """Return a row per operation: its name, [ms] of a single call, [µs] per row of a batch, ratio of the two."""
     qs = _configurations(client, name, ends, batch)
     operations: dict[str, Callable[..., Any]] = {
         "fk": client.arrays.fk,
@@ -78,7 +78,7 @@ def _called(method: Callable[..., Any], name: str, ends: dict[str, Any], rows: "
 
 
 def _configurations(client: "Client", name: str, ends: dict[str, Any], count: int) -> "Array":
-    """Random ones of a chain, shape (count, n), within its limits, the same each time."""
+    """Return random configurations of a chain within its limits, shape (count, n), the same each time."""
     import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
 
     names = client.fk(name, joint_positions=[], **ends).joint_names
@@ -89,7 +89,7 @@ def _configurations(client: "Client", name: str, ends: dict[str, Any], count: in
 
 
 def _median_seconds(call: "Callable[[Array], None]", rows: "Array", size: int, seconds: float) -> float:
-    """Of calls with so many rows, the next ones each time."""
+    """Return the median duration of calls with `size` rows each, [s]; each call takes the next rows."""
     taken: list[float] = []
     begun = time.perf_counter()
     while len(taken) < _FEWEST + _WARM or time.perf_counter() - begun < seconds:

@@ -1,4 +1,4 @@
-"""What a shell completes: names of robots and frames, and words that an option may be."""
+"""Completion in a shell: names of robots and frames, and the words that an option accepts."""
 
 import json
 import os
@@ -23,12 +23,12 @@ WORKSPACES = ("cloud", "grid", "dexterity")
 
 _CATALOGUE = Path(os.environ.get("GELENK_CATALOGUE_DIR") or catalogue())
 _PATIENCE = 2.0
-"""[s]; the user waits for the completion."""
+"""Time limit, [s]; the user waits for the completion."""
 _LINK = re.compile(r"<link\s[^>]*?name\s*=\s*[\"']([^\"']+)")
 
 
 def robots_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
-    """Names of robots: the server's where one is meant, else those of the catalogue."""
+    """Complete names of robots: the server's if one is given, else those of the catalogue."""
     server = _server(context)
     robots = _asked(server, "robots").get("robots", []) if server else []
     names = [str(robot["name"]) for robot in robots] if server else [folder.name for folder in _CATALOGUE.glob("*/")]
@@ -36,8 +36,8 @@ def robots_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
 
 
 def frames_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
-    """Frames of the robot that is named before; without a server, of one of the catalogue, the ends of its chains."""
-    # Behind an option that waits for its value, arguments are not yet told apart: the robot is the last of them.
+    """Complete frames of the robot named before: all of them, or without a server the ends of its chains."""
+    # While an option waits for its value, arguments are not yet parsed: the robot is the last of them.
     words = [word for word in context.args if not word.startswith("-")]
     robot, server = str(context.params.get("robot") or (words or [""])[-1]), _server(context)
     if robot.lower().endswith(".urdf"):
@@ -52,7 +52,7 @@ def frames_beginning_with(context: typer.Context, incomplete: str) -> list[str]:
 
 
 def one_of(words: tuple[str, ...]) -> Callable[[str], list[str]]:
-    """Completes one of these words."""
+    """Return a function that completes these words."""
     return lambda incomplete: [word for word in words if word.startswith(incomplete)]
 
 
@@ -69,7 +69,7 @@ def _text_of(file: Path) -> str:
 
 
 def _asked(server: str, path: str) -> dict[str, Any]:
-    """What a server answers; nothing where it does not. Without the client, which takes a second to load."""
+    """Return a server's answer, or {} without one. It avoids the client, which takes a second to load."""
     key = os.environ.get("GELENK_KEY")
     headers = {"Authorization": f"Bearer {key}"} if key else {}
     try:

@@ -1,4 +1,4 @@
-"""What `--help` shows of each command: one call that answers."""
+"""Examples for the `--help` of each command: one call that works."""
 
 EXAMPLES = {
     "robots": "gelenk robots panda",
@@ -17,9 +17,9 @@ EXAMPLES = {
     "dh compare": "gelenk dh compare table.csv ur5",
     "dh derive": "gelenk dh derive table.csv --latex",
 }
-"""By command. Those about files take what others of them have written."""
+"""Examples by command. Commands that read files use those that other examples have written."""
 
 
 def example_of(command: str) -> str | None:
-    """Below the options of a command."""
+    """Return the example shown below the options of a command."""
     return f"\b\nExample:\n  {EXAMPLES[command]}" if command in EXAMPLES else None

@@ -34,14 +34,14 @@ def robot_named(
     packages: Mapping[str, Path],
     strict: bool = False,
 ) -> Iterator[str]:
-    """The name of a robot at the service: its own, or one that a file goes by until this is over.
+    """Provide a robot's name at the service: its own, or a temporary one for a file.
 
     Args:
-        client: Of the service.
-        argument: A name, or a file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
-        arguments: For xacro.
-        packages: For xacro.
-        strict: Whether faults of a URDF that kinematics does not feel are refused too.
+        client: Client of the service.
+        argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
+        arguments: Arguments for xacro, by name.
+        packages: Folders of packages for xacro, by name.
+        strict: Whether to refuse a URDF also for faults that do not affect kinematics.
     """
     file = Path(argument)
     if not is_file(file):
@@ -60,7 +60,7 @@ def robot_named(
 
 
 def _check_name(file: Path, argument: str) -> None:
-    """Raises where what is meant is a file, or can be neither that nor a name."""
+    """Raise an error if the argument means a file, or cannot be a name."""
     if file.suffix.lower() in _SUFFIXES and not file.is_dir():
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), argument)
     if file.suffix and file.is_file():
@@ -70,7 +70,7 @@ def _check_name(file: Path, argument: str) -> None:
 
 
 def name_of(file: Path) -> str:
-    """A robot's name by that of its file."""
+    """Return a robot's name, made from the name of its file."""
     stem = file.name.partition(".")[0]
     return re.sub(r"[^A-Za-z0-9_-]", "_", stem).lstrip("_-")[:64] or "robot"
 
@@ -78,29 +78,29 @@ def name_of(file: Path) -> str:
 def description_from(
     file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool = False
 ) -> dict[str, Any]:
-    """What the API takes of a robot without meshes: `dh` or `urdf`; for the arguments see `robot_named`."""
+    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for the arguments see `robot_named`."""
     if file.suffix.lower() in _TABLES:
         return {"dh": table_from(file)}
     return {"urdf": urdf_from(file, arguments, packages), **({"strict": True} if strict else {})}
 
 
 def is_file(path: Path) -> bool:
-    """Whether an argument means a file: it looks like one that a robot can be in."""
+    """Check whether an argument means a file: it exists, and has the suffix of a robot file."""
     return path.suffix.lower() in _SUFFIXES and path.is_file()
 
 
 def urdf_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
-    """A description as URDF."""
+    """Read a robot description and return it as URDF."""
     if file.suffix.lower() == ".xacro":
         return expanded(file, arguments, packages)
     return text_of(file.read_bytes(), file.name)
 
 
 def table_from(file: Path) -> Any:
-    """A Denavit-Hartenberg table: JSON and TOML with the fields of the API, CSV with a column for each.
+    """Read a Denavit-Hartenberg table: JSON and TOML with the API's fields, or CSV with a column for each.
 
     Raises:
-        InvalidDhTable: The file is not one.
+        InvalidDhTable: The file cannot be read as a table.
     """
     text = text_of(file.read_bytes(), file.name)
     try:
@@ -117,10 +117,10 @@ def table_from(file: Path) -> Any:
 
 
 def _table_of_rows(text: str) -> dict[str, Any]:
-    """A table of CSV, as `dh from-urdf` writes it.
+    """Read a table from CSV, as `dh from-urdf` writes it.
 
-    Lines such as `# convention: modified` say what it is beside its rows: `convention`, else it is a standard one, and
-    `base` and `tool`, poses as the API has them.
+    Lines such as `# convention: modified` set what the rows do not: `convention` (standard if left out), and the poses
+    `base` and `tool` in the API's form.
     """
     lines = [line for line in text.splitlines() if line.strip()]
     told = {found[1]: found[2] for line in lines if (found := _TOLD.fullmatch(line))}
@@ -144,10 +144,10 @@ def _cell(joint: int, name: str, text: str) -> float | str:
 
 
 def fields_of(text: str | None) -> dict[str, Any]:
-    """Fields of the API from JSON, from a file with it, or from standard input; nothing where nothing is given.
+    """Return fields of the API from JSON text, a JSON file or standard input; empty if nothing is given.
 
     Raises:
-        InvalidField: It is not a JSON object.
+        InvalidField: The content is not a JSON object.
     """
     if text is None:
         return {}
@@ -165,10 +165,10 @@ def fields_of(text: str | None) -> dict[str, Any]:
 
 
 def pairs_of(given: list[str], field: str) -> dict[str, str]:
-    """`NAME=VALUE` arguments.
+    """Parse `NAME=VALUE` arguments.
 
     Raises:
-        InvalidField: One is not.
+        InvalidField: An argument has another form.
     """
     found = {}
     for text in given:
@@ -180,10 +180,10 @@ def pairs_of(given: list[str], field: str) -> dict[str, str]:
 
 
 def packages_of(given: list[str]) -> dict[str, Path]:
-    """`NAME=FOLDER` arguments.
+    """Parse `NAME=FOLDER` arguments.
 
     Raises:
-        InvalidField: One is not.
+        InvalidField: An argument has another form, or its folder does not exist.
     """
     folders = pairs_of(given, "package")
     for name, folder in folders.items():

@@ -12,7 +12,7 @@ JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]
 
 
 class Finished(StrEnum):
-    """What becomes of a job that has come to its end."""
+    """What to do with a finished job."""
 
     KEEP = "keep"
     REMOVE = "remove"
@@ -23,7 +23,7 @@ jobs = typer.Typer(name="jobs", help="Jobs of a service: follow, read, cancel or
 
 @jobs.command("show")
 def show(context: typer.Context, job: JobArgument) -> None:
-    """How far a job is."""
+    """Show how far a job is."""
     shared = session(context)
     with shared.client() as client:
         info = client.job(job)
@@ -32,7 +32,7 @@ def show(context: typer.Context, job: JobArgument) -> None:
 
 @jobs.command("watch")
 def watch(context: typer.Context, job: JobArgument) -> None:
-    """Wait until a job has come to its end, with a bar on a terminal; Ctrl-C leaves it alone."""
+    """Wait until a job has finished, with a bar on a terminal; Ctrl-C leaves the job running."""
     shared = session(context)
     with shared.client() as client, shared.bar(job) as progress:
         info = client.wait(job, lambda info: progress(info.progress))
@@ -41,7 +41,7 @@ def watch(context: typer.Context, job: JobArgument) -> None:
 
 @jobs.command("result")
 def result(context: typer.Context, job: JobArgument) -> None:
-    """What came out of a job: JSON, or with --format npy the array."""
+    """The result of a job: JSON, or with --format npy the array."""
     shared = session(context)
     with shared.client() as client:
         if shared.output.format is Format.NPY:
@@ -58,7 +58,7 @@ def cancel(
     job: JobArgument,
     finished: Annotated[Finished, typer.Option(help="What to do with a finished job.")] = Finished.KEEP,
 ) -> None:
-    """Cancel a job; one that has come to its end is refused, or removed where that is said."""
+    """Cancel a job; a finished one is refused, or removed with --finished remove."""
     shared = session(context)
     with shared.client() as client:
         info = client.cancel_job(job, finished=finished.value)

@@ -1,4 +1,4 @@
-"""The application in this very process: calls without a server, by the same code, with the same answers."""
+"""The application in this process: calls without a server, by the same code, with the same answers."""
 
 import asyncio
 import sys
@@ -23,17 +23,17 @@ _Result = TypeVar("_Result")
 
 
 class _Alone(WorkerPool):
-    """No processes: their work is done here, in a thread, and Ctrl-C stops it."""
+    """A pool without processes: a thread does the work, and Ctrl-C stops it."""
 
     def __init__(self) -> None:
         super().__init__(0, sys.maxsize, 0)
 
     async def start(self) -> None:
-        """Nothing to start."""
+        """Start nothing: there are no processes."""
 
     @property
     def is_short(self) -> bool:
-        """Never: nothing is missing."""
+        """False: no process is missing."""
         return False
 
     async def run(
@@ -43,12 +43,12 @@ class _Alone(WorkerPool):
         seconds: float,  # noqa: ARG002
         client: str = "",  # noqa: ARG002
     ) -> _Result:
-        """The result of a call."""
+        """Run a function in a thread and return its result."""
         return await asyncio.to_thread(function, argument)
 
 
 def _looked_at(app: ASGIApp) -> ASGIApp:
-    """An application whose events end after the first: an answer comes as a whole here, and the client asks again."""
+    """Wrap an application so that event streams end after one event: answers come whole, and the client asks again."""
 
     async def answer(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["path"].endswith(_EVENTS):
@@ -60,10 +60,10 @@ def _looked_at(app: ASGIApp) -> ASGIApp:
 
 
 class InProcess(httpx2.BaseTransport):
-    """A way to an application of its own, which forgets everything when it is closed.
+    """Transport to an application in this process, which forgets everything when it is closed.
 
     Args:
-        seconds: How long a call may take by its own time limit.
+        seconds: Time limit of a call, and of a job, [s].
     """
 
     def __init__(self, seconds: int = 3600) -> None:
@@ -77,7 +77,7 @@ class InProcess(httpx2.BaseTransport):
         self._transport = httpx2.ASGITransport(_looked_at(app))
 
     def handle_request(self, request: httpx2.Request) -> httpx2.Response:
-        """The answer, as a whole."""
+        """Return the whole response to a request."""
         return self._portal.call(self._answer, request)
 
     async def _answer(self, request: httpx2.Request) -> httpx2.Response:
@@ -87,5 +87,5 @@ class InProcess(httpx2.BaseTransport):
         return httpx2.Response(response.status_code, headers=headers, content=content)
 
     def close(self) -> None:
-        """End it."""
+        """Stop the application and remove its data."""
         self._stack.close()

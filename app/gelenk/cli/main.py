@@ -1,7 +1,4 @@
-"""`gelenk`: its options, its commands, and how it ends.
-
-How it ends is `EXIT_CODES`.
-"""
+"""The command `gelenk`: its options, its commands, and its exit codes (`EXIT_CODES`)."""
 
 import runpy
 import sys
@@ -71,7 +68,7 @@ def options(
         bool, typer.Option("--version", help="Print the version.", callback=_tell_version, is_eager=True)
     ] = False,
 ) -> None:
-    """What all commands share; before the command's name."""
+    """Read the options that all commands share; they come before the command's name."""
     if output is not None:
         check_place(output)
     context.obj = Session(server, Output(form, output), arg or (), package or (), strict)
@@ -82,14 +79,14 @@ _PASSED_ON = {"allow_extra_args": True, "ignore_unknown_options": True, "help_op
 
 @cli.command(context_settings=_PASSED_ON)
 def serve(context: typer.Context) -> None:
-    """Run the service: --host, --port, --workers; --help tells more."""
+    """Run the service: --host, --port, --workers; --help says more."""
     sys.argv = ["gelenk serve", *context.args]
     runpy.run_module("gelenk.serve", run_name="__main__")
 
 
 @cli.command(context_settings=_PASSED_ON)
 def keys(context: typer.Context) -> None:
-    """Make an API key: NAME, --scopes, --file; --help tells more."""
+    """Create an API key: NAME, --scopes, --file; --help says more."""
     sys.argv = ["gelenk keys", *context.args]
     runpy.run_module("gelenk.keys", run_name="__main__")
 
@@ -106,7 +103,7 @@ cli.add_typer(jobs.jobs)
 
 
 def main() -> None:
-    """Run a command, and end with a sentence and a code where something is wrong."""
+    """Run a command; on an error, print a sentence and exit with a code."""
     try:
         cli(prog_name="gelenk")
     except NotAnswering as error:
@@ -125,14 +122,14 @@ def main() -> None:
         named = f"{error.filename}: {error.strerror}" if error.filename else error.strerror or str(error)
         _end(named, _ASKED_WRONG if isinstance(error, _WRONG_FILES) else _FAILED)
     except Exception as error:
-        if "KeyboardInterrupt" in str(error):  # what pydantic makes of one
+        if "KeyboardInterrupt" in str(error):  # pydantic wraps one
             sys.exit(_INTERRUPTED)
         traceback.print_exc()
         _end("something went wrong in the command itself: see above", _FAILED)
 
 
 def _sentence_of(error: KinematicsError) -> str:
-    """The service's; and where it wants a key, how a command gets one to it."""
+    """Return the service's sentence; if it wants a key, add how a command sends one."""
     wants_key = isinstance(error, Refused) and error.status == HTTPStatus.UNAUTHORIZED
     return f"{error.detail} (gelenk sends the one in GELENK_KEY)" if wants_key else error.detail
 

@@ -1,4 +1,4 @@
-"""Commands about how a robot moves, and where it gets to: what may take long."""
+"""Commands that may take long: motions of a robot, and the workspace that it reaches."""
 
 from collections.abc import Sequence
 from itertools import chain
@@ -33,7 +33,7 @@ def trajectory(
     plot: Annotated[Path | None, typer.Option(help="Draw the profiles into this file, SVG or PNG.")] = None,
     later: LaterOption = False,
 ) -> None:
-    """A motion through configurations and poses, joints first; exit code 1 if it cannot be done to its end."""
+    """A motion through configurations and poses, joints first; exit code 1 if it cannot be completed."""
     shared, kind = session(context), None if plot is None else picture_kind(plot)
     if later:
         shared.check_server()

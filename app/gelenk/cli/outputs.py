@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from gelenk.model.arrays import Array
 
 _SHOWN = 40
-"""Rows of a table for people."""
+"""Maximum number of rows of a table for people."""
 _DIGITS = 6
 _WIDEST = 10_000
 
 
 class Format(StrEnum):
-    """How an answer is written."""
+    """Format in which an answer is written."""
 
     TABLE = "table"
     JSON = "json"
@@ -38,14 +38,14 @@ class Format(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """What an answer holds as rows.
+    """An answer as rows.
 
     Attributes:
-        columns: Their names.
-        rows: Numbers and words.
-        notes: Sentences about all of them, for people.
-        comments: Lines in front of them in CSV, for programs that read it again.
-        array: Numbers of another shape than the rows, for npy.
+        columns: Names of the columns.
+        rows: Cells of each row: numbers and words.
+        notes: Sentences about all rows, for people.
+        comments: Lines before the rows in CSV, for programs that read it again.
+        array: Numbers in another shape than the rows, for npy.
     """
 
     columns: Sequence[str]
@@ -57,11 +57,11 @@ class Rows:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """Where answers go, and how.
+    """Where answers are written, and in which format.
 
     Attributes:
-        form: How; None where the file's name says so, or for people.
-        file: Where to; None for standard output.
+        form: Format; None for that of the file's suffix, or a table.
+        file: File to write to; None for standard output.
     """
 
     form: Format | None = None
@@ -69,18 +69,18 @@ class Output:
 
     @property
     def format(self) -> Format:
-        """How it is written after all."""
+        """The format in use: `form`, else that of the file's suffix, else a table."""
         if self.form is not None:
             return self.form
         suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
         return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
 
     def write(self, content: Callable[[], str], rows: Rows) -> None:
-        """An answer.
+        """Write an answer.
 
         Args:
-            content: Makes it as the API gives it, JSON.
-            rows: The same as rows.
+            content: Returns the answer as JSON, as the API gives it.
+            rows: The same answer as rows.
         """
         match self.format:
             case Format.JSON:
@@ -93,13 +93,13 @@ class Output:
                 self._show(rows)
 
     def tell(self, answer: "BaseModel") -> None:
-        """An answer that has no rows: JSON, unless another format is requested."""
+        """Write an answer that has no rows: as JSON, unless another format is requested."""
         content = answer.model_dump(mode="json", exclude_unset=True)
         rows = Rows(("field", "value"), list(content.items()))
         Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
     def save(self, array: "Array") -> None:
-        """An array as npy."""
+        """Write an array as npy."""
         import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
 
         if self.file is None and sys.stdout.isatty():
@@ -109,7 +109,7 @@ class Output:
         self.put(stream.getvalue())
 
     def put(self, content: bytes) -> None:
-        """Bytes as they are."""
+        """Write bytes unchanged."""
         if self.file is not None:
             self.file.write_bytes(content)
             return
@@ -117,7 +117,7 @@ class Output:
             sys.stdout.buffer.write(content)
             sys.stdout.buffer.flush()
         except BrokenPipeError:
-            # Whoever reads the answer has had enough of it: what is left goes nowhere, and the code says what it said.
+            # The reader has closed the pipe: the rest is discarded, and the exit code stays the same.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
     def _show(self, rows: Rows) -> None:
@@ -127,25 +127,25 @@ class Output:
         left = len(rows.rows) - _SHOWN
         notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
         console = Console() if self.file is None else Console(file=StringIO(), width=200)
-        # Not by the console itself, which ends with 1, "the answer is no", where nobody reads on.
+        # Not by the console itself: on a closed pipe it exits with 1, "the answer is no".
         with console.capture() as shown:
             _write(console, table, notes)
         self.put(shown.get().encode())
 
 
 def check_place(file: Path) -> None:
-    """Raises OSError where a file cannot be: before the work, not behind it."""
+    """Raise OSError if a file cannot be written at this place: before the work, not after it."""
     wrong = errno.EISDIR if file.is_dir() else errno.ENOENT if not file.parent.is_dir() else 0
     if wrong:
         raise OSError(wrong, os.strerror(wrong), str(file))
 
 
 def picture_kind(file: Path) -> Literal["svg", "png"]:
-    """What kind of picture a file's name asks for.
+    """Return the kind of picture that a file's suffix asks for.
 
     Raises:
-        InvalidField: None that there is.
-        OSError: There is no place for it.
+        InvalidField: There is no such kind.
+        OSError: The file cannot be written at this place.
     """
     check_place(file)
     match file.suffix.lower():
@@ -157,7 +157,7 @@ def picture_kind(file: Path) -> Literal["svg", "png"]:
 
 
 def _write(console: Console, table: Table, notes: Sequence[str]) -> None:
-    # Numbers that are cut are wrong: a table is as wide as it is, and a terminal folds what does not fit.
+    # Truncated numbers would be wrong: a table keeps its width, and the terminal wraps what does not fit.
     whole = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
     console.width = max(console.width, whole)
     console.print(table)

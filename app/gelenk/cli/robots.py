@@ -1,4 +1,4 @@
-"""Commands about the robots that the service has."""
+"""Commands about the robots of the service."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -23,7 +23,7 @@ def robots(
     ] = None,
     urdf: Annotated[bool, typer.Option("--urdf", help="Its URDF instead.")] = False,
 ) -> None:
-    """List the robots, or tell about one."""
+    """List the robots, or show one."""
     shared = session(context)
     if urdf and robot is None:
         raise InvalidField("urdf", "is that of one robot: name it")

@@ -21,22 +21,22 @@ ORIENTATIONS = {
     "zyz": ("phi", "theta", "psi"),
     "rotation_vector": ("rx", "ry", "rz"),
 }
-"""Names of columns by notation."""
+"""Names of columns by notation of the orientation."""
 AXES = ("x", "y", "z")
 _ANSWERED = {"targets": "poses"}
-"""Fields of an answer that the next command takes as input."""
+"""By input field, the field of another command's answer that may stand for it."""
 _PI = re.compile(r"([+-]?)(?:(\d+(?:\.\d*)?)\s*\*?\s*)?pi(?:\s*/\s*(\d+(?:\.\d*)?))?")
 
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """Rows as they were given.
+    """Rows as the user gave them.
 
     Attributes:
         source: Where they come from, for errors.
-        rows: Cells of a text, numbers, or what JSON holds in the place of a row.
-        lines: Where each row stands in a text.
-        header: The names of the columns, where the first row holds names.
+        rows: Cells as text, numbers, or what JSON holds in place of a row.
+        lines: Line number of each row in a text.
+        header: Names of the columns, if the first row holds names.
     """
 
     source: str
@@ -45,13 +45,13 @@ class Rows:
     header: tuple[str, ...] = ()
 
     def configurations(self, joint_names: Callable[[], Sequence[str]]) -> list[Any]:
-        """Configurations in the order of a chain's joints; a header that names these is followed.
+        """Return configurations in the order of a chain's joints; a header with their names sets the columns.
 
         Args:
-            joint_names: Asks for them, where there is a header.
+            joint_names: Returns the names; called only if there is a header.
 
         Raises:
-            InvalidArray: Something is no number, or of the columns some are joints and others are missing.
+            InvalidArray: A cell is not a number, or the header names only some of the joints.
         """
         if not self.header:
             return self._numbers(None)
@@ -62,10 +62,10 @@ class Rows:
         return self._numbers(None if missing else [self.header.index(name) for name in names])
 
     def targets(self, *, position_suffices: bool) -> list[Any]:
-        """Poses as the API has them; a header that names a notation is followed.
+        """Return poses in the API's form; a header that names a notation sets the columns.
 
         Raises:
-            InvalidArray: Something is no number.
+            InvalidArray: A cell is not a number.
             InvalidField: A row has too many numbers, or too few.
         """
         named = {columns: notation for notation, columns in ORIENTATIONS.items()}
@@ -99,16 +99,16 @@ class Rows:
 
 
 def rows_of(given: Sequence[str], file: str | None, field: str) -> Rows:
-    """Rows from arguments, or from a file or standard input: CSV, npy, or JSON.
+    """Return rows from arguments, or from a file or standard input: CSV, npy, or JSON.
 
     Args:
-        given: Each a row: numbers between commas or blanks.
-        file: Path, or `-`.
-        field: What they are, for errors.
+        given: Rows as text: numbers separated by commas or blanks.
+        file: Path, or `-` for standard input.
+        field: Name of the field, for errors.
 
     Raises:
         InvalidArray: The file cannot be read.
-        InvalidField: None are given, or in both ways.
+        InvalidField: No rows are given, or both arguments and a file.
     """
     if given and file is not None:
         raise InvalidField(field, "give them as arguments or as a file, not both")
@@ -121,16 +121,16 @@ def rows_of(given: Sequence[str], file: str | None, field: str) -> Rows:
 
 
 def numbers_of(text: str, field: str) -> list[float]:
-    """One row of numbers from an argument; raises as `rows_of` does."""
+    """Return one row of numbers from an argument; raises as `rows_of` does."""
     row: list[float] = rows_of([text], None, field).configurations(list)[0]
     return row
 
 
 def target_of(row: Sequence[float], position_suffices: bool, notation: str | None = None) -> dict[str, Any]:
-    """The pose that a row of numbers means.
+    """Return the pose that a row of numbers stands for.
 
     Raises:
-        InvalidField: It has too few of them, or too many.
+        InvalidField: It has too few numbers, or too many.
     """
     position = list(row[:3])
     if notation is not None:
@@ -152,7 +152,7 @@ def target_of(row: Sequence[float], position_suffices: bool, notation: str | Non
 
 
 def number(text: str) -> float:
-    """A number, or a multiple of π such as `-pi/2` and `3*pi/4`.
+    """Parse a number, or a multiple of π such as `-pi/2` and `3*pi/4`.
 
     Raises:
         ValueError: It is neither.
@@ -165,7 +165,7 @@ def number(text: str) -> float:
 
 
 def finite(text: str) -> float:
-    """The same; raises ValueError also where it is not finite."""
+    """Parse a number as `number` does; raises ValueError also if it is not finite."""
     value = number(text)
     if not math.isfinite(value):
         raise ValueError(text)
@@ -173,10 +173,10 @@ def finite(text: str) -> float:
 
 
 def text_of(content: bytes, source: str) -> str:
-    """Text in UTF-8, with or without a mark at its beginning.
+    """Decode text in UTF-8, with or without a byte order mark.
 
     Raises:
-        InvalidField: It is none.
+        InvalidField: It is not UTF-8.
     """
     try:
         return content.decode("utf-8-sig")
@@ -217,7 +217,7 @@ def _of_npy(content: bytes, source: str) -> list[list[float]]:
 
 
 def _of_json(text: str, source: str, field: str) -> list[Any]:
-    """Rows as the API has them, alone or within a request or an answer; one row may stand alone."""
+    """Return rows of JSON in the API's form, alone or within a request or an answer; one row may stand alone."""
     try:
         content = json.loads(text, parse_constant=_refused)
     except ValueError as error:
@@ -235,7 +235,7 @@ def _refused(constant: str) -> float:
 
 
 def _of_csv(text: str, source: str) -> Rows:
-    """Cells between commas, semicolons or blanks; lines that begin with # are left out."""
+    """Split text into cells at commas, semicolons or blanks; lines that start with # are left out."""
     numbered = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
     rows = [cells_of(line) for _, line in numbered]
     lines = [i for i, _ in numbered]
@@ -245,7 +245,7 @@ def _of_csv(text: str, source: str) -> Rows:
 
 
 def cells_of(line: str) -> list[str]:
-    """What is between commas, semicolons or blanks; a separator may end the line."""
+    """Split a line at commas, semicolons or blanks; it may end with a separator."""
     separator = next((mark for mark in ";," if mark in line), None)
     cells = line.split() if separator is None else next(csv.reader([line], delimiter=separator))
     found = [cell.strip() for cell in cells]

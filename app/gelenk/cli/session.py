@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 A = TypeVar("A")
 
 _LONG_SECONDS = 0.5
-"""Shorter work gets no progress bar."""
+"""Work that takes less, [s], gets no progress bar."""
 _COMPILING = "compiling the kernels{}: about a minute …"
 
 RobotArgument = Annotated[
@@ -69,10 +69,10 @@ class Session:
     """The options that all commands share.
 
     Args:
-        server: Address of the service; None for this very process.
+        server: Address of the service; None to compute in this process.
         output: Where the answer goes.
-        arguments: For xacro, `NAME=VALUE`.
-        packages: For xacro, `NAME=FOLDER`.
+        arguments: Arguments for xacro, `NAME=VALUE`.
+        packages: Packages for xacro, `NAME=FOLDER`.
         strict: Whether faults of a URDF that do not affect kinematics are refused too.
     """
 
@@ -89,18 +89,18 @@ class Session:
 
     @property
     def arguments(self) -> dict[str, str]:
-        """For xacro: values by name."""
+        """Arguments for xacro: values by name."""
         return pairs_of(list(self._given_arguments), "arg")
 
     @property
     def packages(self) -> dict[str, Path]:
-        """For xacro: folders by name."""
+        """Packages for xacro: folders by name."""
         return packages_of(list(self._given_packages))
 
     @contextmanager
     def client(self) -> Iterator["Client"]:
-        """The service."""
-        # What computes takes seconds to load: completion and --help need not wait for it.
+        """Open a client of the service, or of the application in this process."""
+        # The client takes seconds to load: completion and --help need not wait for it.
         from gelenk.client import Client  # noqa: PLC0415
 
         with ExitStack() as stack:
@@ -113,26 +113,26 @@ class Session:
                     text = _COMPILING.format("" if STORE is None else ", once")
                     stack.enter_context(when_compiling(lambda: print(text, file=sys.stderr)))
                 transport = InProcess()
-            # In this very process there is no name to look up, and no key to show.
+            # In this process there is no name to look up, and no key to send.
             yield stack.enter_context(Client(self.server or "http://127.0.0.1", transport=transport))
 
     @contextmanager
     def robot(self, argument: str) -> Iterator[tuple["Client", str]]:
-        """The service, and the name that a robot has there."""
+        """Open a client, and yield it with the name of the robot at the service."""
         arguments, packages = self.arguments, self.packages
         with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
             yield client, name
 
     def write(self, answer: "BaseModel", rows: Rows) -> None:
-        """An answer of the API."""
+        """Write an answer of the API."""
         self.output.write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
     @contextmanager
     def bar(self, what: str, *, is_measured: bool = True) -> Iterator[Callable[[float], None]]:
-        """Show progress from 0 to 1 once the work takes long; not where standard error is no terminal.
+        """Show progress from 0 to 1 once the work takes long; not if standard error is no terminal.
 
         Args:
-            what: The work.
+            what: Name of the work.
             is_measured: Whether it reports progress; else the bar shows only that it is running.
         """
         if not sys.stderr.isatty():  # whatever a variable such as FORCE_COLOR says of colours
@@ -152,17 +152,17 @@ class Session:
             shown.stop()
 
     def result_of(self, job: "Job[A]") -> A:
-        """What comes out of a job, its progress on the screen."""
+        """Return the result of a job, and show its progress meanwhile."""
         with self.bar(job.info.kind) as progress:
             return job.result(lambda info: progress(info.progress))
 
     def check_server(self) -> None:
-        """Raises InvalidField where a job would end with this very process."""
+        """Raise InvalidField without a server: a job would end with this process."""
         if not self.server:
             raise InvalidField("job", "needs --server: without one the job would end with this command")
 
     def tell_job(self, info: "JobInfo") -> None:
-        """A job as an answer."""
+        """Write a job as an answer."""
         columns = ("id", "kind", "state", "progress", "created", "finished")
         notes = () if info.error is None else (info.error.detail,)
         row = (info.id, info.kind, info.state, info.progress, info.created, info.finished)
@@ -170,6 +170,6 @@ class Session:
 
 
 def session(context: typer.Context) -> Session:
-    """That of a command."""
+    """Return the session of a command."""
     found: Any = context.obj
     return found if isinstance(found, Session) else Session(None, Output(), (), ())

@@ -1,4 +1,4 @@
-"""Xacro, expanded on the user's machine: it can read any file, which is why no server does it."""
+"""Expands xacro on the user's machine: xacro can read any file, so no server expands it."""
 
 import re
 import sys
@@ -15,16 +15,16 @@ _FINDER = "ament_index_python.packages"
 
 
 def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
-    """The URDF that a xacro file stands for.
+    """Return the URDF that a xacro file expands to.
 
     Args:
         file: The xacro file.
         arguments: Values of its `xacro:arg`s.
-        packages: Folders that `$(find NAME)` stands for; others are looked for above the file, and in ROS where it is
+        packages: Folders for `$(find NAME)`; other packages are searched for above the file, and in ROS if it is
             installed.
 
     Raises:
-        InvalidUrdf: It cannot be expanded, or to no link.
+        InvalidUrdf: It cannot be expanded, or expands to no link.
     """
     # Loading it takes a tenth of a second, which few calls need.
     import xacro  # noqa: PLC0415
@@ -40,7 +40,7 @@ def expanded(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Pa
 
 
 def _sentence(error: Exception) -> str:
-    """What went wrong, once, on one line: xacro repeats the class and the text of the cause."""
+    """Return the error once, on one line: xacro repeats the class and the text of the cause."""
     if isinstance(error, RecursionError):
         return "it includes itself, or a macro calls itself"
     words = re.sub(r"<class '[^']*'>: | \[Errno.*", "", " ".join(str(error).split()))
@@ -49,7 +49,7 @@ def _sentence(error: Exception) -> str:
 
 
 def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
-    """Stand in for ROS's index of packages, and fall back on it."""
+    """Replace ROS's index of packages, and fall back on it."""
     index = sys.modules.get(_FINDER)
     real = getattr(index, "_real", index)
     if real is None:
@@ -74,7 +74,7 @@ def _stand_in(file: Path, packages: Mapping[str, Path]) -> None:
 
 
 def _above(file: Path, name: str) -> Path | None:
-    """The package of that name that contains the file, or one beside it."""
+    """Return the package of that name which contains the file or lies beside it, if any."""
     for folder in file.parents:
         for candidate in (folder, folder / name):
             manifest = candidate / "package.xml"
