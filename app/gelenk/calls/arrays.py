@@ -1,4 +1,4 @@
-"""Operations on large batches: NumPy in, NumPy out, nothing but numbers on the wire."""
+"""Operations on large batches: NumPy arrays in and out, sent as plain numbers."""
 
 import inspect
 from collections.abc import Callable
@@ -27,12 +27,12 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Reached:
-    """The inverse of a batch of targets.
+    """Inverse kinematics of a batch of targets.
 
     Attributes:
-        joint_positions: Shape (N, n), [rad or m]: of each target a solution, or what comes nearest.
-        unsolved: How many targets have none.
-        unsolved_rows: The first two hundred of them.
+        joint_positions: Shape (N, n), [rad or m]: for each target a solution, or the nearest configuration.
+        unsolved: Number of targets without a solution.
+        unsolved_rows: Indices of the first two hundred of them.
     """
 
     joint_positions: Array
@@ -45,10 +45,10 @@ class Sampled:
     """A trajectory at its sample times.
 
     Attributes:
-        samples: Shape (N, 1 + 3n): time [s], joint positions [rad or m], velocities [1/s of it], accelerations.
-        duration: Of the whole motion, [s].
+        samples: Shape (N, 1 + 3n): time [s], joint positions [rad or m], velocities [rad/s or m/s], accelerations.
+        duration: Duration of the whole motion, [s].
         completed_fraction: How much of the way can be done, 0 to 1.
-        failure: Why not all of it, or None.
+        failure: Why the rest cannot be done, or None.
     """
 
     samples: Array
@@ -72,13 +72,13 @@ def _sampled(reply: Reply) -> Sampled:
 def _batch(
     name: str, options: Callable[P, BaseModel], field: str, read: Callable[[Reply], T]
 ) -> Sent[Concatenate[str, Array, P], T]:
-    """`POST /v1/robots/{robot}/{name}` with an array in both directions.
+    """Define `POST /v1/robots/{robot}/{name}` with an array in both directions.
 
     Args:
-        name: The operation's.
-        options: What it takes beside the array.
-        field: What the array stands for.
-        read: Makes the answer.
+        name: Name of the operation.
+        options: Fields besides the array.
+        field: Content of the array.
+        read: Reads the answer.
     """
 
     def describe(robot: str, array: Array, /, *_: P.args, **fields: P.kwargs) -> Call[T]:
@@ -98,7 +98,7 @@ def _trajectory(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P]
 
 
 def _result(job: str) -> Call[Array]:
-    """The array that came out of a job."""
+    """Return the array of a job's result."""
     return Call("GET", f"v1/jobs/{segment(job)}/result", unpacked, accept=NPY)
 
 
@@ -106,7 +106,7 @@ _POSITIONS = "`joint_positions`, shape (N, n), [rad or m]"
 
 
 class ArrayOperations:
-    """The operations on a robot that take an array, and jobs that end with one."""
+    """Operations on a robot that take an array, and the arrays of jobs."""
 
     fk = _batch("fk", ForwardOptions, _POSITIONS, unpacked)
     jacobian = _batch("jacobian", JacobianOptions, _POSITIONS, unpacked)
@@ -132,22 +132,22 @@ class ArrayOperations:
 
 
 class Arrays(ArrayOperations):
-    """These of a client that waits."""
+    """Array operations of a client that waits."""
 
     def __init__(self, client: Blocking) -> None:
         self._client = client
 
     def send(self, call: Call[T]) -> T:
-        """As the client's."""
+        """Send a call with the client."""
         return self._client.send(call)
 
 
 class AsyncArrays(ArrayOperations):
-    """The same operations, awaited."""
+    """Array operations of a client that is awaited."""
 
     def __init__(self, client: Awaited) -> None:
         self._client = client
 
     async def send(self, call: Call[T]) -> T:
-        """As the client's."""
+        """Send a call with the client."""
         return await self._client.send(call)

@@ -1,4 +1,4 @@
-"""A call of the service as data, and a description of calls as a method of both clients."""
+"""A call of the service as data, and how its description becomes a method of both clients."""
 
 import functools
 import inspect
@@ -30,11 +30,11 @@ NPY = "application/x-npy"
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What the service has answered with.
+    """A reply of the service.
 
     Attributes:
-        body: As it came.
-        headers: By lower-case name.
+        body: Body as received.
+        headers: Headers by lower-case name.
     """
 
     body: bytes
@@ -43,21 +43,21 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Call(Generic[T]):
-    """What is sent, and how the answer is read.
+    """A request to send, and how to read its answer.
 
     Attributes:
-        method: Of HTTP.
-        path: Below the address of the service, without a leading slash.
-        read: Makes the answer of what has come back.
-        query: Parameters; a list repeats its name.
-        body: As it is sent.
-        media_type: Of the body.
-        form: Fields of a form, in the place of a body.
-        files: The form's files.
-        accept: Media type that the answer is wanted in.
-        is_later: Whether it is to be answered by a job.
-        is_repeatable: Whether it may be sent again when it is not known whether it was done: it stores nothing, or
-            the same thing as before.
+        method: HTTP method.
+        path: Path below the address of the service, without a leading slash.
+        read: Reads the answer from a reply.
+        query: Query parameters; a list repeats its name.
+        body: Body of the request.
+        media_type: Media type of the body.
+        form: Fields of a form, instead of a body.
+        files: Files of the form.
+        accept: Media type wanted for the answer.
+        is_later: Whether a job is to answer it.
+        is_repeatable: Whether it may be sent again if it is unknown whether it was executed: it stores nothing, or the
+            same as before.
     """
 
     method: str
@@ -80,23 +80,23 @@ class Call(Generic[T]):
 
 
 class Blocking(Protocol):
-    """Sends a call and waits for its answer."""
+    """A client that sends a call and waits for its answer."""
 
     def send(self, call: Call[T]) -> T:
-        """The answer."""
+        """Send a call and return its answer."""
         ...
 
 
 class Awaited(Protocol):
-    """Sends a call; its answer is awaited."""
+    """A client that sends a call; its answer is awaited."""
 
     def send(self, call: Call[T]) -> Coroutine[object, None, T]:
-        """The answer, once awaited."""
+        """Send a call; the answer is awaited."""
         ...
 
 
 class Sent(Generic[P, T]):
-    """A method of both clients: it sends the call that a function describes."""
+    """A method of both clients that sends the call a function describes."""
 
     def __init__(self, describe: Callable[P, Call[T]]) -> None:
         self.describe = describe
@@ -113,7 +113,7 @@ class Sent(Generic[P, T]):
     def __get__(self, client: Awaited, owner: type) -> Callable[P, Coroutine[object, None, T]]: ...
 
     def __get__(self, client: Any, owner: type) -> Any:
-        """The description itself of the class; of a client the method."""
+        """Return the descriptor itself for the class, or the method of a client."""
         if client is None:
             return self
 
@@ -121,7 +121,7 @@ class Sent(Generic[P, T]):
 
 
 def method_of(name: str, describe: Callable[P, Call[T]], send: Callable[[Call[T]], R]) -> Callable[P, R]:
-    """A method that does something with the call that a function describes; raises TypeError as a function does."""
+    """Return a method that passes the described call to `send`; raises TypeError as a function does."""
     signature = inspect.signature(describe)
     places = [one.name for one in signature.parameters.values() if one.kind != inspect.Parameter.KEYWORD_ONLY]
 
@@ -143,13 +143,13 @@ ROBOT = inspect.Parameter("robot", inspect.Parameter.POSITIONAL_ONLY, annotation
 def documented(
     describe: Callable[P, Call[T]], fields: Callable[..., object], sentences: str, *before: inspect.Parameter
 ) -> Callable[P, Call[T]]:
-    """A description that says what it takes, to people at a prompt too.
+    """Give a description the signature of the fields that it takes, and a docstring about them.
 
     Args:
         describe: Takes the fields of a model by name.
-        fields: The model.
-        sentences: Its docstring.
-        before: Parameters in front of the fields.
+        fields: Model of the fields.
+        sentences: Start of the docstring.
+        before: Parameters before the fields.
     """
     parameters = [
         one.replace(annotation=_words(one.annotation)) for one in inspect.signature(fields).parameters.values()
@@ -163,14 +163,14 @@ def documented(
 
 
 class _Words(str):
-    """An annotation as people read it."""
+    """An annotation in readable form."""
 
     __slots__ = ()
     __repr__ = str.__str__
 
 
 def _words(annotation: Any) -> _Words:
-    """A type without what only pydantic needs to know of it."""
+    """Return a type without the metadata that only pydantic needs."""
     origin, parts = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         return _words(parts[0])

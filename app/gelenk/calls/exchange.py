@@ -21,20 +21,20 @@ P = ParamSpec("P")
 A = TypeVar("A", bound=Answer)
 
 _LARGE = 1_000_000
-"""Bytes of an answer."""
+"""Size of an answer that counts as large, in bytes."""
 
 
 def posted(path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
-    """A call with JSON in both directions."""
+    """Describe a call with JSON in both directions."""
     return Call("POST", path, reader(answer), body=encoded(fields), **details)
 
 
 def encoded(fields: Mapping[str, Any]) -> bytes:
-    """The fields of a request as JSON; arrays and models go as what they hold.
+    """Encode the fields of a request as JSON; arrays and models are sent as their content.
 
     Raises:
-        InvalidArray: A field is an array of something else than numbers.
-        InvalidField: A number of an array is not finite: JSON would have nothing in its place.
+        InvalidArray: A field is an array of something other than numbers.
+        InvalidField: A number of an array is not finite, which JSON cannot express.
     """
     plain = {name: _finite(name, value) if isinstance(value, np.ndarray) else value for name, value in fields.items()}
     return orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
@@ -51,14 +51,14 @@ def _finite(field: str, array: Array) -> Array:
 def _plain(value: Any) -> Any:
     if isinstance(value, BaseModel):
         return value.model_dump(exclude_unset=True)
-    plain = as_lists(value)  # of an array that is not contiguous, of a range, of a deque
+    plain = as_lists(value)  # for arrays that are not contiguous, ranges, deques
     if plain is value:
         raise TypeError(f"a {type(value).__name__} cannot be sent as JSON")
     return plain
 
 
 def reader(answer: type[A]) -> Callable[[Reply], A]:
-    """How an answer is read; what a newer service tells beside it is left out."""
+    """Return a function that reads an answer; further fields of a newer service are left out."""
 
     def read(reply: Reply) -> A:
         with _collector_at_rest(len(reply.body) > _LARGE):
@@ -69,9 +69,9 @@ def reader(answer: type[A]) -> Callable[[Reply], A]:
 
 @contextmanager
 def _collector_at_rest(rests: bool) -> Iterator[None]:
-    """Without the collector of garbage, where wanted: of a hundred thousand new poses none is garbage.
+    """Pause the garbage collector if `rests`: of a hundred thousand new poses none is garbage.
 
-    It would look through them again and again, for a good part of the time that a large answer takes to read.
+    It would scan them repeatedly, for a good part of the time that a large answer takes to read.
     """
     rests = rests and gc.isenabled()
     if rests:
@@ -84,7 +84,7 @@ def _collector_at_rest(rests: bool) -> Iterator[None]:
 
 
 def segment(name: str) -> str:
-    """A name as a part of a path."""
+    """Quote a name as a segment of a path."""
     if not isinstance(name, str):
         raise TypeError(f"a robot or a job is given by its name, a string, not by {name!r:.80}")
     return quote(name, safe="")
@@ -93,6 +93,6 @@ def segment(name: str) -> str:
 def described_by(
     describe: Callable[P, Call[A]], request: Callable[..., BaseModel], answer: type[A], *before: inspect.Parameter
 ) -> Callable[P, Call[A]]:
-    """A description that says what its models do."""
+    """Give a description the docstrings of its models."""
     sentences = f"{inspect.getdoc(request)}\n\nReturns:\n    {answer.__name__}: {inspect.getdoc(answer)}"
     return documented(describe, request, sentences, *before)

@@ -1,4 +1,4 @@
-"""Jobs, which the service runs in the background, as objects that know their results."""
+"""Jobs, which the service runs in the background, as objects with their progress and results."""
 
 import functools
 import inspect
@@ -25,18 +25,18 @@ _array = ArrayOperations.job_result.describe
 
 
 class Watching(Blocking, Protocol):
-    """A client that waits."""
+    """A client that waits, and can watch a job."""
 
     def watch(self, job: str) -> Iterator[JobInfo]:
-        """A job, whenever it is further on."""
+        """Yield a job whenever it has progressed."""
         ...
 
 
 class AwaitedWatching(Awaited, Protocol):
-    """A client that is awaited."""
+    """A client that is awaited, and can watch a job."""
 
     def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
-        """A job, whenever it is further on."""
+        """Yield a job whenever it has progressed."""
         ...
 
 
@@ -47,7 +47,7 @@ class _Told:
 
     @property
     def id(self) -> str:
-        """By which the service knows it."""
+        """Id of the job at the service."""
         return self.info.id
 
     def __repr__(self) -> str:
@@ -57,10 +57,10 @@ class _Told:
 class Job(_Told, Generic[A]):
     """A job of the service. Iterate over it to see its progress; `result` waits for its result.
 
-    As a context it is gone when it is left: cancelled where it was not at its end, and its result removed.
+    Leaving it as a context manager cancels the job if it is unfinished, and removes its result.
 
     Attributes:
-        info: Its last known progress.
+        info: Latest known progress.
     """
 
     def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
@@ -72,31 +72,31 @@ class Job(_Told, Generic[A]):
             yield info
 
     def wait(self, progress: Progress | None = None) -> JobInfo:
-        """The job at its end, whatever that is."""
+        """Wait until the job has finished, whatever the outcome, and return it."""
         for info in self:
             if progress is not None:
                 progress(info)
         return self.info
 
     def result(self, progress: Progress | None = None) -> A:
-        """What has come out, when the job is at its end.
+        """Wait until the job has finished, and return its result.
 
         Raises:
-            Refused: It failed, which is the core's own exception, or was cancelled.
+            Refused: The job failed (raised as the core's own exception), or was cancelled.
         """
         self.wait(progress)
         return self._client.send(self._result(self.id))
 
     def array(self, progress: Progress | None = None) -> Array:
-        """The same as an array; see `arrays` of the client for what it holds."""
+        """Wait until the job has finished, and return its array; see `arrays` of the client for the content."""
         self.wait(progress)
         return self._client.send(_array(self.id))
 
     def cancel(self, finished: Finished = "keep") -> JobInfo:
-        """End it, or remove its result where it has come to its end and that is said.
+        """Cancel the job, or with `finished="remove"` remove the result of a finished one.
 
         Raises:
-            JobFinished: It has come to its end, and that is not said.
+            JobFinished: The job has finished, and `finished` is "keep".
         """
         self.info = self._client.send(_cancel(self.id, finished))
         return self.info
@@ -110,7 +110,7 @@ class Job(_Told, Generic[A]):
 
 
 class AsyncJob(_Told, Generic[A]):
-    """The same, awaited."""
+    """A job of the service, awaited; see `Job`."""
 
     def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
         self._client, self.info, self._result = client, info, result
@@ -122,7 +122,7 @@ class AsyncJob(_Told, Generic[A]):
                 yield info
 
     async def wait(self, progress: Progress | None = None) -> JobInfo:
-        """As `Job` does it."""
+        """Await the end of the job; see `Job.wait`."""
         async with aclosing(aiter(self)) as told:
             async for info in told:
                 if progress is not None:
@@ -130,17 +130,17 @@ class AsyncJob(_Told, Generic[A]):
         return self.info
 
     async def result(self, progress: Progress | None = None) -> A:
-        """As `Job` does it."""
+        """Await the result of the job; see `Job.result`."""
         await self.wait(progress)
         return await self._client.send(self._result(self.id))
 
     async def array(self, progress: Progress | None = None) -> Array:
-        """As `Job` does it."""
+        """Await the array of the job; see `Job.array`."""
         await self.wait(progress)
         return await self._client.send(_array(self.id))
 
     async def cancel(self, finished: Finished = "keep") -> JobInfo:
-        """As `Job` does it."""
+        """Cancel or remove the job; see `Job.cancel`."""
         self.info = await self._client.send(_cancel(self.id, finished))
         return self.info
 
@@ -155,23 +155,23 @@ class AsyncJob(_Told, Generic[A]):
 
 
 class Begins(Protocol):
-    """The jobs of a client that waits."""
+    """Starts the jobs of a client that waits."""
 
     def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
-        """The job of a call."""
+        """Start the job of a call."""
         ...
 
 
 class BeginsAwaited(Protocol):
-    """The jobs of a client that is awaited."""
+    """Starts the jobs of a client that is awaited."""
 
     def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[object, None, AsyncJob[A]]:
-        """The job of a call, once awaited."""
+        """Start the job of a call; it is awaited."""
         ...
 
 
 class Begun(Generic[P, A]):
-    """A method of both clients: it begins a job whose result is the answer to a call."""
+    """A method of both clients that starts a job whose result answers a call."""
 
     def __init__(self, describe: Callable[P, Call[JobInfo]], result: Callable[[str], Call[A]]) -> None:
         self.describe, self._result = describe, result
@@ -188,7 +188,7 @@ class Begun(Generic[P, A]):
     def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
 
     def __get__(self, jobs: Any, owner: type) -> Any:
-        """The description itself of the class; of a client's jobs the method."""
+        """Return the descriptor itself for the class, or the method of a client's jobs."""
         if jobs is None:
             return self
 
@@ -196,7 +196,7 @@ class Begun(Generic[P, A]):
 
 
 def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
-    """The call that is answered by a job; sent twice it would be two of them."""
+    """Return the call that a job answers; not repeatable, since sending it twice would start two jobs."""
 
     @functools.wraps(describe)
     def described(*args: P.args, **kwargs: P.kwargs) -> Call[JobInfo]:
@@ -211,7 +211,7 @@ def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
 
 
 class JobOperations:
-    """The operations that may take long, as jobs: they may be larger than those that are answered at once."""
+    """Operations that may take long, as jobs; a job may be larger than a call that is answered at once."""
 
     ik = Begun(_later(Operations.ik.describe), Operations.ik_result.describe)
     trajectory = Begun(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
@@ -219,22 +219,22 @@ class JobOperations:
 
 
 class Jobs(JobOperations):
-    """These of a client that waits."""
+    """Jobs of a client that waits."""
 
     def __init__(self, client: Watching) -> None:
         self._client = client
 
     def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
-        """The job of a call."""
+        """Start the job of a call."""
         return Job(self._client, self._client.send(call), result)
 
 
 class AsyncJobs(JobOperations):
-    """The same operations, awaited."""
+    """Jobs of a client that is awaited."""
 
     def __init__(self, client: AwaitedWatching) -> None:
         self._client = client
 
     async def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
-        """The job of a call."""
+        """Start the job of a call."""
         return AsyncJob(self._client, await self._client.send(call), result)

@@ -1,4 +1,4 @@
-"""Calls about what the service keeps, robots and jobs, and about the service itself."""
+"""Calls on stored robots and jobs, and on the service itself."""
 
 from collections.abc import Callable, Mapping
 from os import PathLike
@@ -45,11 +45,11 @@ def table(
     """A chain of a robot as a Denavit-Hartenberg table, with its certificate.
 
     Args:
-        robot: Its name.
-        convention: Of the table.
-        base_frame: Of the chain; the default chain's if left out.
-        tip_frame: Of the chain; the default chain's if left out.
-        snap_tolerance: How far a number may be moved to one that a person would write; not at all if left out.
+        robot: Name of the robot.
+        convention: Convention of the table.
+        base_frame: Base of the chain; the default chain's if left out.
+        tip_frame: Tip of the chain; the default chain's if left out.
+        snap_tolerance: Tolerance within which numbers are rounded to plain ones, [rad or m]; no rounding if left out.
     """
     chosen = {"base_frame": base_frame, "tip_frame": tip_frame, "snap_tolerance": snap_tolerance}
     query = {"convention": convention, **{name: value for name, value in chosen.items() if value is not None}}
@@ -62,7 +62,7 @@ def mesh(robot: str, path: str) -> Call[bytes]:
 
 
 def adding(request: Callable[P, NewRobot]) -> Callable[P, Call[RobotInfo]]:
-    """To add a robot, with the fields of this model."""
+    """Define the call that adds a robot, with the fields of this model."""
 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
         return posted("v1/robots", fields, RobotInfo)  # the same bytes under the same name change nothing
@@ -71,7 +71,7 @@ def adding(request: Callable[P, NewRobot]) -> Callable[P, Call[RobotInfo]]:
 
 
 def replacing(request: Callable[P, RobotReplacement]) -> Callable[Concatenate[str, P], Call[RobotInfo]]:
-    """To replace a robot, with the fields of this model."""
+    """Define the call that replaces a robot, with the fields of this model."""
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[RobotInfo]:
         return Call("PUT", f"v1/robots/{segment(robot)}", reader(RobotInfo), body=encoded(fields))
@@ -109,7 +109,7 @@ def _archive_fields(description: str, chain: ChainEnds | None, strict: bool, **f
 
 
 def content_of(file: bytes | str | PathLike[str]) -> bytes:
-    """The bytes of a file that is given as such or by its path."""
+    """Return the bytes of a file, given as such or by its path."""
     return file if isinstance(file, bytes) else Path(file).read_bytes()
 
 
@@ -119,10 +119,10 @@ def remove(robot: str) -> Call[None]:
 
 
 def beginning(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], Call[JobInfo]]:
-    """To begin the workspace of a robot, with the fields of this model."""
+    """Define the call that starts the workspace job of a robot, with the fields of this model."""
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[JobInfo]:
-        # Under a name of its own the same call finds the same job.
+        # With a `job_id`, the same call finds the same job.
         is_named = fields.get("job_id") is not None
         return posted(f"v1/robots/{segment(robot)}/workspace", fields, JobInfo, is_repeatable=is_named)
 
@@ -130,33 +130,33 @@ def beginning(request: Callable[P, BaseModel]) -> Callable[Concatenate[str, P], 
 
 
 def job(job: str) -> Call[JobInfo]:
-    """How far a job is."""
+    """State and progress of a job."""
     return Call("GET", f"v1/jobs/{segment(job)}", reader(JobInfo))
 
 
 def cancel(job: str, finished: Finished = "keep") -> Call[JobInfo]:
-    """Cancel a job; one that has come to its end is refused, or removed where that is said."""
+    """Cancel a job; a finished one is refused, or with `finished="remove"` removed."""
     query = {} if finished == "keep" else {"finished": finished}
     return Call("DELETE", f"v1/jobs/{segment(job)}", reader(JobInfo), query, is_repeatable=False)
 
 
 def result(answer: type[A]) -> Callable[[str], Call[A]]:
-    """To get what came out of a job whose answers are of this model."""
+    """Define the call that gets the result of a job, with answers of this model."""
 
     def describe(job: str) -> Call[A]:
-        """What came out of a job of this kind."""
+        """Result of a job of this kind."""
         return Call("GET", f"v1/jobs/{segment(job)}/result", reader(answer))
 
     return describe
 
 
 def picture(path: str, kind: Literal["svg", "png"], fields: Mapping[str, Any] | None = None) -> Call[bytes]:
-    """An answer as a picture, where there is one.
+    """An answer as a picture, if the operation draws one.
 
     Args:
-        path: Of the operation or of a job's result, such as `v1/robots/panda/trajectory`.
-        kind: Of picture.
-        fields: Of the request; None where there is none.
+        path: Path of the operation or of a job's result, such as `v1/robots/panda/trajectory`.
+        kind: Format of the picture.
+        fields: Fields of the request; None for a job's result.
     """
     method, body = ("GET", b"") if fields is None else ("POST", encoded(fields))
     return Call(method, path, lambda reply: reply.body, body=body, accept=_PICTURES[kind])
@@ -173,7 +173,7 @@ def readiness() -> Call[Health]:
 
 
 def metrics() -> Call[str]:
-    """What the service does, in numbers: Prometheus's text format."""
+    """Metrics of the service, in Prometheus's text format."""
     return Call("GET", "metrics", lambda reply: reply.body.decode(), accept="text/plain")
 
 

@@ -1,4 +1,4 @@
-"""Arrays on the wire: NumPy's own format, beside which all else goes in the query."""
+"""Arrays in requests and replies: npy bodies, with all other fields in the query."""
 
 from collections.abc import Mapping
 from io import BytesIO
@@ -12,7 +12,7 @@ from gelenk.model.errors import InvalidArray, quoted
 
 
 def numbers(array: Array) -> Array:
-    """An array as it can be sent: whole numbers and short ones stay what they are.
+    """Return an array that can be sent; integers and short floats keep their type.
 
     Raises:
         InvalidArray: It holds something else, or masked entries, which NumPy would send as numbers.
@@ -26,25 +26,25 @@ def numbers(array: Array) -> Array:
 
 
 def packed(array: Array) -> bytes:
-    """Numbers in NumPy's own format; raises as `numbers` does."""
+    """Encode numbers in NumPy's npy format; raises as `numbers` does."""
     stream = BytesIO()
     np.save(stream, numbers(array), allow_pickle=False)
     return stream.getvalue()
 
 
 def unpacked(reply: Reply) -> Array:
-    """The array that has come back."""
+    """Decode the array in a reply."""
     array: Array = np.load(BytesIO(reply.body), allow_pickle=False)
     return array
 
 
 def fits_query(fields: Mapping[str, Any]) -> bool:
-    """Whether fields fit into a query: numbers, words, and lists of words."""
+    """Check whether fields fit into a query: numbers, words, and lists of words."""
     return all(_is_plain(value) or _is_words(value) for value in fields.values())
 
 
 def query_of(fields: Mapping[str, Any]) -> dict[str, Any]:
-    """Fields as parameters: what is left out, or none, is the service's to decide."""
+    """Return fields as query parameters; those that are None are left out, and the service decides."""
     return {name: _parameter(value) for name, value in fields.items() if value is not None}
 
 

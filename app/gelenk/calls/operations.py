@@ -52,7 +52,7 @@ A = TypeVar("A", bound=Answer)
 
 
 def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
-    """An operation on a robot; its batch is sent as npy where it is an array and all other fields fit the query."""
+    """Define an operation on a robot; an array batch is sent as npy if all other fields fit into the query."""
 
     def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
         path, batch = endpoint.path.format(robot=segment(robot)), endpoint.batch
@@ -67,7 +67,7 @@ def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
 
 
 def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
-    """An operation whose path names no robot."""
+    """Define an operation whose path names no robot."""
 
     def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
         return posted(endpoint.path, fields, endpoint.answer)
@@ -130,7 +130,7 @@ class Operations:
     time_scaling = _calculator(time_scaling.ENDPOINT)
 
 
-# A line above only gives a method its types: an operation without one is a method all the same.
+# The lines above only give methods their types: an operation without one becomes a method all the same.
 for _endpoint in ENDPOINTS:
     if not hasattr(Operations, _endpoint.name):
         _sent: Sent[Any, Any] = (

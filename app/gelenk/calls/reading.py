@@ -1,4 +1,4 @@
-"""Reads a reply: an answer, or an exception with one clear sentence, whatever server has sent it."""
+"""Turns a response into an answer, or into an exception with one clear sentence, whatever server has sent it."""
 
 from http import HTTPStatus
 from typing import Any, TypeVar
@@ -13,16 +13,16 @@ T = TypeVar("T")
 
 
 def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
-    """What has come back, read.
+    """Read the answer in a response.
 
     Args:
         call: The call that was sent.
-        response: All of it.
-        url: Of the service.
+        response: The whole response.
+        url: Address of the service.
 
     Raises:
         Refused: The service refuses the call, or something in front of it does.
-        NotAnswering: What answers is not the service.
+        NotAnswering: Something other than the service has answered.
     """
     if not response.is_success:
         raise refusal(_problem(response, url))
@@ -35,7 +35,7 @@ def answer(call: Call[T], response: httpx2.Response, url: str) -> T:
 
 
 def _problem(response: httpx2.Response, url: str) -> dict[str, Any]:
-    """The service's own; what is in front of it, or in its place, may answer with anything."""
+    """Return the service's problem, or one that explains a response of something in its place."""
     try:
         problem = orjson.loads(response.content)
     except orjson.JSONDecodeError:

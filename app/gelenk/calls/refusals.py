@@ -1,4 +1,4 @@
-"""A problem on the wire, turned back into the core's own exception."""
+"""Turns a problem from the service back into the core's own exception."""
 
 from collections.abc import Mapping
 from dataclasses import MISSING, fields
@@ -14,11 +14,11 @@ _STANDARD = frozenset({"type", "title", "status", "detail", "instance", "request
 class Refused(KinematicsError):
     """The service refuses a call.
 
-    What the core refuses is an instance of the core's class too, with its data: `except UnknownFrame as error` finds
+    An error of the core is an instance of the core's class too, with its data: `except UnknownFrame as error` gives
     `error.known`.
 
     Attributes:
-        problem: As it came (RFC 9457).
+        problem: Problem as received (RFC 9457).
     """
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
@@ -26,26 +26,26 @@ class Refused(KinematicsError):
         if type(self) is not Refused:
             facts = self.facts()
             for field in fields(self):
-                absent = None if field.default is MISSING else field.default  # an older service tells less
+                absent = None if field.default is MISSING else field.default  # an older service sends less
                 setattr(self, field.name, _frozen(facts.get(field.name, absent)))
 
     @property
     def detail(self) -> str:
-        """The service's sentence."""
+        """Sentence of the service."""
         return str(self.problem.get("detail", "the service refuses the call without a reason"))
 
     @property
     def status(self) -> int:
-        """The status of HTTP."""
+        """HTTP status."""
         return int(self.problem.get("status", 0))
 
     @property
     def kind(self) -> str:
-        """Such as `unknown-frame`."""
+        """Kind of the problem, such as `unknown-frame`."""
         return str(self.problem.get("type", "")).removeprefix(KIND_PREFIX)
 
     def facts(self) -> dict[str, object]:
-        """What the service tells beside the sentence."""
+        """Return the data of the problem besides its standard members."""
         return {name: value for name, value in self.problem.items() if name not in _STANDARD}
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -53,18 +53,18 @@ class Refused(KinematicsError):
 
 
 class NotAnswering(KinematicsError):
-    """The service cannot be reached, or breaks off."""
+    """The service cannot be reached, or breaks the connection."""
 
     def __init__(self, url: str, reason: str) -> None:
         self.url, self.reason = url, reason
 
     @property
     def detail(self) -> str:
-        """Where it was looked for, and what went wrong."""
+        """Address that was tried, and what went wrong."""
         return f"no answer from {self.url}: {self.reason}"
 
     def facts(self) -> dict[str, object]:
-        """Both parts of the sentence."""
+        """Return both parts of the sentence."""
         return {"url": self.url, "reason": self.reason}
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -72,14 +72,14 @@ class NotAnswering(KinematicsError):
 
 
 def refusal(problem: Mapping[str, Any]) -> Refused:
-    """The exception for a problem."""
+    """Return the exception for a problem."""
     kind = str(problem.get("type", "")).removeprefix(KIND_PREFIX)
     return _classes().get(kind, Refused)(problem)
 
 
 @cache
 def _classes() -> dict[str, type[Refused]]:
-    """By kind: each class of the core as a refusal."""
+    """Return each class of the core as a refusal, by kind."""
     return {kind: type(core.__name__, (Refused, core), {}) for kind, core in kinds().items()}
 
 
