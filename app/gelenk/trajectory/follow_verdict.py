@@ -258,7 +258,7 @@ def _of_all_branches(inquiry: Inquiry, trace: Trace) -> tuple[float, str]:
     farthest = max(end.bad for end in ends)
     share = f"leads beyond {farthest / course.path.extent:.4%} of the path"
     tried = f"{counted(len(traces), 'configuration')} of its first pose"
-    # A joint at its limit might have begun a turn away from it; and a path given up as too fast might lead on.
+    # A joint at its limit might have started one turn away from it; a path given up as too fast might lead on.
     turns = course.chain.upper - course.chain.lower >= 2.0 * np.pi
     joints = [end.joint for end in ends if end.joint is not None]
     if is_whole and not turns[joints].any() and all(one.ending != "too_fast" for one in traces):
