@@ -1,14 +1,14 @@
-"""What a robot is: descriptions, tables, chains, poses; no HTTP, no settings.
+"""Robot models: descriptions, DH tables, chains and poses; independent of HTTP and settings.
 
-- `errors`: every error of the core, as a tree.
-- `arrays`: array types; `compilation`: the decorators for compiled functions.
-- `poses`: SO(3) and SE(3) as matrices; `notations`: in every notation.
-- `dh`: Denavit-Hartenberg tables and their product of transforms.
-- `urdf`: untrusted XML → checked description → XML of our own; `unexpanded`: what is left of a xacro in it.
-- `chain`: base → tip as flat arrays for the kernels.
+- `errors`: every error of the core, as a class hierarchy.
+- `arrays`: array types; `compilation`: decorators for compiled functions.
+- `poses`: SO(3) and SE(3) as matrices; `notations`: conversion to and from other notations.
+- `dh`: Denavit-Hartenberg tables and their products of transforms.
+- `urdf`: untrusted XML → checked description → XML written by this package; `unexpanded`: detects xacro in it.
+- `chain`: the path from base to tip as flat arrays for the kernels.
 - `convert`: DH table → URDF; standard ↔ modified.
-- `dh_from_chain`: chain → DH table, by the geometry of its axes.
-- `appearance`: bodies of a table's links, for display and mass; `skeleton`: of links without any.
-- `origins`: transforms as URDF writes them.
-- `robot`: description, chains and the Pinocchio model together.
+- `dh_from_chain`: chain → DH table, from the geometry of its axes.
+- `appearance`: simple bodies for the links of a DH table; `skeleton`: for URDF links without shapes.
+- `origins`: homogeneous transforms as URDF origins.
+- `robot`: description, chains and Pinocchio model together.
 """

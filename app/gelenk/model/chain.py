@@ -1,9 +1,9 @@
-"""A chain: the way from a base frame to a tip frame through a description, as flat arrays for the kernels.
+"""A chain: the path from a base frame to a tip frame through a description, as flat arrays for the kernels.
 
-The way may lead up the tree and down again, so base and tip are any two frames. Between the n joints of the way
-(mimic joints included) stand n + 1 constant placements, each turned so that its joint turns about or slides along
-its local z axis; a joint passed from child to parent turns the other way, which the axis takes up. A chain is built
-from the description alone: Pinocchio is its judge, not its source.
+The path may go up the tree and down again, so base and tip can be any two frames. A path across m joints (mimic joints
+included) has m + 1 constant placements: one before each joint and one after the last, each rotated so that the joint
+turns about or slides along its local z axis. A joint crossed from child to parent moves in the opposite direction, so
+its axis is reversed. A chain is built from the description alone; Pinocchio checks it but does not provide it.
 """
 
 from dataclasses import dataclass
@@ -20,15 +20,16 @@ from gelenk.model.poses import inverse, transform
 
 
 class FlatChain(NamedTuple):
-    """The numbers of a chain for the kernels; m joints on the way, mimic ones included.
+    """The numbers of a chain for the kernels, with m joints on the path, mimic joints included.
 
-    Few arrays, because handing one over costs a compiled function a tenth of a microsecond.
+    There are few arrays because passing one to a compiled function takes a tenth of a microsecond.
 
     Attributes:
-        placements: Constant placements before each joint and after the last, rotation row by row, then translation
-            in [m]; shape (m + 1, 12).
-        joints: Of each joint 1 where it slides or 0 where it turns, and the variable that moves it; shape (m, 2).
-        drives: Joint position = multiplier · variable + offset, these two; shape (m, 2), [rad or m].
+        placements: Constant placements before each joint and after the last: rotation row by row, then translation in
+            [m]; shape (m + 1, 12).
+        joints: For each joint, 1 if it slides or 0 if it turns, and the index of the variable that moves it; shape (m,
+            2).
+        drives: Multiplier and offset of joint position = multiplier · variable + offset; shape (m, 2), [rad or m].
     """
 
     placements: Array
@@ -38,16 +39,16 @@ class FlatChain(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Base → tip of a robot.
+    """A kinematic chain of a robot, from a base frame to a tip frame.
 
     Attributes:
-        base_frame: Where poses are expressed.
-        tip_frame: What poses are of.
-        joint_names: The chain's n variables, base to tip; the order of a configuration.
-        robot_joints: All movable joints of the robot, those the chain does not have included.
-        lower: Lower bound of each variable, [rad or m], -inf where there is none; shape (n,).
-        upper: Upper bound likewise, inf where there is none; shape (n,).
-        flat: The kernels' view of it.
+        base_frame: Frame in which poses are expressed.
+        tip_frame: Frame whose pose is computed.
+        joint_names: Names of the chain's n variables, base to tip; the order of a configuration.
+        robot_joints: Names of all movable joints of the robot, including those outside the chain.
+        lower: Lower bound of each variable, [rad or m], -inf if unbounded; shape (n,).
+        upper: Upper bound of each variable, [rad or m], inf if unbounded; shape (n,).
+        flat: The chain as arrays for the kernels.
     """
 
     base_frame: str
@@ -63,11 +64,11 @@ class Chain:
 
 
 def build_chain(description: Description, base_frame: str, tip_frame: str) -> Chain:
-    """The chain between two frames of a robot.
+    """Build the chain between two frames of a robot.
 
     Raises:
-        UnknownFrame: One of the two is no frame of the robot.
-        UnsupportedJoint: A floating or planar joint lies on the way.
+        UnknownFrame: The robot does not have one of the frames.
+        UnsupportedJoint: A floating or planar joint lies on the path.
     """
     upwards, downwards = _way(description, base_frame, tip_frame)
     steps = [(joint, True) for joint in upwards] + [(joint, False) for joint in downwards]
@@ -101,15 +102,15 @@ def build_chain(description: Description, base_frame: str, tip_frame: str) -> Ch
 
 
 def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[Chain, Indices]:
-    """The chain from the same base to another frame that the same variables move.
+    """Build the chain from the same base to another frame that depends only on the chain's variables.
 
     Returns:
-        That chain, and for each of its variables the index in the configuration of `chain`.
+        The new chain, and for each of its variables the index in the configuration of `chain`.
 
     Raises:
-        UnknownFrame: It is no frame of the robot.
-        FrameNotOnChain: Joints that are no variables of the chain move it.
-        UnsupportedJoint: A floating or planar joint lies on the way.
+        UnknownFrame: The robot does not have this frame.
+        FrameNotOnChain: The frame also depends on joints that are not variables of the chain.
+        UnsupportedJoint: A floating or planar joint lies on the path.
     """
     part = build_chain(description, chain.base_frame, frame)
     missing = tuple(name for name in part.joint_names if name not in chain.joint_names)
@@ -119,13 +120,13 @@ def frame_on_chain(description: Description, chain: Chain, frame: str) -> tuple[
 
 
 def joints_on_the_way(description: Description, chain: Chain) -> tuple[Joint, ...]:
-    """The joints that a chain leads across, mimic ones included, base to tip: one for each motion of `flat`."""
+    """Return the movable joints on a chain's path, base to tip, mimic joints included: one per row of `flat.joints`."""
     upwards, downwards = _way(description, chain.base_frame, chain.tip_frame)
     return tuple(joint for joint in (*upwards, *downwards) if joint.type in MOVABLE)
 
 
 def default_ends(description: Description) -> tuple[str, str]:
-    """Root link → the leaf with the longest movable chain; of equals the first in the document."""
+    """Return the root link and the leaf with the longest movable chain; of equals, the first in the document."""
     best, most = description.root, -1
     for leaf in description.leaves:
         joints = list(description.path_to_root(leaf))
@@ -138,7 +139,7 @@ def default_ends(description: Description) -> tuple[str, str]:
 
 
 def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[list[Joint], list[Joint]]:
-    """The joints up from the base to the common ancestor, and those down from there to the tip."""
+    """Return the joints from the base up to the common ancestor, and those from there down to the tip."""
     for frame in (base_frame, tip_frame):
         if frame not in description.joints_below:
             raise UnknownFrame(frame, description.frames)
@@ -151,10 +152,9 @@ def _way(description: Description, base_frame: str, tip_frame: str) -> tuple[lis
 
 
 def _variables(moving: list[Joint], drives: list[Drive]) -> tuple[str, ...]:
-    """The names of the variables in the order of the way.
+    """Return the names of the variables in the order of the path.
 
-    An independent joint keeps its place; the leader of a mimic joint that is not on the way itself stands where
-    it is first needed.
+    An independent joint keeps its place; a leader off the path comes where a mimic joint first needs it.
     """
     on_the_way = {joint.name for joint in moving}
     names = [
@@ -166,7 +166,7 @@ def _variables(moving: list[Joint], drives: list[Drive]) -> tuple[str, ...]:
 
 
 def _placements(steps: list[tuple[Joint, bool]]) -> list[Array]:
-    """The constant placements between the moving joints of the way, each ending in an axis along z."""
+    """Return the constant placements around the moving joints, each ending with the next joint's axis along z."""
     placements = []
     T = np.eye(4)
     for joint, reversed_ in steps:
@@ -180,9 +180,9 @@ def _placements(steps: list[tuple[Joint, bool]]) -> list[Array]:
 
 @lru_cache(maxsize=4096)
 def _around_motion(joint: Joint, reversed_: bool) -> tuple[Array, Array]:
-    """The constant placements before and after a joint's motion about or along z; only the first of a fixed joint.
+    """Return the constant placements before and after a joint's motion on z; a fixed joint has only the first.
 
-    From child to parent the motion comes first, the other way round, and the origin is undone after it.
+    If the joint is crossed from child to parent, its axis is flipped and the inverse of its origin follows the motion.
     """
     origin = placement(joint.origin.xyz, joint.origin.rpy)
     if joint.type not in MOVABLE:
@@ -195,7 +195,7 @@ def _around_motion(joint: Joint, reversed_: bool) -> tuple[Array, Array]:
 
 
 def rotation_to_axis(axis: Triple) -> Array:
-    """A rotation whose z axis is the given unit vector, exact for the coordinate axes; shape (3, 3)."""
+    """Return a rotation whose z axis is the given unit vector, exact for the coordinate axes; shape (3, 3)."""
     z = np.array(axis)
     smallest = int(np.argmin(np.abs(z)))
     x = np.cross(np.eye(3)[smallest], z)

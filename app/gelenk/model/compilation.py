@@ -1,4 +1,4 @@
-"""The decorators for compiled functions, and where these are stored. Numba takes a third of a second to load."""
+"""Decorators for compiled functions, and the cache of their code. Importing Numba takes a third of a second."""
 
 import contextlib
 import hashlib
@@ -22,9 +22,9 @@ _IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
 
 
 def _kernel_digest() -> str:
-    """What tells one state of the kernels' sources from another: those with kernels, and all that these import.
+    """Return a digest of the sources that define kernels and of all modules that these import.
 
-    The errors are left out: kernels raise none, and new ones are no reason to recompile.
+    `errors` is excluded: kernels raise none of them, and a new error is no reason to recompile.
     """
     package = Path(__file__).parents[1]
     texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}
@@ -43,17 +43,17 @@ def _kernel_digest() -> str:
 
 
 def _processor_digest() -> str:
-    """What tells one kind of processor from another: what is compiled for one need not run on the other."""
+    """Return a digest of the processor type, because code compiled for one type need not run on another."""
     features = sorted(llvmlite.binding.get_host_cpu_features().items())
     words = (llvmlite.binding.get_host_cpu_name(), features, _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES)
     return hashlib.sha256(repr(words).encode()).hexdigest()[:8]
 
 
 def _store() -> Path | None:
-    """The first folder that can be written to: what is set, else one in the tree or in the user's cache; or none.
+    """Return the first writable folder: the configured one, else one in the source tree or the user's cache; or None.
 
-    Numba renews what it has stored of a function when the function's own file changes, but not when one does from
-    which it took another function: so each state of the sources has a store of its own.
+    Numba refreshes its cache of a function when the function's own file changes, but not when the file of an inlined
+    function changes. So each version of the sources has its own folder.
     """
     given, state = _SETTINGS.CACHE_DIR, f"{_kernel_digest()}-{_processor_digest()}"
     own = (Path(__file__).parents[1] / "__pycache__" / "kernels", user_cache_path("gelenk") / "kernels")
@@ -73,7 +73,7 @@ def _store() -> Path | None:
 
 _SETTINGS: Any = numba.config
 STORE = _store()
-"""Where compiled kernels are kept; None where nothing can be written."""
+"""Folder of the compiled kernels; None if no folder is writable."""
 _SETTINGS.CACHE_DIR = str(STORE or "")
 _OPTIONS: dict[str, Any] = {
     "cache": STORE is not None,
@@ -85,12 +85,12 @@ _UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
 
 
 def is_stored() -> bool:
-    """Whether all kernels have been compiled for this kind of processor before, and only need to be read."""
+    """Return whether all kernels have already been compiled for this processor type and only need to be loaded."""
     return STORE is not None and (STORE / "all").exists()
 
 
 def note_stored() -> None:
-    """Say that all of them have been."""
+    """Record that all kernels have been compiled and stored."""
     if STORE is not None:
         with contextlib.suppress(OSError):
             (STORE / "all").touch()
@@ -100,24 +100,24 @@ _expects_others = False
 
 
 def expect_others(does: bool) -> None:
-    """Say whether another process compiles kernels that this one and its copies may need."""
+    """Set whether another process compiles kernels that this process and its forks may need."""
     global _expects_others  # noqa: PLW0603
     _expects_others = does
 
 
 def is_awaited() -> bool:
-    """Whether another process is still compiling: here it would take a minute that is spent there already."""
+    """Return whether another process is still compiling the kernels; to compile them here too would waste a minute."""
     return _expects_others and not is_stored()
 
 
 def wait_for_others() -> None:
-    """Wait until nothing is awaited any more."""
+    """Wait until no other process is still compiling the kernels."""
     while is_awaited():
         time.sleep(0.05)
 
 
 class _Clock(event.Listener):
-    """Stands still as long as any thread compiles, reads what was compiled, or waits until another one has."""
+    """A clock that stops while any thread compiles, loads compiled code, or waits for another thread to do so."""
 
     def __init__(self) -> None:
         self._lock, self._depth = threading.Lock(), 0
@@ -141,7 +141,7 @@ class _Clock(event.Listener):
 
 
 class _Teller(event.Listener):
-    """Tells once that something is compiled, and not only read."""
+    """Calls a function once, when something is compiled and not only loaded."""
 
     def __init__(self, tell: Callable[[], None]) -> None:
         self._tell, self._has_told = tell, False
@@ -160,34 +160,34 @@ event.register("numba:compiler_lock", _CLOCK)  # type: ignore[no-untyped-call]
 
 
 def clock() -> float:
-    """Like `time.monotonic`, [s], but compiling takes no time: what a limit of time is measured with."""
+    """Return the time [s] like `time.monotonic`, but without time spent compiling; time limits are measured with it."""
     return _CLOCK.now()
 
 
 @contextlib.contextmanager
 def when_compiling(tell: Callable[[], None]) -> Iterator[None]:
-    """Call a function when the first kernel is compiled within this context; never where all of them are stored."""
+    """Call a function when the first kernel is compiled within this context; never if all of them are stored."""
     with event.install_listener("numba:compile", _Teller(tell)):
         yield
 
 
 def compiled(function: _Function) -> _Function:
-    """Compile for the machine at the first call, without the GIL, cached on disk.
+    """Compile for this machine at the first call, without the GIL, and cache the code on disk.
 
-    Division follows IEEE 754 as NumPy's does: the functions guard their own denominators. A product and a sum may
-    be contracted to one rounding, nothing else is reordered.
+    Division follows IEEE 754 as in NumPy, so functions must guard their own denominators. A product and a sum may be
+    contracted into one operation with a single rounding; nothing else is reordered.
     """
     return cast(_Function, numba.njit(**_OPTIONS)(function))
 
 
 def unmanaged(function: _Function) -> _Function:
-    """Compile what neither makes nor returns an array, and then need not count references to those it is given.
+    """Compile a function that neither creates nor returns arrays, without reference counting of its arguments.
 
-    In a loop over many small functions the counting costs more than the arithmetic.
+    In a loop over many small functions, the counting costs more than the arithmetic.
     """
     return cast(_Function, numba.njit(**_UNMANAGED)(function))
 
 
 def inlined(function: _Function) -> _Function:
-    """The same as a part of each function that calls it, so that numbers stay in registers between the two."""
+    """Compile like `unmanaged`, but inline the function into its callers, so that numbers stay in registers."""
     return cast(_Function, numba.njit(**_UNMANAGED, forceinline=True)(function))

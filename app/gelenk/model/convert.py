@@ -1,13 +1,13 @@
-"""DH table → URDF; standard ↔ modified.
+"""Convert a DH table to a URDF description, and between the standard and the modified convention.
 
-The frames of a table do not sit where URDF puts a link: the joint i of a URDF turns about the z axis of its own
-frame, which for a standard table is z_{i-1}. So link i carries joint i's motion and the DH frame i is fixed to it
-[Corke2017, ch. 7]. The robot's links are
+DH frames are not where URDF puts link frames: joint i of a URDF turns about the z axis of its own frame, which for a
+standard table is z_{i-1}. So link i carries the motion of joint i, and DH frame i is fixed to it [Corke2017, ch. 7].
+The links of the robot are
 
     base → (base transform) → frame_0 → joint 1 → link_1 → joint 2 → … → link_n → (tool transform) → tool
 
-with the DH frames `frame_1 … frame_n` fixed to their links, so that each T_0_i of the table can be computed. A joint
-that rows follow and that is no row itself moves a small link of its own beside the chain, `leader_1, leader_2, …`.
+with the DH frames `frame_1 … frame_n` fixed to their links, so that each T_0_i of the table can be computed. A leader
+that is not a row itself moves a small link of its own beside the chain: `leader_1, leader_2, …`.
 """
 
 import math
@@ -27,19 +27,19 @@ BASE_FRAME = "base"
 TOOL_FRAME = "tool"
 
 _EXACT = 1e-15
-"""How far from a product of Tx and Rx a transform may be for a row to take it up: rounding."""
+"""Rounding within which a transform counts as Tx(a) Rx(α), so that a row can absorb it."""
 
 
 def describe_dh(name: str, table: DhTable) -> Description:
-    """The robot that a table describes.
+    """Convert a DH table to a description.
 
     Args:
-        name: Of the robot.
-        table: Standard or modified; prismatic first joints and links of zero length are fine.
+        name: Name of the robot.
+        table: Standard or modified; it may begin with a prismatic joint and contain links of zero length.
 
     Returns:
-        Its description, the frames as this module's head says, with simple solids for bodies; a limit that was left
-        out, and a leader that is no row, are warnings.
+        The description, with the frames of the module docstring and simple solids as bodies. It warns of omitted
+        limits, of angles beyond a full turn, and of leaders that are not rows.
     """
     n = len(table.joints)
     taken = frozenset((*table.variables, *(row.name for row in table.joints)))
@@ -57,7 +57,7 @@ def describe_dh(name: str, table: DhTable) -> Description:
 
 
 def _around_motion(row: DhJoint, convention: Convention) -> tuple[Array, Array]:
-    """The constant part of A_i before the joint's motion, and the one after it."""
+    """Return the constant parts of A_i before and after the joint's motion."""
     if convention == "modified":
         return row.transform(0.0, convention), np.eye(4)
     turn, shift = replace(row, a=0.0, alpha=0.0), replace(row, d=0.0, theta=0.0)
@@ -71,7 +71,7 @@ def _moving(row: DhJoint, parent: str, child: str, T: Array) -> Joint:
 
 
 def _fixed(taken: frozenset[str], parent: str, child: str, T: Array) -> Joint:
-    """A fixed joint, under a name that no row of the table has."""
+    """Create a fixed joint with a name that the table does not use."""
     name = f"{parent}_to_{child}"
     while name in taken:
         name += "_"
@@ -82,7 +82,7 @@ def _fixed(taken: frozenset[str], parent: str, child: str, T: Array) -> Joint:
 
 
 def _leaders(table: DhTable) -> list[Joint]:
-    """The joints that rows follow and that are no rows, each on a link beside the chain."""
+    """Create the leaders that are not rows, each on its own link beside the chain."""
     followers = _followers(table)
     return [
         Joint(name, rows[0].type, BASE_FRAME, f"leader_{k}", axis=(0.0, 0.0, 1.0), limits=_limits_of_leader(rows))
@@ -91,7 +91,7 @@ def _leaders(table: DhTable) -> list[Joint]:
 
 
 def _followers(table: DhTable) -> dict[str, list[DhJoint]]:
-    """Of each joint that rows follow and that is no row: these rows."""
+    """Map each leader that is not a row to the rows that follow it."""
     names = {row.name for row in table.joints}
     return {
         leader: [row for row in table.joints if row.mimic is not None and row.mimic.joint == leader]
@@ -101,7 +101,7 @@ def _followers(table: DhTable) -> dict[str, list[DhJoint]]:
 
 
 def _limits_of_leader(rows: Sequence[DhJoint]) -> Limits:
-    """Where a leader may be so that all its followers are within those limits that their rows give."""
+    """Return the limits of a leader that keep all its followers within the limits given in their rows."""
     default = math.pi if rows[0].type == "revolute" else 1.0
     lower, upper, velocity = -math.inf, math.inf, MAX_BOUND
     for row in rows:
@@ -123,7 +123,7 @@ def _limits_of_leader(rows: Sequence[DhJoint]) -> Limits:
 
 
 def _links(table: DhTable, leaders: int) -> tuple[Link, ...]:
-    """The links with their bodies: the chain from base to tool first, then what is fixed beside it."""
+    """Return the links with their bodies: first the chain from base to tool, then DH frames and leaders beside it."""
     stock = Stock(length for row in table.joints for length in (row.a, row.d))
     bodies = _bodies(table, stock)
     n = len(table.joints)
@@ -140,13 +140,13 @@ def _link(name: str, solids: Sequence[Solid], moves: bool) -> Link:
 
 
 def _bodies(table: DhTable, stock: Stock) -> Mapping[str, list[Solid]]:
-    """The solids of the base and of the links, each in its link's frame."""
+    """Return the solids of the base and of each link, in the frame of the link."""
     origin = np.zeros(3)
     bodies = {BASE_FRAME: stock.rod(origin, table.base[:3, 3]), "frame_0": []}
     parent, pending = "frame_0", np.eye(4)
     for i, row in enumerate(table.joints, start=1):
         standard, slides = table.convention == "standard", row.type == "prismatic"
-        # Where the joint's axis begins in the parent, d below the link's origin, and where the next one's is reached.
+        # In the parent's frame: where the joint's d begins, and where the rod along the parent's a ends.
         foot = pending if standard else replace(row, d=0.0).transform(0.0, "modified")
         elbow = origin if standard else foot[:3, 3]
         bodies[parent] += stock.rod(origin, elbow)
@@ -188,15 +188,15 @@ def _warnings(table: DhTable) -> tuple[str, ...]:
 
 
 def converted(table: DhTable, convention: Convention) -> DhTable:
-    """The same chain by a table of the other convention; the same table where it is of that one.
+    """Express the same chain in the other convention; return the table itself if it already uses that convention.
 
     A = Rz(θ) Tz(d) and X = Tx(a) Rx(α) alternate in both: standard tables pair A_i with the X after it, modified ones
-    with the X before it. So a and α move by one row, and the X that is left over goes to the tool or the base; one
-    that stands there alone comes back into the first or the last row.
+    with the X before it. So a and α move by one row, and the X left over goes into the tool or the base. If the base or
+    the tool is itself such an X, it goes back into the first or the last row.
 
     Args:
-        table: Any.
-        convention: The one wanted.
+        table: Standard or modified.
+        convention: Convention of the result.
     """
     if table.convention == convention:
         return table
@@ -216,11 +216,11 @@ def converted(table: DhTable, convention: Convention) -> DhTable:
 
 
 def _about_x(a: float, alpha: float) -> Array:
-    """Tx(a) Rx(α), exact where α is zero."""
+    """Return Tx(a) Rx(α), exact where α is zero; shape (4, 4)."""
     return DhJoint("x", "revolute", a, alpha, 0.0, 0.0).transform(0.0, "modified")
 
 
 def _along_x(T: Array) -> tuple[float, float] | None:
-    """(a, α) of a transform that is Tx(a) Rx(α) and nothing else."""
+    """Return (a, α) if a transform is Tx(a) Rx(α) and nothing else."""
     a, alpha = float(T[0, 3]), math.atan2(T[2, 1], T[2, 2])
     return (a, alpha) if np.abs(T - _about_x(a, alpha)).max() <= _EXACT else None

@@ -1,7 +1,7 @@
-"""A robot's description, checked: links joined to a tree by joints.
+"""A checked robot description: links joined into a tree by joints.
 
-A `Description` holds what a URDF may say, and nothing that it may not: it is always a tree
-with one root, finite numbers, unit axes, ordered limits and mimic joints that lead to a joint of their own.
+A `Description` can hold everything that a valid URDF describes, and nothing else: it is always a tree with one root,
+finite numbers, unit axes, ordered limits, and mimic joints that end at an independent joint.
 """
 
 from collections.abc import Iterator
@@ -13,10 +13,10 @@ JointType: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "
 Triple: TypeAlias = tuple[float, float, float]
 
 MOVABLE = frozenset({"revolute", "continuous", "prismatic"})
-"""Joint types with one degree of freedom: those a chain may consist of."""
+"""Joint types with one degree of freedom, the only movable ones allowed in a chain."""
 MAX_NAME_LENGTH = 128
 MAX_BOUND = 1e18
-"""Largest mass, inertia and limit: real files write 1e16 for "no limit"."""
+"""Largest mass, inertia or limit allowed; real files write 1e16 for "no limit"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Origin:
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """Mass [kg] at `origin` in the link, and ixx, ixy, ixz, iyy, iyz, izz about it [kg m²]."""
+    """Mass [kg], its frame `origin` in the link, and ixx, ixy, ixz, iyy, iyz, izz in that frame [kg m²]."""
 
     origin: Origin
     mass: float
@@ -38,14 +38,14 @@ class Inertial:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A geometry of a link, for display or collision.
+    """A geometry of a link, for display or collision checking.
 
     Attributes:
-        role: What it is for.
-        origin: Its placement in the link.
+        role: Purpose of the shape.
+        origin: Placement in the link's frame.
         kind: box (x, y, z), cylinder or capsule (radius, length), sphere (radius), mesh (scale x, y, z).
-        size: The numbers of that kind, [m] (a mesh's scale has no unit).
-        mesh: The mesh's file as the description names it; never opened here.
+        size: Numbers of that kind, [m] (a mesh's scale has no unit).
+        mesh: File name of the mesh as in the description; this package never opens the file.
     """
 
     role: Literal["visual", "collision"]
@@ -57,7 +57,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A rigid body and the frame of the same name."""
+    """A rigid body, and the frame of the same name."""
 
     name: str
     inertial: Inertial | None = None
@@ -66,7 +66,7 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Bounds of a joint: position [rad or m], velocity [rad/s or m/s], effort [N m or N]; None where not given."""
+    """Limits of a joint: position [rad or m], velocity [rad/s or m/s], effort [N m or N]; None if not given."""
 
     lower: float | None = None
     upper: float | None = None
@@ -76,7 +76,7 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Mimic:
-    """This joint's position is `multiplier` times that of joint `joint`, plus `offset` [rad or m]."""
+    """A rule that sets a joint's position to `multiplier` times that of joint `joint`, plus `offset` [rad or m]."""
 
     joint: str
     multiplier: float = 1.0
@@ -85,17 +85,17 @@ class Mimic:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """What holds link `child` to link `parent`.
+    """A connection of link `child` to link `parent`.
 
     Attributes:
-        name: Its name, unique in the robot.
-        type: One of URDF's six.
-        parent: The link nearer to the root.
-        child: The link whose frame this joint's frame is.
-        origin: The joint's frame in the parent's, at position zero.
-        axis: Unit vector in the joint's frame to turn about or slide along; normal of the plane (planar).
-        limits: Its bounds.
-        mimic: The joint it follows, where it has no position of its own.
+        name: Name, unique in the robot.
+        type: One of URDF's six types.
+        parent: Link nearer to the root.
+        child: Link whose frame is also the joint's frame.
+        origin: Frame of the joint in the parent's frame, at position zero.
+        axis: Unit vector in the joint's frame: axis of rotation, direction of sliding, or normal of the plane (planar).
+        limits: Limits of position, velocity and effort.
+        mimic: Rule for following another joint; None for an independent joint.
     """
 
     name: str
@@ -110,7 +110,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What moves a joint: position = multiplier · (position of `leader`) + offset; a joint of its own drives itself."""
+    """Rule of a joint: position = multiplier · (position of `leader`) + offset; an independent joint leads itself."""
 
     leader: str
     multiplier: float
@@ -119,13 +119,13 @@ class Drive:
 
 @dataclass(frozen=True)
 class Description:
-    """A checked robot.
+    """A checked robot description.
 
     Attributes:
-        name: What the description calls itself.
-        links: In the order of the document.
-        joints: In the order of the document.
-        warnings: What is odd about it though allowed, one sentence each.
+        name: Name of the robot in the description.
+        links: In document order.
+        joints: In document order.
+        warnings: Oddities that are allowed, one sentence each.
     """
 
     name: str
@@ -135,12 +135,12 @@ class Description:
 
     @cached_property
     def joint_above(self) -> dict[str, Joint]:
-        """Of each link but the root: the joint that holds it."""
+        """Joint above each link except the root, by link name."""
         return {joint.child: joint for joint in self.joints}
 
     @cached_property
     def joints_below(self) -> dict[str, tuple[Joint, ...]]:
-        """Of each link: the joints it is the parent of."""
+        """Joints directly below each link, by link name."""
         below: dict[str, list[Joint]] = {link.name: [] for link in self.links}
         for joint in self.joints:
             below[joint.parent].append(joint)
@@ -148,37 +148,37 @@ class Description:
 
     @cached_property
     def root(self) -> str:
-        """The link without a parent."""
+        """Name of the link without a parent."""
         return next(link.name for link in self.links if link.name not in self.joint_above)
 
     @cached_property
     def frames(self) -> tuple[str, ...]:
-        """Names of all frames: each link has one."""
+        """Names of all frames, one for each link."""
         return tuple(link.name for link in self.links)
 
     @cached_property
     def leaves(self) -> tuple[str, ...]:
-        """Links without children, in the order of the document."""
+        """Names of the links without children, in document order."""
         return tuple(name for name in self.frames if not self.joints_below[name])
 
     @cached_property
     def joint(self) -> dict[str, Joint]:
-        """Each joint by its name."""
+        """Joints by name."""
         return {joint.name: joint for joint in self.joints}
 
     @cached_property
     def drives(self) -> dict[str, Drive]:
-        """What moves each movable joint, chains of mimic joints followed to their end."""
+        """Rule of each movable joint, by joint name, with chains of mimic joints resolved."""
         return {joint.name: self._drive(joint) for joint in self.joints if joint.type in MOVABLE}
 
     @property
     def movable(self) -> tuple[Joint, ...]:
-        """The joints with a position of their own, in the order of the document."""
+        """Independent movable joints, in document order."""
         return tuple(joint for joint in self.joints if joint.type in MOVABLE and joint.mimic is None)
 
     @property
     def meshes(self) -> tuple[str, ...]:
-        """Mesh files as the description names them, each once."""
+        """Mesh files as named in the description, without duplicates."""
         named = (shape.mesh for link in self.links for shape in link.shapes if shape.mesh is not None)
         return tuple(dict.fromkeys(named))
 
@@ -191,7 +191,7 @@ class Description:
         return Drive(joint.name, multiplier, offset)
 
     def path_to_root(self, frame: str) -> Iterator[Joint]:
-        """The joints from a frame up to the root."""
+        """Yield the joints from a frame up to the root."""
         while (joint := self.joint_above.get(frame)) is not None:
             yield joint
             frame = joint.parent

@@ -1,12 +1,12 @@
-"""Denavit-Hartenberg tables, standard and modified, and their product of transforms.
+"""Denavit-Hartenberg tables, standard and modified, and their products of transforms.
 
 Standard (distal): A_i = Rz(θ_i) Tz(d_i) Tx(a_i) Rx(α_i), the course's convention.
 Modified (proximal, Craig): A_i = Rx(α_i) Tx(a_i) Rz(θ_i) Tz(d_i).
 
-A row may follow another joint, as some joints of real robots do: its position is then multiplier · leader + offset.
-The leader is a row with a position of its own, or a joint outside the table, which becomes a variable of its own.
+A row may follow another joint, as some joints of real robots do: its position is then multiplier · leader + offset. The
+leader is an independent row, or a joint outside the table, which becomes an additional variable.
 
-The product here shares no code with the URDF that a table is turned into: each judges the other.
+The product here shares no code with the URDF written from a table, so that each can verify the other.
 """
 
 import math
@@ -26,11 +26,11 @@ JointType: TypeAlias = Literal["revolute", "prismatic"]
 
 MAX_JOINTS = 64
 MAX_LENGTH = 1e6
-"""Largest length in a table, [m]: beyond it a double no longer resolves a nanometre."""
+"""Largest length in a table, [m]: beyond it, a double cannot resolve a nanometre."""
 MAX_ANGLE = 1e6
-"""Largest angle in a table, [rad]: beyond it a double no longer resolves a nanoradian."""
+"""Largest angle in a table, [rad]: beyond it, a double cannot resolve a nanoradian."""
 MAX_SNAP_TOLERANCE = 0.1
-"""How far a number of a table may be moved at most to one that a person would write, [m or rad]."""
+"""Largest tolerance for snapping a number of a table to one that a person would write, [m or rad]."""
 MAX_MULTIPLIER = 1e6
 """Largest multiplier of a row that follows another joint, as in a URDF."""
 
@@ -39,8 +39,8 @@ MAX_MULTIPLIER = 1e6
 class DhJoint:
     """One row. The joint's position adds to `theta` (revolute) or `d` (prismatic); lengths [m], angles [rad].
 
-    Limits are of the position alone, without the offset; velocity in [rad/s or m/s], effort in [N m or N]. The
-    position is a variable of the table, unless the row follows another joint: then it is `mimic`'s to say.
+    Limits apply to the position alone, without the offset; velocity in [rad/s or m/s], effort in [N m or N]. The
+    position is a variable of the table, unless `mimic` makes the row follow another joint.
     """
 
     name: str
@@ -57,7 +57,7 @@ class DhJoint:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Lower and upper bound of the position; ±π rad or ±1 m where the table leaves one out."""
+        """Lower and upper bound of the position, [rad or m]; ±π rad or ±1 m where the table omits one."""
         default = math.pi if self.type == "revolute" else 1.0
         return (
             -default if self.lower is None else self.lower,
@@ -65,7 +65,7 @@ class DhJoint:
         )
 
     def transform(self, position: float, convention: Convention) -> Array:
-        """A_i at a position of the joint; shape (4, 4)."""
+        """Return A_i at a position of the joint, [rad or m]; shape (4, 4)."""
         revolute = self.type == "revolute"
         theta = self.theta + position if revolute else self.theta
         d = self.d if revolute else self.d + position
@@ -78,14 +78,14 @@ class DhTable:
     """A chain as a table between a base and a tool transform: T_base_tool = base · A_1 ⋯ A_n · tool.
 
     Attributes:
-        convention: How the four parameters of a row are composed.
-        joints: The rows, base to tip; at least one.
+        convention: Order in which the four parameters of a row are composed.
+        joints: Rows, base to tip; at least one.
         base: T_base_0; shape (4, 4).
         tool: T_n_tool; shape (4, 4).
 
     Raises:
-        InvalidDhTable: No rows or too many, equal or unfit names, limits the wrong way round, absurd lengths or
-            angles, a row that follows a follower.
+        InvalidDhTable: No rows or too many, duplicate or invalid names, a lower limit above the upper one, lengths or
+            angles out of range, or a row that follows a follower.
     """
 
     convention: Convention
@@ -112,9 +112,9 @@ class DhTable:
 
     @cached_property
     def variables(self) -> tuple[str, ...]:
-        """The names of the variables, in the order of a configuration, which is that of a chain.
+        """Names of the variables, in the order of a configuration, which is also that of the chain.
 
-        A row with a position of its own keeps its place; a leader that is no row where it is first needed.
+        An independent row keeps its place; a leader that is not a row comes where it is first needed.
         """
         rows = {row.name for row in self.joints}
         names = [
@@ -125,10 +125,10 @@ class DhTable:
         return tuple(dict.fromkeys(names))
 
     def positions(self, q: Sequence[float]) -> list[float]:
-        """The position of each row at a configuration of the variables, [rad or m].
+        """Return the position of each row at a configuration q of the variables, [rad or m].
 
         Raises:
-            WrongJointCount: q has not one number a variable.
+            WrongJointCount: q does not have one number per variable.
         """
         if len(q) != len(self.variables):
             raise WrongJointCount(len(q), self.variables)
@@ -139,13 +139,13 @@ class DhTable:
         ]
 
     def frames(self, q: Sequence[float]) -> list[Array]:
-        """T_base_0, T_base_1, …, T_base_n at one configuration; each of shape (4, 4).
+        """Return T_base_0, T_base_1, …, T_base_n at one configuration; each of shape (4, 4).
 
         Args:
-            q: One number a variable, [rad or m].
+            q: One number per variable, [rad or m].
 
         Raises:
-            WrongJointCount: q has not one number a variable.
+            WrongJointCount: q does not have one number per variable.
         """
         Ts = [self.base]
         for joint, position in zip(self.joints, self.positions(q), strict=True):
@@ -153,7 +153,7 @@ class DhTable:
         return Ts
 
     def pose(self, q: Sequence[float]) -> Array:
-        """T_base_tool at one configuration; shape (4, 4)."""
+        """Return T_base_tool at one configuration; shape (4, 4)."""
         return self.frames(q)[-1] @ self.tool
 
 
@@ -192,12 +192,12 @@ def _check_mimic(i: int, mimic: Mimic, followers: set[str]) -> None:
 
 
 def _about_z(theta: float, d: float) -> Array:
-    """Rz(θ) Tz(d)."""
+    """Return Rz(θ) Tz(d)."""
     c, s = math.cos(theta), math.sin(theta)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]])
 
 
 def _about_x(alpha: float, a: float) -> Array:
-    """Tx(a) Rx(α), in either order: the two commute."""
+    """Return Tx(a) Rx(α); the order does not matter because the two commute."""
     c, s = math.cos(alpha), math.sin(alpha)
     return np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])

@@ -1,28 +1,28 @@
-"""Chain → DH table, by the geometry of lines: any joints, any axes, both conventions.
+"""Convert a chain to a DH table from the geometry of its axes: any joints, any axes, both conventions.
 
-Between two joints of a chain stands a constant placement P, and each joint turns about or slides along its own z.
-Whatever P is, it can be written as
+Between two joints of a chain there is a constant placement P, and each joint turns about or slides along its own z. Any
+P can be written as
 
     P = Rz(u) Tz(s) · Tx(a) Rx(α) · Rz(v) Tz(t),
 
-where Tx(a) Rx(α) leads along the common normal of the two axes. The outer parts commute with the joints' motions and
-go to the rows of the two joints: θ = v before + u and d = t before + s. So each row needs the two placements around
-its joint alone, nothing accumulates, and a table exists for every chain; z points along a joint's positive direction,
-so that no joint turns the other way.
+where Tx(a) Rx(α) follows the common normal of the two axes. The outer factors commute with the joints' motions and go
+into the rows of the two joints: θ = v + u and d = t + s, with v and t of the placement before the joint and u and s of
+the one after it. So each row depends only on the two placements around its joint, errors do not accumulate, and a table
+exists for every chain. z points along a joint's positive direction, so no joint is reversed.
 
-What the convention leaves free is chosen so:
+Where the convention leaves a choice, it is made as follows:
 
-- The first frame is at the foot of the base frame's origin on the first axis; base and tool take up the rest.
-- x points along the common normal, or where axes intersect along the cross product of their directions, to the side
-  on which |θ| ≤ π/2.
-- Parallel axes: the normal through the previous origin, d = 0. Collinear ones: origin and x stay, θ = d = 0.
-- The axis of a prismatic joint may lie anywhere: on the next axis where that is parallel to it, else through the
-  previous origin.
-- The tip's z axis is treated as the axis of a further joint, so that the tool is as simple as can be.
+- The first frame is at the foot of the base's origin on the first axis; base and tool absorb the rest.
+- x points along the common normal, or for intersecting axes along the cross product of their directions, with the sign
+  for which |θ| ≤ π/2.
+- Parallel axes: the normal passes through the previous origin, d = 0. Collinear axes: origin and x stay, θ = d = 0.
+- The axis of a prismatic joint may be anywhere: it is placed on the next axis if the two are parallel, otherwise
+  through the previous origin.
+- The tip's z axis is treated as the axis of a further joint, which keeps the tool as simple as possible.
 
-A table is exact except for rounding. Nearly parallel axes have their common normal far away; where it is too far to be
-read, they are taken as parallel if the caller allows that for their tilt. A snap tolerance makes what is nearly
-parallel, square or zero exactly so, as a person would write the table.
+A table is exact except for rounding. Nearly parallel axes have their common normal far away; if it is too far to be
+readable, they are treated as parallel when the caller allows that for their tilt. A snap tolerance makes nearly
+parallel, nearly square and nearly zero values exact, as a person would write the table.
 """
 
 import math
@@ -40,18 +40,18 @@ from gelenk.model.errors import InvalidDhTable, InvalidField, listed, quoted
 from gelenk.model.poses import inverse, transform
 
 ROUNDING = 4e-15
-"""Angles [rad], and lengths in sizes of the robot, that are taken as zero: what a few products leave."""
+"""Angles [rad], and lengths relative to the robot's size, that count as zero: the rounding of a few products."""
 FAR = 10.0
-"""Lengths of a table beyond so many times the reach are too large to be read."""
+"""Lengths of a table beyond this many times the reach are too large to be readable."""
 
 _DIGITS = 12
 """Decimals of a snapped length."""
 _SQUARE = 1e-4
-"""Tilt of the tip's z against the last axis below which the tool takes it up: the normal could be far away."""
+"""Tilt [rad] of the tip's z against the last axis below which the tool absorbs it: the normal could be far away."""
 _STEEP = 1e-2
-"""Largest tilt [rad] of axes that may count as parallel."""
+"""Largest tilt [rad] for which a refusal suggests treating the axes as parallel."""
 _TIE = 1e-9
-"""How near to ±π/2 both directions of x count as equally good."""
+"""Distance from ±π/2 within which both directions of x count as equally good, [rad]."""
 
 _PARALLEL = "parallel to the next axis, so the normal goes through the previous origin and d is zero"
 _ONE_LINE = "on one line with the next axis, so origin and x stay, and theta and d are zero"
@@ -67,9 +67,9 @@ class FarNormal(NamedTuple):
     """Two axes whose common normal is far away.
 
     Attributes:
-        joints: Whose axes, in words.
-        tilt: How far they are from parallel, [rad].
-        distance: How far along them their normal is, [m].
+        joints: Names of the two joints, as text.
+        tilt: Deviation from parallel, [rad].
+        distance: Distance of the normal along the axes, [m].
     """
 
     joints: str
@@ -79,14 +79,14 @@ class FarNormal(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class ChainTable:
-    """A table of a chain.
+    """The DH table of a chain, and the choices made for it.
 
     Attributes:
         table: Its variables are the chain's, in the same order.
-        notes: What was chosen where the convention leaves a choice, one sentence each.
-        rounded: Axes with a far normal that were taken as parallel.
-        far: Axes with a far normal that were not.
-        reach: Length of all links together, [m].
+        notes: Choices where the convention leaves one, one sentence each.
+        rounded: Axes with a far normal that were treated as parallel.
+        far: Axes with a far normal that were not treated as parallel.
+        reach: Total length of all links, [m].
     """
 
     table: DhTable
@@ -98,7 +98,7 @@ class ChainTable:
 
 @dataclass(frozen=True, slots=True)
 class _Normal:
-    """A placement by its common normal, as this module's head has it; angles [rad], lengths [m]."""
+    """A placement decomposed along its common normal as in the module docstring; angles [rad], lengths [m]."""
 
     u: float
     s: float
@@ -110,7 +110,7 @@ class _Normal:
 
 @dataclass(frozen=True, slots=True)
 class _Before:
-    """v and t of the placement before a joint: where x and the origin are on its axis."""
+    """v [rad] and t [m] of the placement before a joint: they fix x and the origin on its axis."""
 
     v: float
     t: float
@@ -123,19 +123,19 @@ def dh_from_chain(
     snap_tolerance: float = 0.0,
     parallel_below: float = 0.0,
 ) -> ChainTable:
-    """The table of a chain.
+    """Compute the DH table of a chain.
 
     Args:
         description: The robot.
-        chain: Of this robot, up or down the tree, with at least one joint.
+        chain: A chain of this robot, up or down the tree, with at least one joint.
         convention: Standard or modified.
-        snap_tolerance: Angles so near [rad] to a multiple of π/2, and lengths so near [m] to zero, become exactly
-            that; at zero, none but what rounding leaves.
-        parallel_below: Axes tilted by less [rad] are taken as parallel where their common normal is far away.
+        snap_tolerance: Angles within this [rad] of a multiple of π/2, and lengths within this [m] of zero, become
+            exact; zero allows for rounding only.
+        parallel_below: Axes tilted by less than this [rad] are treated as parallel if their common normal is far away.
 
     Raises:
-        InvalidField: The chain has no joint, or more than a table may have; two axes are so nearly parallel that no
-            length can say where their common normal is; the tolerance is out of range; a number is beyond a table's.
+        InvalidField: The chain has no joint, or more than a table may have; two axes are so nearly parallel that their
+            common normal is out of range; the tolerance is out of range; a number is beyond a table's limits.
     """
     joints = joints_on_the_way(description, chain)
     if not joints:
@@ -157,13 +157,13 @@ def dh_from_chain(
 
 
 class _Lines:
-    """The axes of one chain, and the frames that are put on them.
+    """The axes of one chain, and the frames placed on them.
 
     Args:
         chain: The chain.
-        joints: On its way.
-        snap_tolerance: As above.
-        parallel_below: As above.
+        joints: The movable joints on its path.
+        snap_tolerance: See `dh_from_chain`.
+        parallel_below: See `dh_from_chain`.
     """
 
     def __init__(self, chain: Chain, joints: Sequence[Joint], snap_tolerance: float, parallel_below: float) -> None:
@@ -185,7 +185,7 @@ class _Lines:
         self._chosen: dict[str, list[str]] = {}
 
     def parameters(self, convention: Convention) -> tuple[Array, list[tuple[float, float, float, float]], Array]:
-        """Base, the rows' (a, α, d, θ), and tool."""
+        """Return the base transform, (a, α, d, θ) of each row, and the tool transform."""
         on_next = self._put_on_next_axes()
         if self._slides[0] and not on_next[0]:
             self._put_through(0, 0.0)
@@ -212,10 +212,10 @@ class _Lines:
     # Where the axes are
 
     def _put_on_next_axes(self) -> list[bool]:
-        """Move each sliding axis onto the next one where the two are parallel; which ones have been moved so.
+        """Move each prismatic axis onto the next axis if the two are parallel; return which axes were moved.
 
-        A slide may be anywhere: its motion commutes with any translation p, so that P · T(p) before and T(-p) · P'
-        after it are the same chain.
+        A prismatic axis may be anywhere: its motion commutes with any translation p, so P · T(p) before it and T(-p) ·
+        P' after it describe the same chain.
         """
         moved = [False] * len(self._names)
         for i in reversed(range(len(self._names))):
@@ -229,12 +229,12 @@ class _Lines:
         return moved
 
     def _put_through(self, i: int, height: float) -> None:
-        """Move a sliding axis through the point at a height of the previous axis (of the base's z for the first)."""
+        """Move a prismatic axis through the point at a height [m] on the previous axis (the first: on the base's z)."""
         point = np.array([0.0, 0.0, height])
         P = self._Ps[i]
         p = P[:3, :3].T @ (point - P[:3, 3])
         if math.hypot(*p) > self._size:
-            # Two nearly parallel axes have put that origin far away; what follows should not be measured from there.
+            # Two nearly parallel axes have put that origin far away: do not measure the following axes from there.
             self._note(_AS_GIVEN, i)
             return
         self._shift(i, p)
@@ -248,7 +248,7 @@ class _Lines:
     # Where the frames are
 
     def _first(self) -> _Before:
-        """Frame 0: at the foot of the base's origin, x along the base's x or along z_base × z_0."""
+        """Place frame 0 at the foot of the base's origin on the first axis, x along the base's x or ±z_base × z_0."""
         P = self._Ps[0]
         zx, zy, zz = P[:3, 2].tolist()
         tilt, u = math.hypot(zx, zy), 0.0
@@ -261,7 +261,7 @@ class _Lines:
         return _Before(_left_over(P, u, alpha), float(P[:3, 2] @ P[:3, 3]))
 
     def _normal(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
-        """θ and d of a joint, and the normal from its axis to the next.
+        """Return θ and d of a joint, and the normal from its axis to the next.
 
         Raises:
             InvalidField: The normal is too far away.
@@ -273,10 +273,10 @@ class _Lines:
             return self._parallel(i, before)
         theta, d, normal = self._skew(i, before)
         far = FarNormal(f"{quoted(self._names[i])} and {self._next(i)}", tilt, max(abs(normal.s), abs(normal.t)))
-        # A d leads from one normal to the next: half as far for each keeps it within the limit.
+        # A d leads from one normal to the next: allowing each half the distance keeps d within the limit.
         is_far = far.distance > 0.5 * FAR * self.reach
         if is_far and (last or tilt < self._parallel_below):
-            if not last:  # the tool takes up what is left out there
+            if not last:  # there the tool absorbs the difference
                 self.rounded.append(far)
             return self._parallel(i, before)
         furthest = max(abs(d), far.distance)
@@ -300,7 +300,7 @@ class _Lines:
         return InvalidField("snap_tolerance", reason)
 
     def _parallel(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
-        """The normal of parallel axes: through the previous origin, or, the last one, through the tip."""
+        """Return θ, d and the normal of parallel axes, through the previous origin or (last axis) through the tip."""
         last = i + 1 == len(self._names)
         P = self._Ps[i + 1]
         x, y, z = P[:3, 3].tolist()
@@ -324,7 +324,7 @@ class _Lines:
         return theta, d, _Normal(u, s, a, alpha, _left_over(P, u, alpha), t)
 
     def _skew(self, i: int, before: _Before) -> tuple[float, float, _Normal]:
-        """The normal of axes that are not parallel; its direction, not its length, comes from z × z'."""
+        """Return θ, d and the normal of axes that are not parallel; only its direction comes from z × z'."""
         P = self._Ps[i + 1]
         x, y, z = P[:3, 3].tolist()
         zx, zy, zz = P[:3, 2].tolist()
@@ -336,13 +336,13 @@ class _Lines:
         u = theta - before.v
         c, s = math.cos(u), math.sin(u)
         a = self._zero(x * c + y * s)
-        # From here on with the numbers as they are rounded, so that the far end of a long d is where it should be.
+        # Continue with the rounded numbers, so that the far end of a long d is where it should be.
         t = (x * s - y * c) / math.sin(alpha)
         d = self._zero(before.t + z - t * math.cos(alpha))
         return theta, d, _Normal(u, d - before.t, a, alpha, _left_over(P, u, alpha), t)
 
     def _theta(self, before: _Before, u: float, *, positive: bool) -> float:
-        """θ for a normal in direction u or the opposite one: the smaller of the two, of equals as `positive` says."""
+        """Return θ for a normal along u or its opposite: the smaller |θ|; on a tie, along u only if `positive`."""
         theta = _wrapped(before.v + u)
         excess = abs(theta) - 0.5 * math.pi
         tie = abs(excess) <= max(_TIE, self._angle)
@@ -356,7 +356,7 @@ class _Lines:
         return self._right(math.atan2(sine, cosine))
 
     def _right(self, angle: float) -> float:
-        """The angle, or the multiple of π/2 that it is within the tolerance of."""
+        """Return the angle, or the multiple of π/2 within the tolerance of it."""
         near = round(angle / (0.5 * math.pi)) * 0.5 * math.pi
         if abs(angle - near) > self._angle:
             return angle
@@ -364,7 +364,7 @@ class _Lines:
         return abs(near) if near == -math.pi else near
 
     def _quarter_turns(self, R: Array) -> Array:
-        """The rotation, or the one by quarter turns about coordinate axes that it is within the tolerance of."""
+        """Return the rotation, or the one by quarter turns about coordinate axes within the tolerance of it."""
         right = np.rint(R)
         distance = float(np.abs(R - right).max())
         if distance > self._angle:
@@ -374,13 +374,13 @@ class _Lines:
 
     def _zero(self, length: float) -> float:
         if abs(length) > self._length:
-            # A person would not write the last digits that sums of decimals leave.
+            # Drop the trailing digits that sums of decimals leave.
             return round(length, _DIGITS) if self._snapping else length
         self._most_length = max(self._most_length, abs(length))
         return 0.0
 
     def _cleaned(self, T: Array) -> Array:
-        """Base or tool without what rounding or the tolerance leaves beside quarter turns and zeros."""
+        """Return base or tool, snapped to quarter turns and zeros within rounding or the tolerance."""
         R = self._quarter_turns(T[:3, :3])
         clean = np.eye(4)
         clean[:3, :3] = np.where(np.abs(R) <= ROUNDING, 0.0, R)
@@ -397,7 +397,7 @@ class _Lines:
         self._chosen.setdefault(what, []).append(self._names[i])
 
     def notes(self) -> tuple[str, ...]:
-        """What was chosen, a sentence for each kind of choice."""
+        """Return the choices made, one sentence for each kind of choice."""
         base, tip = (quoted(end) for end in self._ends)
         notes = [
             f"frame 0 is at the foot of the origin of {base} on the first axis; base takes up the rest",
@@ -421,7 +421,7 @@ def _row(
     joint: Joint,
     parameters: tuple[float, float, float, float],
 ) -> DhJoint:
-    """A row with the joint's name, limits and leader, and its (a, α, d, θ)."""
+    """Create a row from the joint's name, limits and leader, and its (a, α, d, θ)."""
     drive = description.drives[joint.name]
     limits = joint.limits
     mimic = None if drive.leader == joint.name else Mimic(drive.leader, drive.multiplier, drive.offset)
@@ -437,7 +437,7 @@ def _ends(limits: Limits) -> tuple[float | None, float | None]:
 
 
 def _image(limits: Limits, mimic: Mimic) -> Limits:
-    """The limits of a follower that those of its leader amount to."""
+    """Return the limits of a follower that correspond to those of its leader."""
     lower, upper = limits.lower, limits.upper
     if lower is None or upper is None:
         return Limits()
@@ -447,7 +447,7 @@ def _image(limits: Limits, mimic: Mimic) -> Limits:
 
 
 def _joint_notes(description: Description, joints: Sequence[Joint], rows: Sequence[DhJoint]) -> Iterator[str]:
-    """What a row cannot say of its joint as a URDF does."""
+    """Yield a note for each property of a joint that a URDF can express and a row cannot."""
     on_the_way = {joint.name for joint in joints}
     endless = [joint.name for joint in joints if joint.type == "continuous" and joint.mimic is None]
     if endless:
@@ -471,27 +471,27 @@ def _joint_notes(description: Description, joints: Sequence[Joint], rows: Sequen
 
 
 def _matrix(flat: Array) -> Array:
-    """A placement of a flat chain as a homogeneous transform of its own."""
+    """Return a placement of a flat chain as a new homogeneous transform; shape (12,) → (4, 4)."""
     return transform(flat[9:].copy(), flat[:9].reshape(3, 3).copy())
 
 
 def _screw(angle: float, length: float) -> Array:
-    """Rz(angle) Tz(length)."""
+    """Return Rz(angle) Tz(length)."""
     return DhJoint("z", "revolute", 0.0, 0.0, length, angle).transform(0.0, "standard")
 
 
 def _twist(a: float, alpha: float) -> Array:
-    """Tx(a) Rx(α)."""
+    """Return Tx(a) Rx(α)."""
     return DhJoint("x", "revolute", a, alpha, 0.0, 0.0).transform(0.0, "standard")
 
 
 def _left_over(P: Array, u: float, alpha: float) -> float:
-    """The last angle of R = Rz(u) Rx(α) Rz(v), by turning the first two back; good for any α."""
+    """Return v of R = Rz(u) Rx(α) Rz(v) by undoing the first two rotations; valid for any α."""
     x, y, z = P[:3, 0].tolist()
     c, s = math.cos(u), math.sin(u)
     return math.atan2(math.cos(alpha) * (c * y - s * x) + math.sin(alpha) * z, c * x + s * y)
 
 
 def _wrapped(angle: float) -> float:
-    """The same angle within ±π."""
+    """Return the same angle within ±π."""
     return math.remainder(angle, 2.0 * math.pi)

@@ -1,14 +1,14 @@
-"""The notations of SO(3), compiled: quaternions, RPY, ZYZ, rotation vectors; one way in, one way out.
+"""Compiled conversions between rotation matrices and quaternions, RPY, ZYZ and rotation vectors.
 
-Everything works on batches: rotations are (N, 3, 3), positions (N, 3). Angles are radians. Conventions:
+All conversions work on batches: rotations are (N, 3, 3), positions (N, 3). Angles are in radians. Conventions:
 
 - `rpy` (roll, pitch, yaw) is URDF's: fixed axes x, y, z, so R = Rz(yaw) Ry(pitch) Rx(roll); pitch in [-π/2, π/2].
 - `zyz` (φ, θ, ψ) is the course's: R = Rz(φ) Ry(θ) Rz(ψ); θ in [0, π], the branch with sin θ ≥ 0.
-- A quaternion's name says its order; the scalar part is never negative.
-- A rotation vector is axis times angle, angle in [0, π].
+- The name of a quaternion gives the order of its parts; the scalar part is never negative.
+- A rotation vector is axis times angle, with the angle in [0, π].
 
-Where a triple degenerates (pitch = ±π/2, θ = 0 or π) only a sum or a difference is determined: the last angle to
-be applied in the fixed frame takes it all (yaw = 0 and ψ = 0 are chosen).
+Where a triple degenerates (pitch = ±π/2, θ = 0 or π), only a sum or a difference of the outer angles is determined: yaw
+= 0 or ψ = 0 is chosen, and roll or φ takes it all.
 """
 
 import math
@@ -23,20 +23,20 @@ from gelenk.model.poses import transform
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 try:
     from gelenk.model.compilation import compiled
-except ModuleNotFoundError:  # without numba, as in a client, which converts a few poses: in plain Python
+except ModuleNotFoundError:  # without numba, as in a client that converts a few poses: plain Python
 
     def compiled(function: _Function) -> _Function:
-        """The function itself."""
+        """Return the function unchanged."""
         return function
 
 
 _DEGENERATE = 1e-14
-"""Sine or cosine below which an Euler triple counts as degenerate: all that is lost thereby; rounding leaves 1e-16."""
+"""Sine or cosine below which an Euler triple counts as degenerate, at an error of that size; rounding is 1e-16."""
 
 
 @compiled
 def rotations_from_rpy(rpy: Array) -> Array:
-    """Rz(yaw) Ry(pitch) Rx(roll) for each (roll, pitch, yaw); shape (N, 3) → (N, 3, 3)."""
+    """Return Rz(yaw) Ry(pitch) Rx(roll) for each (roll, pitch, yaw), [rad]; shape (N, 3) → (N, 3, 3)."""
     Rs = np.empty((len(rpy), 3, 3))
     for i in range(len(rpy)):
         cr, sr = math.cos(rpy[i, 0]), math.sin(rpy[i, 0])
@@ -50,10 +50,10 @@ def rotations_from_rpy(rpy: Array) -> Array:
 
 @compiled
 def rpy_from_rotations(Rs: Array) -> Array:
-    """(roll, pitch, yaw) of each rotation; shape (N, 3, 3) → (N, 3).
+    """Return (roll, pitch, yaw) of each rotation, [rad]; shape (N, 3, 3) → (N, 3).
 
-    Pitch and roll are taken after yaw has been turned back, so that an ill-determined yaw near pitch = ±π/2
-    does not spoil the product: the triple gives the rotation again to rounding everywhere.
+    Pitch and roll are computed after undoing yaw, so that an ill-determined yaw near pitch = ±π/2 does not spoil the
+    product: everywhere, the triple reproduces the rotation to rounding.
     """
     rpy = np.empty((len(Rs), 3))
     for i in range(len(Rs)):
@@ -70,7 +70,7 @@ def rpy_from_rotations(Rs: Array) -> Array:
 
 @compiled
 def rotations_from_zyz(zyz: Array) -> Array:
-    """Rz(φ) Ry(θ) Rz(ψ) for each (φ, θ, ψ); shape (N, 3) → (N, 3, 3)."""
+    """Return Rz(φ) Ry(θ) Rz(ψ) for each (φ, θ, ψ), [rad]; shape (N, 3) → (N, 3, 3)."""
     Rs = np.empty((len(zyz), 3, 3))
     for i in range(len(zyz)):
         c1, s1 = math.cos(zyz[i, 0]), math.sin(zyz[i, 0])
@@ -84,10 +84,10 @@ def rotations_from_zyz(zyz: Array) -> Array:
 
 @compiled
 def zyz_from_rotations(Rs: Array) -> Array:
-    """(φ, θ, ψ) of each rotation, θ in [0, π]; shape (N, 3, 3) → (N, 3).
+    """Return (φ, θ, ψ) of each rotation, [rad], with θ in [0, π]; shape (N, 3, 3) → (N, 3).
 
-    At θ = 0 only φ + ψ, at θ = π only φ - ψ is determined: there ψ = 0. As with RPY the later angles are taken
-    after the first has been turned back.
+    At θ = 0 only φ + ψ is determined, at θ = π only φ - ψ: there ψ = 0 is chosen. As with RPY, the later angles are
+    computed after undoing the first.
     """
     zyz = np.empty((len(Rs), 3))
     for i in range(len(Rs)):
@@ -107,7 +107,7 @@ def zyz_from_rotations(Rs: Array) -> Array:
 
 @compiled
 def rotations_from_quaternions_xyzw(quaternions: Array) -> Array:
-    """Rotation of each unit quaternion (x, y, z, w); shape (N, 4) → (N, 3, 3)."""
+    """Return the rotation of each unit quaternion (x, y, z, w); shape (N, 4) → (N, 3, 3)."""
     Rs = np.empty((len(quaternions), 3, 3))
     for i in range(len(quaternions)):
         x, y, z, w = quaternions[i, 0], quaternions[i, 1], quaternions[i, 2], quaternions[i, 3]
@@ -131,9 +131,9 @@ def rotations_from_quaternions_xyzw(quaternions: Array) -> Array:
 
 @compiled
 def quaternions_xyzw_from_rotations(Rs: Array) -> Array:
-    """Unit quaternion (x, y, z, w), w ≥ 0, of each rotation; shape (N, 3, 3) → (N, 4).
+    """Return the unit quaternion (x, y, z, w), w ≥ 0, of each rotation; shape (N, 3, 3) → (N, 4).
 
-    The largest of the four components is taken from the diagonal and divides the others [Shepperd1978].
+    The largest of the four components is computed from the diagonal and divides the others [Shepperd1978].
     """
     quaternions = np.empty((len(Rs), 4))
     for i in range(len(Rs)):
@@ -155,7 +155,7 @@ def quaternions_xyzw_from_rotations(Rs: Array) -> Array:
 
 @compiled
 def rotations_from_vectors(vectors: Array) -> Array:
-    """Rotation about each vector by its length; shape (N, 3) → (N, 3, 3)."""
+    """Return the rotation of each rotation vector, [rad]; shape (N, 3) → (N, 3, 3)."""
     quaternions = np.empty((len(vectors), 4))
     for i in range(len(vectors)):
         angle = math.sqrt(vectors[i, 0] ** 2 + vectors[i, 1] ** 2 + vectors[i, 2] ** 2)
@@ -168,7 +168,7 @@ def rotations_from_vectors(vectors: Array) -> Array:
 
 @compiled
 def vectors_from_rotations(Rs: Array) -> Array:
-    """Axis times angle of each rotation, angle in [0, π]; shape (N, 3, 3) → (N, 3)."""
+    """Return the rotation vector of each rotation, [rad], with the angle in [0, π]; shape (N, 3, 3) → (N, 3)."""
     vectors = np.empty((len(Rs), 3))
     quaternions = quaternions_xyzw_from_rotations(Rs)
     for i in range(len(Rs)):
@@ -180,7 +180,7 @@ def vectors_from_rotations(Rs: Array) -> Array:
 
 
 def placement(xyz: tuple[float, float, float], rpy: tuple[float, float, float]) -> Array:
-    """Homogeneous transform of a URDF origin, [m] and [rad]; shape (4, 4)."""
+    """Return the homogeneous transform of a URDF origin, [m] and [rad]; shape (4, 4)."""
     return transform(np.array(xyz), rotations_from_rpy(np.array([rpy]))[0])
 
 
@@ -188,10 +188,10 @@ def placement(xyz: tuple[float, float, float], rpy: tuple[float, float, float]) 
 def pose_errors(
     positions: Array, rotations: Array, other_positions: Array, other_rotations: Array
 ) -> tuple[float, float, float]:
-    """The largest distance [m] and the largest angle [rad] between poses, pair by pair, and the largest coordinate [m].
+    """Return the largest distance [m] and angle [rad] between paired poses, and the largest other coordinate [m].
 
-    The angle comes from the Frobenius norm of the difference of the rotations, which keeps its digits near zero.
-    NaN anywhere gives NaN.
+    The angle comes from the Frobenius norm of the difference of the rotations, which stays accurate near zero. A NaN in
+    a pose makes distance and angle NaN.
 
     Args:
         positions: Shape (N, 3), [m].

@@ -1,4 +1,4 @@
-"""Homogeneous transforms as URDF writes placements."""
+"""Homogeneous transforms as URDF origins."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from gelenk.model.notations import rpy_from_rotations
 
 
 def origin_of(T: Array) -> Origin:
-    """A homogeneous transform as URDF writes it; the angles give the rotation again to rounding."""
+    """Return a homogeneous transform (4, 4) as a URDF origin; its angles reproduce the rotation to rounding."""
     # Adding zero turns -0.0 into 0.0, which reads better.
     x, y, z = (float(value) + 0.0 for value in T[:3, 3])
     roll, pitch, yaw = (float(value) + 0.0 for value in rpy_from_rotations(np.ascontiguousarray(T[None, :3, :3]))[0])

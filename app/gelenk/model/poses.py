@@ -1,4 +1,4 @@
-"""SO(3) and SE(3) as matrices: what is taken for a rotation, and transforms; in other notations: `notations`."""
+"""SO(3) and SE(3) as matrices: checks of rotations, and transforms; `notations` has the other notations."""
 
 import math
 from dataclasses import dataclass
@@ -9,10 +9,10 @@ from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidPose
 
 ROTATION_TOLERANCE = 1e-6
-"""How far an orientation from outside may be from SO(3); within that it is projected."""
+"""Largest deviation from SO(3) accepted in an orientation from outside, which is then projected."""
 
 _ROTATION_ROUNDING = 5e-15
-"""How far from SO(3) a product of a few rotations may be; such a matrix is taken as it is."""
+"""Largest distance from SO(3) of a product of a few rotations; such a matrix is used unchanged."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Poses:
         return len(self.positions)
 
     def matrices(self) -> Array:
-        """Homogeneous transforms; shape (N, 4, 4)."""
+        """Return the poses as homogeneous transforms; shape (N, 4, 4)."""
         Ts = np.zeros((len(self), 4, 4))
         Ts[:, :3, :3] = self.rotations
         Ts[:, :3, 3] = self.positions
@@ -40,9 +40,9 @@ class Poses:
 
 
 def nearest_rotation(matrix: Array) -> Array:
-    """The rotation nearest to a matrix that is one except for rounding; shape (3, 3) → (3, 3).
+    """Return the rotation nearest to a matrix that is nearly a rotation; shape (3, 3) → (3, 3).
 
-    What a double cannot tell from a rotation comes back as it is, so that a rotation that was sent returns unchanged.
+    A matrix that differs from a rotation by rounding alone is returned unchanged, so a client gets back what it sent.
 
     Raises:
         InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
@@ -64,7 +64,7 @@ def nearest_rotation(matrix: Array) -> Array:
 
 
 def unit_quaternion(quaternion: Array) -> Array:
-    """The unit quaternion next to one that has length 1 except for rounding; shape (4,) → (4,), any order.
+    """Normalise a quaternion whose length is nearly 1; shape (4,) → (4,), any order.
 
     Raises:
         InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.
@@ -79,12 +79,12 @@ def unit_quaternion(quaternion: Array) -> Array:
 
 
 def _finite(distance: float) -> float | None:
-    """The distance, where a double can hold it."""
+    """Return the distance if it is finite, else None."""
     return distance if math.isfinite(distance) else None
 
 
 def transform(position: Array, rotation: Array) -> Array:
-    """Homogeneous transform from a position (3,) and a rotation (3, 3); shape (4, 4)."""
+    """Return the homogeneous transform (4, 4) of a position (3,) and a rotation (3, 3)."""
     T = np.eye(4)
     T[:3, :3] = rotation
     T[:3, 3] = position
@@ -92,6 +92,6 @@ def transform(position: Array, rotation: Array) -> Array:
 
 
 def inverse(T_a_b: Array) -> Array:
-    """T_b_a from T_a_b; shape (4, 4)."""
+    """Return T_b_a of T_a_b; shape (4, 4)."""
     R = T_a_b[:3, :3]
     return transform(-R.T @ T_a_b[:3, 3], R.T)

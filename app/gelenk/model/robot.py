@@ -1,4 +1,4 @@
-"""A robot: its description, its chains, and its Pinocchio model, which only ever sees XML that we wrote."""
+"""A robot: its description, its chains, and its Pinocchio model, which only ever reads XML written by this package."""
 
 import threading
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ _FRAMES_KEPT = 1024
 
 @dataclass(frozen=True, slots=True)
 class Expansion:
-    """How a chain's configuration becomes Pinocchio's: q = q₀ + M · configuration.
+    """Linear map from a chain's configuration to Pinocchio's: q = q₀ + M · configuration.
 
     Attributes:
         offset: q₀; shape (nq,).
@@ -31,18 +31,18 @@ class Expansion:
 
 
 class Robot:
-    """A description made ready for computation; safe to share between threads, Pinocchio's part under `lock`.
+    """A description prepared for computation; threads can share it, but must hold `lock` while they use `data`.
 
-    Pinocchio's work space `data` is one a robot: it can be large, two threads in it at once give wrong numbers, and
-    as its calls hold the GIL, one for each thread would gain nothing.
+    Each robot has one Pinocchio workspace `data`: it can be large, concurrent use gives wrong numbers, and because
+    Pinocchio's calls hold the GIL, one for each thread would gain nothing.
 
     Args:
         description: The checked robot.
-        default_chain: Base and tip where a call names none; the longest chain if left out.
+        default_chain: Base and tip where a call names none; the longest chain if omitted.
 
     Raises:
-        UnknownFrame: The default chain names a frame that the robot does not have.
-        UnsupportedJoint: The default chain leads across a floating or planar joint.
+        UnknownFrame: The robot does not have a frame of the default chain.
+        UnsupportedJoint: The default chain crosses a floating or planar joint.
     """
 
     def __init__(self, description: Description, default_chain: tuple[str, str] | None = None) -> None:
@@ -59,25 +59,25 @@ class Robot:
         self.chain(None, None)
 
     def chain(self, base_frame: str | None, tip_frame: str | None) -> Chain:
-        """The chain between two frames, each the default chain's where None.
+        """Return the chain between two frames; None stands for the default chain's frame.
 
         Raises:
-            UnknownFrame: One of the two is no frame of the robot.
-            UnsupportedJoint: A floating or planar joint lies on the way.
+            UnknownFrame: The robot does not have one of the frames.
+            UnsupportedJoint: A floating or planar joint lies on the path.
         """
         return self._chain(base_frame or self.default_chain[0], tip_frame or self.default_chain[1])
 
     def frame_on(self, chain: Chain, frame: str) -> tuple[Chain, Indices]:
-        """The chain to another frame that a chain moves, and the places of its variables among the chain's.
+        """Return the chain to another frame that `chain` moves, and the indices of its variables in `chain`.
 
         Raises:
-            UnknownFrame: It is no frame of the robot.
-            FrameNotOnChain: Other joints move it too.
+            UnknownFrame: The robot does not have this frame.
+            FrameNotOnChain: Other joints also move it.
         """
         return self._frame_on(chain, frame)
 
     def _frames_on(self, chain: Chain) -> tuple[str, ...]:
-        """All frames whose pose in the base the chain's variables determine, in the order of the description."""
+        """Return all frames whose pose in the base depends only on the chain's variables, in description order."""
         frames = []
         for frame in self.description.frames:
             try:
@@ -88,10 +88,10 @@ class Robot:
         return tuple(frames)
 
     def frame_id(self, frame: str) -> int:
-        """Pinocchio's index of a frame.
+        """Return Pinocchio's index of a frame.
 
         Raises:
-            UnknownFrame: It is no frame of the robot.
+            UnknownFrame: The robot does not have this frame.
         """
         try:
             return int(self._frame_ids[frame])
@@ -99,7 +99,7 @@ class Robot:
             raise UnknownFrame(frame, self.description.frames) from None
 
     def _expansion(self, chain: Chain) -> Expansion:
-        """How a configuration of the chain becomes one of the whole model; other joints stay at zero."""
+        """Map a configuration of the chain to one of the whole model; other joints stay at zero."""
         offset = np.zeros(self.model.nq)
         matrix = np.zeros((self.model.nq, len(chain)))
         column = {name: i for i, name in enumerate(chain.joint_names)}
@@ -123,12 +123,12 @@ def _joint(i: int) -> str:
 
 
 def _pinocchio_model(description: Description) -> pin.Model:
-    """Pinocchio's model of the same kinematics and inertias, under names of ours.
+    """Build Pinocchio's model of the same kinematics and inertias, under generated names.
 
-    Continuous joints are written as revolute ones without bounds that matter, so that each joint has one number in q
-    (Pinocchio gives a continuous one two). Mimic joints are written as joints of their own, because `Expansion` moves
-    them: Pinocchio refuses leaders that come later or are continuous. Floating and planar joints lie on no chain and
-    are written as fixed. Shapes stay away: a mesh file is never opened.
+    Continuous joints are written as revolute ones with very wide bounds, so that each joint has one number in q
+    (Pinocchio gives a continuous one two). Mimic joints are written as independent joints because `Expansion` moves
+    them: Pinocchio refuses leaders that come later or are continuous. Floating and planar joints are part of no chain
+    and are written as fixed. Shapes are left out, so that no mesh file is opened.
     """
     wide = Limits(-1e9, 1e9, 1e9, 1e9)
     link_name = {link.name: _link(i) for i, link in enumerate(description.links)}

@@ -1,4 +1,4 @@
-"""What a robot that shows nothing looks like: rods between its joints, and bodies of these; drawn, and no more."""
+"""Stand-in bodies for a robot without visible shapes: rods between its joints, and joint bodies; for display only."""
 
 import math
 from collections.abc import Container
@@ -7,19 +7,19 @@ from gelenk.model.appearance import Solid, Stock
 from gelenk.model.description import MOVABLE, Description, Joint, Link
 
 _THICKNESS = 0.06
-"""Of a rod, half that of a body: motion must be visible, but not look like the robot's own shape."""
+"""Relative radius of a rod, half that of a DH table's, so that it is not taken for the robot's own shape."""
 
 
 def skeleton(description: Description, without: Container[str]) -> dict[str, list[Solid]]:
-    """Solids for the links that show nothing themselves, each in its link's frame.
+    """Create solids for the links that show nothing themselves, each in its link's frame.
 
     Args:
-        description: Of the robot.
-        without: Names of meshes that there is no file of.
+        description: The robot's description.
+        without: Names of meshes whose files are missing.
 
     Returns:
-        By link: a rod to each joint below, and the body of the joint above where that moves; no link without any. Where
-        other links show something, one that no joint moves at, and has no shape at all, is a frame and gets none.
+        Solids by link name: a rod to each joint below, and a body for the joint above if that moves; no link without
+        solids. If other links show something, a link with neither a shape nor a movable joint is a mere frame: no solids.
     """
     stock = Stock((math.hypot(*joint.origin.xyz) for joint in description.joints), _THICKNESS)
     bare = [link for link in description.links if not _shows(link, without)]

@@ -1,4 +1,4 @@
-"""Do the links and joints of a description form one tree, and do its mimic joints lead somewhere?"""
+"""Checks that the links and joints of a description form one tree, and that mimic joints follow a movable joint."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -8,19 +8,19 @@ from gelenk.model.errors import InvalidUrdf, listed, quoted
 
 MAX_DEPTH = 256
 MAX_MOVABLE = 128
-"""Degrees of freedom: what dynamics algorithms allocate grows with their cube."""
+"""Largest number of movable joints: the memory that dynamics algorithms allocate grows with its cube."""
 MAX_MULTIPLIER = 1e6
 
 
 def check_tree(description: Description, lines: Mapping[str, int]) -> None:
-    """Refuse what is not one tree of links.
+    """Check that the links and joints form one tree.
 
     Args:
-        description: As read, only its single elements checked.
+        description: A description of which only the single elements have been checked.
         lines: The line of each "link <name>" and "joint <name>", for the messages.
 
     Raises:
-        InvalidUrdf: Names twice, unknown links, two parents, no root or two, cycles, too deep, endless mimics.
+        InvalidUrdf: Duplicate names, unknown links, two parents, not one root, cycles, too deep or large, bad mimics.
     """
     _check_names(description, lines)
     _check_ends(description, lines)
@@ -76,7 +76,7 @@ def _check_roots(description: Description) -> None:
 
 
 def _check_reach(description: Description, lines: Mapping[str, int]) -> None:
-    """From the root every link must be reached: one that is not hangs on a cycle."""
+    """Check the limits, and that the root reaches every link: one that it does not reach hangs on a cycle."""
     depth = {description.root: 0}
     pending = [description.root]
     while pending:

@@ -1,4 +1,4 @@
-"""What is left of a xacro in a description: elements and expressions that mean nothing before they are expanded."""
+"""Detects unexpanded xacro in a description: elements and expressions that mean nothing before they are expanded."""
 
 import re
 
@@ -7,15 +7,15 @@ from gelenk.model.xml import Element
 
 _EXPRESSION = re.compile(r"\$[({]")
 _OLD_TAGS = frozenset({"arg", "if", "include", "insert_block", "macro", "property", "unless"})
-"""Xacro's elements as it once had them: without a prefix."""
+"""Elements of older xacro versions, which used no prefix."""
 
 
 def left_of_xacro(root: Element, ignored: frozenset[str]) -> str | None:
-    """The first element or attribute that only xacro understands, in words; None where there is none.
+    """Describe the first attribute or element that only xacro understands; return None if the description has none.
 
     Args:
-        root: Of the description.
-        ignored: Elements of the robot that are not looked into.
+        root: Root element of the description.
+        ignored: Tags of elements of the robot that are not searched.
     """
     waiting = [root]
     while waiting:
@@ -30,7 +30,7 @@ def left_of_xacro(root: Element, ignored: frozenset[str]) -> str | None:
 
 
 def without_links(root: Element) -> str:
-    """Why a description without links has none."""
+    """Explain why a description has no links."""
     names = tuple(child.attributes.get("name", "") for child in root.children if child.tag in {"macro", "xacro:macro"})
     if not names:
         return "the robot has no link"

@@ -1,8 +1,8 @@
-"""URDF, both ways: untrusted XML → checked `Description`; `Description` → XML of our own.
+"""Reads and writes URDF: untrusted XML → checked `Description`; `Description` → XML written by this package.
 
-The reader refuses what would come out as another robot (each refusal names the element and the line). It warns of what
-is merely odd, and of faults that kinematics does not feel: in shapes, in masses, in the limits of a fixed joint.
-Pinocchio never sees the text that came in: it gets what `write_urdf` writes from the description.
+The reader refuses whatever it would read as a different robot; each refusal names the element and the line. It only
+warns of oddities and of faults that do not affect kinematics: in shapes, in masses, in the limits of a fixed joint.
+Pinocchio never sees the incoming text, only what `write_urdf` writes from the description.
 """
 
 import math
@@ -36,14 +36,14 @@ from gelenk.model.xml import Element, read_xml, with_declaration_first
 MAX_LINKS = 512
 MAX_SHAPES = 512
 MAX_MAGNITUDE = 1e6
-"""Largest length [m], angle [rad], multiplier: beyond it a double no longer resolves a nanometre."""
+"""Largest length [m], angle [rad] or multiplier: beyond it, a double cannot resolve a nanometre."""
 
 
 UNLIMITED = 1e16
-"""A velocity or effort that stands for none given, in what is written and in many files: URDF has no word for it."""
+"""A velocity or effort that means "not given", here and in many files: URDF has no notation for that."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _ELSEWHERE = re.compile(r"^[/\\]|^(?!package:|model:)\w+:|(^|[/\\])\.\.([/\\]|$)")
-"""In a mesh's name: an absolute path, a drive, an address, or a way out of its folder."""
+"""Matches a mesh name outside the folder: an absolute path, a drive, a URL, or a path that leads out by `..`."""
 _JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _SILENT = frozenset({"gazebo", "transmission", "material", "sensor", "ros2_control", "frame", "loop_joint"})
 """Elements of a robot that other tools read and kinematics does not need."""
@@ -79,14 +79,14 @@ def read_urdf(text: str, strict: bool = False) -> Description:
     """Read and check a description.
 
     Args:
-        text: The URDF, xacro already expanded.
-        strict: Whether faults that kinematics does not feel are refused too, instead of warned of.
+        text: The URDF, with xacro already expanded.
+        strict: Whether faults that do not affect kinematics are refused too, instead of only warned of.
 
     Returns:
-        The robot, with what is odd about it in `warnings`.
+        The robot, with its oddities in `warnings`.
 
     Raises:
-        InvalidUrdf: It is not well-formed XML, not a robot, or beyond a limit.
+        InvalidUrdf: The text is not well-formed XML, does not describe a robot, or exceeds a limit.
     """
     warnings = []
     if not strict and (put_right := with_declaration_first(text)) != text.removeprefix("\ufeff"):
@@ -107,7 +107,7 @@ def read_urdf(text: str, strict: bool = False) -> Description:
 
 
 class _Reader:
-    """One pass over one document, collecting warnings."""
+    """Reads one document and collects warnings."""
 
     def __init__(self, strict: bool, warnings: list[str]) -> None:
         self._strict = strict
@@ -135,7 +135,7 @@ class _Reader:
 
     @contextmanager
     def _harmless(self, consequence: str) -> Iterator[None]:
-        """What is refused inside is not felt by kinematics: unless strict, a warning with what follows from it."""
+        """Unless strict, turn a refusal that does not affect kinematics into a warning with its consequence."""
         try:
             yield
         except InvalidUrdf as error:
@@ -233,7 +233,7 @@ class _Reader:
         return Shape(role, origin, shape.tag, size)  # type: ignore[arg-type]
 
     def _geometry(self, element: Element, where: str) -> Element:
-        """The element of a shape: the only one in its geometry, or else the first that is one."""
+        """Return the element of a shape: the only one in its geometry, or else the first one of a known kind."""
         geometry = self._only(element, "geometry", where, is_felt=False)
         found = [] if geometry is None else geometry.children
         if len(found) == 1:
@@ -355,10 +355,10 @@ class _Reader:
             _number(mimic, "offset", where) if "offset" in mimic.attributes else 0.0,
         )
 
-    # What both have
+    # Shared by links and joints
 
     def _only(self, element: Element, tag: str, where: str, is_felt: bool = True) -> Element | None:
-        """The child of that tag; of several the first, if they are the same or kinematics does not feel which."""
+        """Return the child with a tag; of several, the first if they are equal or kinematics does not depend on it."""
         found = [child for child in element.children if child.tag == tag]
         if len(found) > 1:
             error = InvalidUrdf(f"{len(found)} elements {quoted(tag)} where one is allowed", where, found[1].line)
@@ -396,7 +396,7 @@ class _Reader:
         )
 
     def _check_known(self, element: Element, where: str | None) -> None:
-        """Warn of what no URDF has, often a slip of the pen; refuse what is left of a xacro."""
+        """Warn of attributes and elements that are not part of URDF, often misspelt, and refuse xacro elements."""
         inside = f"{where}: " if where else ""
         for key in element.attributes:
             if key not in _KNOWN_ATTRIBUTES[element.tag] and ":" not in key:
@@ -421,7 +421,7 @@ def _triple(element: Element, key: str, where: str) -> Triple:
 
 
 def _numbers(element: Element, key: str, count: int, where: str, most: float = MAX_MAGNITUDE) -> tuple[float, ...]:
-    """The numbers of an attribute: exactly so many, finite, none of greater magnitude than `most`."""
+    """Parse an attribute as exactly `count` finite numbers, none of greater magnitude than `most`."""
     text = element.attributes.get(key)
     what = f"{element.tag} {key}"
     if text is None:
@@ -443,7 +443,7 @@ def _numbers(element: Element, key: str, count: int, where: str, most: float = M
 
 
 def write_urdf(description: Description) -> str:
-    """The description as XML, numbers to 17 significant digits; reading it gives the same description."""
+    """Write a description as XML with up to 17 significant digits; reading it gives the same description."""
     lines = ['<?xml version="1.0" encoding="utf-8"?>', f"<robot name={quoteattr(description.name)}>"]
     for link in description.links:
         lines += _element("link", {"name": link.name}, _link_body(link), indent=1)
@@ -453,7 +453,7 @@ def write_urdf(description: Description) -> str:
 
 
 def _element(tag: str, attributes: dict[str, str], body: Sequence[str] = (), indent: int = 0) -> list[str]:
-    """A tag with its attributes around the lines of its body."""
+    """Return the lines of a tag with its attributes around the lines of its body."""
     space = "  " * indent
     start = f"{space}<{tag}" + "".join(f" {key}={quoteattr(value)}" for key, value in attributes.items())
     if not body:

@@ -1,4 +1,4 @@
-"""XML from outside, as a plain tree of elements with their lines, within limits; nothing is expanded or fetched."""
+"""Parses untrusted XML into a plain tree of elements with lines, within limits; nothing is expanded or fetched."""
 
 import re
 from dataclasses import dataclass, field
@@ -26,7 +26,7 @@ _KNOWN_ENCODINGS = frozenset({"utf-8", "utf8", "us-ascii", "ascii"})
 
 @dataclass(slots=True)
 class Element:
-    """A tag with its attributes, its child elements and the line it starts on (1-based); text is dropped."""
+    """A tag with its attributes, child elements and the line where it starts (1-based); text is dropped."""
 
     tag: str
     attributes: dict[str, str]
@@ -35,7 +35,7 @@ class Element:
 
 
 def with_declaration_first(text: str) -> str:
-    """Move an XML declaration behind white space and comments to the beginning; lines keep their numbers."""
+    """Move an XML declaration that follows white space and comments to the beginning; lines keep their numbers."""
     text = text.removeprefix("\ufeff")
     late = _LATE_DECLARATION.match(text)
     return text if late is None else late[2] + late[1].replace("\ufeff", "") + text[late.end() :]
@@ -45,13 +45,13 @@ def read_xml(text: str) -> Element:
     """Parse a document strictly.
 
     Args:
-        text: The document; UTF-8 where it declares an encoding.
+        text: The document; if it declares an encoding, UTF-8 or ASCII.
 
     Returns:
-        Its root element.
+        The root element.
 
     Raises:
-        InvalidUrdf: Not well-formed, a DTD or entity in it, or beyond a limit of this module.
+        InvalidUrdf: The text is not well-formed, contains a DTD or an entity, or exceeds a limit of this module.
     """
     content = _checked_bytes(text)
     tree = _TreeBuilder()
@@ -88,7 +88,7 @@ def _checked_bytes(text: str) -> bytes:
 
 
 class _TreeBuilder(ContentHandler):
-    """Collects elements, and stops at the first limit that is passed."""
+    """Builds the tree of elements, and stops at the first limit exceeded."""
 
     def __init__(self) -> None:
         super().__init__()
