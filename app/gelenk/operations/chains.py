@@ -1,4 +1,4 @@
-"""What many operations on a robot begin and end with: the chain, the configurations, the size of the answer."""
+"""Steps that many operations on a robot share: the chain, the configurations, the size of the answer."""
 
 from typing import Any, Protocol
 
@@ -15,39 +15,39 @@ class AtConfigurations(Protocol):
 
     @property
     def base_frame(self) -> str | None:
-        """Where the chain begins; that of the default chain if None."""
+        """Base of the chain; that of the default chain if None."""
         ...
 
     @property
     def tip_frame(self) -> str | None:
-        """Where it ends; likewise."""
+        """Tip of the chain; that of the default chain if None."""
         ...
 
     @property
     def joint_positions(self) -> Any:
-        """The configurations, in any form that `configurations` takes."""
+        """Configurations, in any form that `configurations` accepts."""
         ...
 
     @property
     def respect_limits(self) -> bool:
-        """Whether one beyond the joint limits is an error."""
+        """Whether a configuration beyond the joint limits is an error."""
         ...
 
 
 def chain_and_positions(robot: Robot, call: AtConfigurations) -> tuple[Chain, Array]:
-    """The chain of a request and its configurations, shape (N, n), [rad or m].
+    """Return the chain of a request and its configurations, shape (N, n), [rad or m].
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        InvalidField: A configuration is not one number a joint.
-        OutsideLimits: One is beyond the limits, and the request respects them.
+        InvalidField: A configuration does not have one number per joint.
+        OutsideLimits: A configuration is beyond the limits, and the request respects them.
     """
     chain = robot.chain(call.base_frame, call.tip_frame)
     return chain, positions(chain, call)
 
 
 def positions(chain: Chain, call: AtConfigurations) -> Array:
-    """The configurations of a request; raises as `chain_and_positions` does."""
+    """Return the configurations of a request, shape (N, n), [rad or m]; raises as `chain_and_positions` does."""
     qs = configurations(chain, call.joint_positions)
     if call.respect_limits:
         check_limits(chain, qs)
@@ -55,11 +55,11 @@ def positions(chain: Chain, call: AtConfigurations) -> Array:
 
 
 def check_numbers(numbers: int, limits: Limits) -> None:
-    """Refuse an answer of more numbers than the operator allows; raises TooLarge."""
+    """Refuse an answer with more numbers than the operator allows; raises TooLarge."""
     if numbers > limits.answer_numbers:
         raise TooLarge("numbers in the answer", numbers, limits.answer_numbers)
 
 
 def head(chain: Chain) -> dict[str, Any]:
-    """The fields with which answers about a chain begin."""
+    """Return the first fields of every answer about a chain."""
     return {"joint_names": chain.joint_names, "base_frame": chain.base_frame, "tip_frame": chain.tip_frame}

@@ -1,4 +1,4 @@
-"""Does a Denavit-Hartenberg table describe a chain of a robot."""
+"""Comparison of a Denavit-Hartenberg table with a chain of a robot."""
 
 from typing import Any
 
@@ -21,12 +21,12 @@ from gelenk.store.records import LoadedRobot
 
 
 def run(robot: LoadedRobot, call: CompareRequest, _: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compare a DH table with a chain of a robot; find the first difference and diagnose mistakes."""
     return Outcome(lambda: _compared(robot.robot, call))
 
 
 def is_heavy(_: CompareRequest) -> bool:
-    """It always is: a comparison takes tens of milliseconds, and more where mistakes are looked for."""
+    """Return True: a comparison takes tens of milliseconds, and more if it looks for mistakes."""
     return True
 
 
@@ -74,7 +74,7 @@ def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict
 
 
 def _replaced(call: CompareRequest) -> list[str]:
-    """What `dh` gives and `find` sets aside."""
+    """Return notes on the poses in `dh` that `find` replaces."""
     given = [place for place in ("base", "tool") if getattr(call.dh, place) is not None and place in (call.find or ())]
     return [f"`find` has {place} found: that of `dh` is set aside" for place in given]
 
@@ -103,7 +103,7 @@ def _difference(each: Difference) -> dict[str, Any]:
 
 
 def _pointer(each: Difference) -> str | None:
-    """JSON pointer into the request, or None."""
+    """Return the JSON pointer of a difference in the request."""
     if each.row is None:
         return "#/dh" if each.parameter == "joints" else f"#/dh/{each.parameter}"
     if each.joint is None:

@@ -1,4 +1,4 @@
-"""A table in the other convention."""
+"""Conversion of a DH table to the other convention."""
 
 from dataclasses import asdict
 from typing import Any
@@ -11,12 +11,12 @@ from gelenk.operations.outcome import Outcome
 
 
 def run(call: ConvertRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Convert a DH table to the other convention, and certify the result."""
     return Outcome(lambda: _convert(call))
 
 
 def is_heavy(_: ConvertRequest) -> bool:
-    """It always is: building a robot takes milliseconds."""
+    """Return True: building a robot takes milliseconds."""
     return True
 
 

@@ -1,4 +1,4 @@
-"""What the calculators of motions in time share: time laws, splines and time scaling."""
+"""Functions that the calculators of time laws, splines and time scaling share."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -27,19 +27,19 @@ PeaksByOrder = dict[int, Peaks]
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """A motion, its guarantees, and further remarks.
+    """A planned motion, what its certificate promises, and further fields of the answer.
 
     Attributes:
-        motion: Positions in time.
-        limits: Of each joint.
-        times: When it is at the knots, [s]; shape (K,).
-        knots: Where it is then; shape (K, n), [rad or m].
+        motion: Positions over time.
+        limits: Limits of each joint.
+        times: Times of the knots, [s]; shape (K,).
+        knots: Positions at the knots, [rad or m]; shape (K, n).
         start_rates: Derivatives given at the start; shape (m, n).
-        end_rates: The same at the end.
+        end_rates: Derivatives given at the end; shape (m, n).
         continuity: Order of the highest derivative that is continuous at the joins.
-        title: Of a picture.
-        told: Further fields of the answer, from the motion's peaks.
-        passed: Points that a picture marks instead of the knots: those that are passed nearby; shapes (K,) and (K, n).
+        title: Title of a picture.
+        told: Returns further fields of the answer, from the motion's peaks.
+        passed: Points that a picture marks instead of the knots, if the motion only passes near them; (K,) and (K, n).
     """
 
     motion: PiecewisePolynomial
@@ -55,17 +55,17 @@ class Planned:
 
 
 def motion_outcome(call: _Request, plan: Callable[[_Request], Planned]) -> Outcome:
-    """A motion as JSON, or its profiles as a picture.
+    """Return a motion as JSON, or its profiles as a picture.
 
     Args:
         call: The request.
-        plan: Finds the motion of it.
+        plan: Computes the motion of a request.
     """
     return Outcome(lambda: _answer(call, plan), picture=lambda kind: _picture(call, kind, plan))
 
 
 def is_heavy_motion(call: SampledRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     waypoints = getattr(call, "waypoints", None) or ()
     first = (
         getattr(call, "start", None) or getattr(call, "displacement", None) or (waypoints[0] if waypoints else (0.0,))
@@ -141,7 +141,7 @@ def _sample_times(call: SampledRequest, motion: PiecewisePolynomial) -> Array:
 
 
 def segments(motion: PiecewisePolynomial) -> list[dict[str, Any]]:
-    """The pieces of a motion, for the wire."""
+    """Return the pieces of a motion as JSON content."""
     return [
         {"start_time": start, "end_time": end, "coefficients": c.T.tolist()}
         for start, end, c in zip(
@@ -163,7 +163,7 @@ def _told_peaks(found: Peaks, limit: Array | None) -> list[dict[str, Any]]:
 
 
 def limit_warnings(found: PeaksByOrder, limits: Limits) -> list[str]:
-    """Which joints go beyond a limit."""
+    """Return a warning for each joint and quantity whose limit is exceeded."""
     texts = []
     for order, quantity in enumerate(QUANTITIES, start=1):
         limit = limits.of(quantity)
@@ -178,15 +178,15 @@ def limit_warnings(found: PeaksByOrder, limits: Limits) -> list[str]:
 
 
 def told_steps(steps: Sequence[Step]) -> list[dict[str, Any]]:
-    """Steps for the wire."""
+    """Return steps as JSON content."""
     return [asdict(step) for step in steps]
 
 
 def limits_of(call: SampledRequest, joints: int) -> Limits:
-    """The limits of a request, one number per joint.
+    """Return the limits of a request, one number per joint.
 
     Raises:
-        InvalidField: Another count of numbers.
+        InvalidField: A limit has neither one number nor one per joint.
     """
     given = call.limits
     if given is None:
@@ -202,10 +202,10 @@ def limits_of(call: SampledRequest, joints: int) -> Limits:
 
 
 def spread(values: Sequence[float], count: int, field: str, of: str = "joints") -> Array:
-    """One number each, of as many or of one for all.
+    """Return `count` numbers, from as many or from one for all.
 
     Raises:
-        InvalidField: Another count of numbers.
+        InvalidField: There is another count of numbers.
     """
     if len(values) not in {1, count}:
         raise InvalidField(field, f"has {counted(len(values), 'number')} where there are {count} {of}")
@@ -213,10 +213,10 @@ def spread(values: Sequence[float], count: int, field: str, of: str = "joints") 
 
 
 def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
-    """One number per joint; zeros where nothing is given.
+    """Return one number per joint; zeros if none are given.
 
     Raises:
-        InvalidField: Another count of numbers.
+        InvalidField: There is another count of numbers.
     """
     if values is None:
         return np.zeros(joints)
@@ -226,10 +226,10 @@ def row(values: Sequence[float] | None, joints: int, field: str) -> Array:
 
 
 def table(rows: Sequence[Sequence[float]], field: str, count: int | None = None, joints: int | None = None) -> Array:
-    """Rows of the same length, one number per joint.
+    """Return rows of the same length as an array, one number per joint.
 
     Raises:
-        InvalidField: Rows of different lengths, or another count of rows or joints.
+        InvalidField: Rows differ in length, or the count of rows or joints is wrong.
     """
     if count is not None and len(rows) != count:
         raise InvalidField(field, f"has {counted(len(rows), 'entry')} for {counted(count, 'time')}")
@@ -241,10 +241,10 @@ def table(rows: Sequence[Sequence[float]], field: str, count: int | None = None,
 
 
 def needed(call: SampledRequest, fields: Sequence[str], why: str) -> None:
-    """Insist on fields.
+    """Check that fields are given.
 
     Raises:
-        InvalidField: One is not there.
+        InvalidField: A field is missing.
     """
     for field in fields:
         if getattr(call, field) is None:
@@ -252,10 +252,10 @@ def needed(call: SampledRequest, fields: Sequence[str], why: str) -> None:
 
 
 def unused(call: SampledRequest, fields: Sequence[str], why: str) -> None:
-    """Insist that fields are not there.
+    """Check that fields are not given.
 
     Raises:
-        InvalidField: One is.
+        InvalidField: A field is given.
     """
     for field in fields:
         given = getattr(call, field) if field in call.model_fields_set else None

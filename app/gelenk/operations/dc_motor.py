@@ -24,12 +24,12 @@ _QUICK_SAMPLES = 1000
 
 
 def run(call: DcMotorRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute a DC motor's steady state, torque-speed line, poles and step response."""
     return Outcome(lambda: _dc_motor(call))
 
 
 def is_heavy(call: DcMotorRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return (call.samples or 0) > _QUICK_SAMPLES
 
 

@@ -1,4 +1,4 @@
-"""The table of a chain of a URDF."""
+"""The DH table of a chain in a URDF."""
 
 from dataclasses import asdict
 from typing import Any
@@ -12,12 +12,12 @@ from gelenk.operations.outcome import Outcome
 
 
 def run(call: FromUrdfRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the DH table of a chain in a URDF, with its certificate."""
     return Outcome(lambda: _from_urdf(call))
 
 
 def is_heavy(_: FromUrdfRequest) -> bool:
-    """It always is: building a robot takes milliseconds."""
+    """Return True: building a robot takes milliseconds."""
     return True
 
 
@@ -27,7 +27,7 @@ def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
 
 
 def table_answer(robot: Robot, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:
-    """The table of a chain with its certificate, as the answer has it."""
+    """Return the table of a chain with its certificate, as JSON content."""
     chain = robot.chain(options.base_frame, options.tip_frame)
     table, notes, certificate = dh_of_chain(robot, chain, options.convention, options.snap_tolerance)
     return {

@@ -1,4 +1,4 @@
-"""A table as URDF."""
+"""A DH table as URDF."""
 
 from dataclasses import asdict
 from typing import Any
@@ -15,12 +15,12 @@ from gelenk.operations.outcome import Outcome
 
 
 def run(call: ToUrdfRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Write a DH table as URDF, and certify the robot in it."""
     return Outcome(lambda: _to_urdf(call))
 
 
 def is_heavy(_: ToUrdfRequest) -> bool:
-    """It always is: building a robot takes milliseconds."""
+    """Return True: building a robot takes milliseconds."""
     return True
 
 
@@ -40,7 +40,7 @@ def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
 
 
 def _notes(described: Description) -> list[str]:
-    """What a description says that its table did not."""
+    """Return notes on what a description says that its table did not."""
     notes = [INVENTED_MASSES]
     for key in ("velocity", "effort"):
         names = tuple(

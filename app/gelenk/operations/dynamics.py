@@ -1,4 +1,4 @@
-"""Dynamics of a robot."""
+"""Dynamics of a robot: terms of the equations of motion, inverse and forward dynamics."""
 
 from typing import Any
 
@@ -39,11 +39,11 @@ _FIELDS = {
     "coriolis_torques": "coriolis_torques",
     "gravity_torques": "gravity_torques",
 }
-"""Where the answer has a term."""
+"""Field of the answer for each term."""
 
 
 def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the requested terms, and joint torques (inverse dynamics) or accelerations (forward dynamics)."""
     robot = loaded.robot
     chain = chain_of(robot, call)
     _check_options(call)
@@ -71,12 +71,12 @@ def run(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome:
 
 
 def is_heavy(call: DynamicsRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return not is_quick(call) or call.wrenches is not None
 
 
 def attempt(loaded: LoadedRobot, call: DynamicsRequest, limits: Limits) -> Outcome | None:
-    """The same for a few bodies; None for many."""
+    """Run the operation if the chain has few bodies; return None if it has many."""
     return run(loaded, call, limits) if has_few_bodies(loaded, call) else None
 
 
@@ -87,7 +87,7 @@ def _check_options(call: DynamicsRequest) -> None:
     """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and which other fields it needs or excludes.
+        InvalidField: A field needs another that is missing, or excludes one that is given.
     """
     if call.joint_accelerations is not None and call.torques is not None:
         raise InvalidField(
@@ -101,7 +101,7 @@ def _check_options(call: DynamicsRequest) -> None:
 
 
 def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
-    """One row a configuration, where there are any."""
+    """Return one row per configuration; None if no values are given."""
     if values is None:
         return None
     rows = configurations(chain, values, field)
@@ -113,7 +113,7 @@ def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
 
 
 def _held(robot: Robot, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
-    """Jᵀγ, certified; zero without a wrench."""
+    """Return the joint torques Jᵀγ of the wrenches, certified; zero without wrenches. Shape (N, n)."""
     if call.wrenches is None:
         return np.zeros_like(qs)
     wrenches = wrench_rows(call.wrenches, len(qs), DIRECTIONS)
@@ -132,7 +132,7 @@ def _check_size(call: DynamicsRequest, count: int, n: int, limits: Limits) -> No
 
 
 def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
-    """What npy holds of the answer."""
+    """Return the part of the answer that npy holds."""
     if found.torques is not None:
         return found.torques
     if found.accelerations is not None or not call.terms:

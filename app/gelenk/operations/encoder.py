@@ -1,4 +1,4 @@
-"""POST /v1/course/encoder: what a shaft encoder resolves, and what its signals say."""
+"""POST /v1/course/encoder: resolution of a shaft encoder, and decoding of its signals."""
 
 from dataclasses import asdict
 from typing import Any
@@ -18,12 +18,12 @@ _QUICK_READINGS = 200
 
 
 def run(call: EncoderRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the resolution that an encoder has or needs, and decode its signals."""
     return Outcome(lambda: _encoder(call))
 
 
 def is_heavy(call: EncoderRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return len(call.readings or ()) + len(call.values or ()) > _QUICK_READINGS or call.table
 
 
@@ -57,7 +57,7 @@ def _check(call: EncoderRequest) -> None:
     """Refuse combinations of fields that exclude each other."""
     other = "absolute" if call.type == "incremental" else "incremental"
     for field in _FIELDS[other]:
-        # The lines of an incremental encoder are reported whatever type is wanted.
+        # The lines of an incremental encoder are reported for either type.
         counts = field == "decoding" and call.wanted_resolution is not None
         if field in call.model_fields_set and getattr(call, field) not in (None, False) and not counts:
             raise InvalidField(field, f"is only allowed with an encoder of type `{other}`")

@@ -14,7 +14,7 @@ _QUICK = 100
 
 
 def run(loaded: LoadedRobot, call: ForwardRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the pose of the tip, and of other requested frames, at each configuration."""
     robot = loaded.robot
     chain, qs = chain_and_positions(robot, call)
     frames = robot.frames_on(chain) if call.frames == "all" else tuple(dict.fromkeys(call.frames or ()))
@@ -35,5 +35,5 @@ def run(loaded: LoadedRobot, call: ForwardRequest, limits: Limits) -> Outcome:
 
 
 def is_heavy(call: ForwardRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return call.frames is not None or len(call.joint_positions) > _QUICK

@@ -19,17 +19,17 @@ _QUICK_SAMPLES = 500
 
 
 def run(call: FlyOverRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the blend at a corner, and the whole motion if requested."""
     return Outcome(lambda: _fly_over(call), picture=lambda kind: _picture(call, kind))
 
 
 def is_heavy(call: FlyOverRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return (call.samples or 0) > _QUICK_SAMPLES
 
 
 def _planned(call: FlyOverRequest, given: Given, value: float) -> tuple[Blend, BlendedMotion | None]:
-    """The blend, and the whole motion if requested."""
+    """Compute the blend, and the whole motion if requested."""
     A, B, C = _points(call)
     blend = blended(corner_of(A, B, C, call.speed_before, call.speed_after), given, value)
     return blend, None if call.rest_acceleration is None else rest_to_rest(blend, call.rest_acceleration)
@@ -61,7 +61,7 @@ def _fly_over(call: FlyOverRequest) -> dict[str, Any]:
 
 
 def _given(call: FlyOverRequest) -> tuple[Given, float]:
-    """Which quantity determines the blend, and what it is."""
+    """Return the quantity that determines the blend, and its value."""
     names: tuple[Given, ...] = get_args(Given)
     given = [(name, value) for name in names if (value := getattr(call, name)) is not None]
     if len(given) != 1:
@@ -79,7 +79,7 @@ def _points(call: FlyOverRequest) -> tuple[Array, Array, Array]:
 
 
 def _motion(blend: Blend, whole: BlendedMotion | None) -> PiecewisePolynomial | None:
-    """The whole motion, or the blend alone; None where that takes no time."""
+    """Return the whole motion, or the blend alone; None if that takes no time."""
     if whole is not None:
         return whole.motion
     return blend.motion if blend.time > 0.0 else None

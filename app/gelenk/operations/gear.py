@@ -10,7 +10,7 @@ from gelenk.operations.outcome import Outcome
 
 
 def run(call: GearRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute speeds, torques and powers on both sides of a gear, inertias, and back-driving."""
     return Outcome(lambda: _gear(call))
 
 

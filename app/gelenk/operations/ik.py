@@ -20,14 +20,14 @@ from gelenk.operations.warm_up import WarmUp
 from gelenk.store.records import LoadedRobot
 
 _QUICK_STARTS = 64
-"""Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a thread."""
+"""Starts of seven joints that take the event loop about 0.1 ms; a target that needs more goes to a worker."""
 _QUICK_TARGETS = 8
 _SHARE_OF_TIME = 0.8
-"""Of the time that a request may take, what a search with a time limit may: what is found is to be sent too."""
+"""Share of a request's time for a search with a time limit: sending its result takes time too."""
 
 
 def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute configurations that bring the tip to each target."""
     chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
     seconds = None if call.time_limit is None else min(call.time_limit, _SHARE_OF_TIME * limits.seconds)
     options = options_of(chain, call, seconds)
@@ -35,7 +35,7 @@ def run(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome:
 
 
 def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcome | None:
-    """The same with a few starts; None where they do not suffice."""
+    """Try the operation with a few starts; return None if they do not suffice."""
     chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
     tolerances = call.position_tolerance, call.orientation_tolerance
     question = Question(loaded.robot, chain, targets, seeds, task_of(call), tolerances, call.respect_limits)
@@ -66,7 +66,7 @@ def _look_at(loaded: LoadedRobot, call: InverseRequest, found: ClosedForm | None
 
 
 def is_heavy(call: InverseRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     one_by_search = (
         call.method in {"auto", "analytic"}
         and call.elbow_angle is None

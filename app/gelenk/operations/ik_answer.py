@@ -1,4 +1,4 @@
-"""The answer of inverse kinematics as it travels."""
+"""Answers of inverse kinematics, as JSON content and as tables."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -17,11 +17,11 @@ from gelenk.operations.ik_request import task_of
 from gelenk.operations.pose_arrays import pose_list
 
 _ROWS_NAMED = 200
-"""Unsolved rows that a header names: proxies allow headers of a few kilobytes."""
+"""Maximum number of unsolved rows in a header: proxies allow headers of a few kilobytes."""
 
 
 def table(chain: Chain, result: InverseKinematics) -> Array:
-    """One configuration a target, the solution or what comes nearest; shape (N, n)."""
+    """Return one configuration per target, a solution or the nearest one; shape (N, n), [rad or m]."""
     rows = np.empty((len(result), len(chain)))
     solved = np.diff(result.firsts) > 0
     rows[solved] = result.qs
@@ -31,13 +31,13 @@ def table(chain: Chain, result: InverseKinematics) -> Array:
 
 
 def unsolved_headers(unsolved: Sequence[int]) -> dict[str, str]:
-    """The headers that mark rows of the table without a solution."""
+    """Return the headers that mark rows of the table without a solution."""
     rows = ",".join(map(str, unsolved[:_ROWS_NAMED]))
     return {"Gelenk-Unsolved": str(len(unsolved)), "Gelenk-Unsolved-Rows": rows}
 
 
 def told(chain: Chain, call: InverseRequest, closed_form: str | None, results: list[Any]) -> dict[str, Any]:
-    """The whole answer; the results come last, so that they can be written as they come."""
+    """Return the whole answer; the results come last, so that they can be written part by part."""
     return {
         "joint_names": chain.joint_names,
         "base_frame": chain.base_frame,
@@ -49,12 +49,12 @@ def told(chain: Chain, call: InverseRequest, closed_form: str | None, results: l
 
 
 def closed_form_of(result: InverseKinematics) -> str | None:
-    """The name of the closed form, or of what solves six joints without one, where it was used."""
+    """Return the name of the closed form, or of the method for six joints without one; None if neither was used."""
     return None if result.branches is None else result.branches.name
 
 
 def told_results(chain: Chain, pose_format: PoseFormat, result: InverseKinematics) -> list[dict[str, Any]]:
-    """What came of each target."""
+    """Return the result of each target."""
     solutions = [
         {
             "joint_positions": q,
@@ -105,7 +105,7 @@ def told_results(chain: Chain, pose_format: PoseFormat, result: InverseKinematic
 
 
 def _name_branches(solutions: list[dict[str, Any]], branches: SolutionBranches, qs: Array) -> None:
-    """Say of each solution what found it, which branch it is, and what a singularity leaves free."""
+    """Add to each solution its method, its branch, and the joints that a singularity leaves free."""
     form = branches.form
     for solution, code, free in zip(solutions, branches.codes.tolist(), branches.free.tolist(), strict=True):
         if code == COUNTED:

@@ -1,4 +1,4 @@
-"""Converts a request of inverse kinematics for the core, checking every field against the others and the chain."""
+"""Converts an inverse kinematics request for the core; checks its fields against each other and the chain."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,12 +21,12 @@ from gelenk.operations.pose_arrays import poses_from
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """The limits of one call.
+    """Limits of one call.
 
     Attributes:
-        targets: Of any method.
-        stepwise: Of a method that is followed step by step, in Python.
-        numbers: In the answer; None for as many as there is room for.
+        targets: Maximum number of targets, with any method.
+        stepwise: Maximum number of targets with a method that is followed step by step, in Python.
+        numbers: Maximum count of numbers in the answer; None for no limit.
     """
 
     targets: int
@@ -35,10 +35,10 @@ class Bounds:
 
 
 def asked(robot: Robot, call: InverseRequest, bounds: Bounds) -> tuple[Chain, Poses, Array]:
-    """The chain, the targets, and where to start: one configuration for all or one each, shape (1 or N, n).
+    """Return the chain, the targets and the seeds: one configuration for all or one each, shape (1 or N, n).
 
     Raises:
-        InvalidInput: The field, and what is wrong with it.
+        InvalidInput: A field is invalid; the error names it.
         TooLarge: The request exceeds a limit.
     """
     _check_options(call)
@@ -51,7 +51,7 @@ def asked(robot: Robot, call: InverseRequest, bounds: Bounds) -> tuple[Chain, Po
 
 def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
     if call.seeds is None and call.posture is not None:
-        # Whoever wants to be near a posture starts there.
+        # A search for a configuration near a posture starts there.
         return one_configuration(chain, call.posture, "posture")
     if call.seeds is None:
         return mid_range(chain)[None]
@@ -64,7 +64,7 @@ def _seeds(chain: Chain, call: InverseRequest, count: int) -> Array:
 
 
 def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> Options:
-    """How it is to be solved; with None it may take any time."""
+    """Return the options of the solver; without a time limit if that is None."""
     match call.method:
         case "auto" | "analytic":
             rule = None
@@ -91,7 +91,7 @@ def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> 
 
 
 def task_of(call: InverseRequest) -> Task:
-    """The directions that count."""
+    """Return the task: the directions that count."""
     return FULL_POSE if call.task is None else _task_of(frozenset(call.task))
 
 
@@ -111,10 +111,10 @@ def _objective(chain: Chain, call: InverseRequest) -> Objective | None:
 
 
 def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:
-    """Refuse to hold a joint that is not a variable of the chain, a position out of range, or all joints.
+    """Refuse to fix a joint that is not a variable of the chain, a position out of range, or all joints.
 
     Raises:
-        InvalidField: The joint, and what is allowed.
+        InvalidField: A fixed joint is not allowed; the error says what is.
     """
     fixed = call.fixed_joints or {}
     for name, value in fixed.items():
@@ -140,14 +140,14 @@ def _check_size(call: InverseRequest, targets: int, joints: int, bounds: Bounds)
     if is_stepwise(call) and targets > bounds.stepwise:
         raise TooLarge("targets of a method that is followed step by step", targets, bounds.stepwise)
     rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
-    # The sweeps of families have together as many configurations as there may be solutions.
+    # The sweeps of families together have at most as many configurations as there may be solutions.
     numbers = targets * (joints + 4 + joints * (call.solutions == "all")) * rows
     if bounds.numbers is not None and numbers > bounds.numbers:
         raise TooLarge("numbers in the answer", numbers, bounds.numbers)
 
 
 def is_stepwise(call: InverseRequest) -> bool:
-    """Whether each iteration is followed in Python."""
+    """Check whether each iteration is followed in Python."""
     return call.method not in {"auto", "analytic"} or call.trace
 
 
@@ -155,7 +155,7 @@ def _check_options(call: InverseRequest) -> None:
     """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and which other fields it needs or excludes.
+        InvalidField: A field needs another that is missing, or excludes one that is given.
     """
     if call.task is not None and len(set(call.task)) < len(call.task):
         raise InvalidField("task", "each direction at most once")

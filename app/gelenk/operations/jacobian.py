@@ -19,7 +19,7 @@ _QUICK = 10
 
 
 def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the Jacobian at each configuration, and its derivatives if requested."""
     chain, qs = chain_and_positions(loaded.robot, call)
     n = len(chain)
     matrices = 1 + len(call.derivatives) + n * bool(call.derivatives)
@@ -40,7 +40,7 @@ def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
 
 
 def is_heavy(call: JacobianRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return bool(call.derivatives) or len(call.joint_positions) > _QUICK
 
 

@@ -1,4 +1,4 @@
-"""What a robot bears as a request says it, for statics and dynamics: gravity, payload, wrenches at a point."""
+"""Converts the loads on a robot in a request of statics or dynamics: gravity, payload, wrenches at a point."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -25,11 +25,11 @@ _QUICK_BODIES = 8
 
 
 def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
-    """The chain that is addressed.
+    """Return the chain of a request.
 
     Raises:
-        UnknownFrame: The robot has not every frame that is named, with its field.
-        UnsupportedJoint: A floating or planar joint lies on the way.
+        UnknownFrame: The robot lacks a frame that the request names; the error has its field.
+        UnsupportedJoint: A floating or planar joint lies between the ends of the chain.
     """
     for field in ("base_frame", "tip_frame", "expressed_in", "point_frame"):
         name = getattr(call, field)
@@ -43,7 +43,7 @@ def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
 
 
 def _find(loaded: LoadedRobot, call: WrenchOptions) -> None:
-    """Nothing that travels: that it can be made is all that the pool finds out."""
+    """Build the mechanism in a worker, to see that it can be built; there is no result to send."""
     _learn(loaded, call)
 
 
@@ -52,28 +52,28 @@ def _learn(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
 
 
 MECHANISM: WarmUp[Any] = WarmUp(_is_known, _find, _learn)
-"""The mechanism of a chain, which takes some milliseconds to make."""
+"""The mechanism of a chain, which takes some milliseconds to build."""
 
 
 def is_quick(call: StaticsRequest | DynamicsRequest) -> bool:
-    """Whether it may take the event loop less than about a millisecond."""
+    """Check whether a request may take the event loop less than about a millisecond."""
     return len(call.joint_positions) == 1 and call.payload is None
 
 
 def has_few_bodies(loaded: LoadedRobot, call: WrenchOptions) -> bool:
-    """The same of the mechanism, which must be known."""
+    """Check whether the mechanism, which must be known, has few bodies."""
     return len(mechanism(loaded.robot, chain_of(loaded.robot, call)).bodies) <= _QUICK_BODIES
 
 
 def gravity_of(value: bool | Sequence[float]) -> Array | None:
-    """The vector in the root's axes, [m/s²]; None where there is none."""
+    """Return the gravity vector in the root's axes, [m/s²]; None without gravity."""
     if isinstance(value, bool):
         return np.array(STANDARD_GRAVITY) if value else None
     return np.array(value, dtype=float)
 
 
 def load_of(payload: PayloadInfo | None) -> Load | None:
-    """The payload as the core takes it.
+    """Return the payload in the core's form.
 
     Raises:
         InvalidField: No body has this inertia.
@@ -97,10 +97,10 @@ def load_of(payload: PayloadInfo | None) -> Load | None:
 
 
 def wrench_frame(call: WrenchRequest) -> WrenchFrame:
-    """Axes and point of the wrenches.
+    """Return the axes and the point of the wrenches.
 
     Raises:
-        InvalidField: They contradict each other.
+        InvalidField: Fields contradict each other.
     """
     point = None if call.point is None else (call.point[0], call.point[1], call.point[2])
     frame = WrenchFrame(call.reference, call.expressed_in, point, call.point_frame)
@@ -109,7 +109,7 @@ def wrench_frame(call: WrenchRequest) -> WrenchFrame:
 
 
 def unused_frame(call: WrenchRequest) -> str | None:
-    """The first field that changes axes or point, which a call with nothing to be expressed in them has in vain."""
+    """Return the first given field that sets axes or point, for a call that has nothing to express in them."""
     if call.reference != "local_world_aligned":
         return "reference"
     fields = ("expressed_in", "point", "point_frame")
@@ -117,10 +117,10 @@ def unused_frame(call: WrenchRequest) -> str | None:
 
 
 def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Array:
-    """One wrench a configuration; shape (N, m), [N] and [N m].
+    """Return one wrench per configuration; shape (N, m), [N] and [N m].
 
     Raises:
-        InvalidField: Their number, or that of the components, does not fit.
+        InvalidField: The number of wrenches, or of their components, does not fit.
     """
     for i, wrench in enumerate(wrenches):
         if len(wrench) != len(components):
@@ -132,7 +132,7 @@ def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Arr
 
 
 def entries(rows: Array, count: int) -> str:
-    """How many rows there are for how many configurations, in words."""
+    """Say how many rows there are for how many configurations."""
     return (
         f"{len(rows)} {'entry' if len(rows) == 1 else 'entries'} for {count} "
         f"{'configuration' if count == 1 else 'configurations'}"
@@ -140,10 +140,10 @@ def entries(rows: Array, count: int) -> str:
 
 
 def one_each(rows: Array, count: int, field: str) -> Array:
-    """One row for all configurations, or one each, as one each.
+    """Return one row per configuration, from as many rows or from one for all.
 
     Raises:
-        InvalidField: Neither.
+        InvalidField: There is another count of rows.
     """
     if len(rows) == count:
         return rows
@@ -153,7 +153,7 @@ def one_each(rows: Array, count: int, field: str) -> Array:
 
 
 def weight_notes(loaded: LoadedRobot, found: Mechanism, load: Load | None) -> list[str]:
-    """What the numbers leave out or are made of, one sentence each."""
+    """Return a sentence on each thing that the numbers leave out or assume."""
     notes = [DRAWN_MASSES] if loaded.table is not None and found.bodies else []
     if found.without_mass:
         notes.append(f"the description gives no mass to {listed(found.without_mass)}, which move: they weigh nothing")

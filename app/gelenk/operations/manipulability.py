@@ -28,14 +28,14 @@ from gelenk.store.records import LoadedRobot
 
 _QUICK = 4
 _QUICK_DIRECTIONS = 8
-"""Configurations, and directions, that take the event loop less than about a millisecond; more go to a thread."""
+"""Configurations, and directions, that take the event loop less than about a millisecond; more go to a worker."""
 _NUMBERS_A_PART = 40
-"""Numbers that a part of an answer holds beside the directions and the gradient."""
+"""Numbers in a part of an answer besides the directions and the gradient."""
 _NUMBERS_A_DIRECTION = 13
 
 
 def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the ellipsoids and measures of manipulability, and if requested ratios, gradients and polytopes."""
     chain, qs = chain_and_positions(loaded.robot, call)
     directions = _directions(call)
     bounds = _bounds(loaded, chain, call)
@@ -72,20 +72,20 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
 
 
 def is_heavy(call: ManipulabilityRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     many = len(call.joint_positions) > _QUICK or len(call.directions or ()) > _QUICK_DIRECTIONS
     return many or call.gradient or call.polytopes
 
 
 def _directions(call: ManipulabilityRequest) -> Array | None:
-    """Unit vectors, shape (D, 3); the coordinate axes if polytopes are requested without any."""
+    """Return unit vectors, shape (D, 3); the coordinate axes if polytopes are requested without any."""
     if call.directions is None:
         return np.eye(3) if call.polytopes else None
     vectors: Array = np.array(call.directions)
     largest = np.abs(vectors).max(axis=1, keepdims=True)
     if not largest.all():
         raise InvalidField(f"directions/{int(np.argmin(largest))}", "a vector of length zero has no direction")
-    # By its largest component first: squares of very large or small numbers are not numbers.
+    # Divide by the largest component first: squares of very large or small numbers overflow or underflow.
     vectors /= largest
     vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
     return vectors
@@ -122,7 +122,7 @@ def _check_size(chain: Chain, call: ManipulabilityRequest, count: int, limits: L
 
 
 def _table(result: Manipulability) -> Array:
-    """Velocity semi-axes of all parts, shape (N, k)."""
+    """Return the velocity semi-axes of all parts side by side, shape (N, k)."""
     return np.concatenate([part.sigmas for part in result.parts.values()], axis=1)
 
 
@@ -200,7 +200,7 @@ def _space(chain: Chain, part: str, ellipsoids: Ellipsoids) -> dict[str, Any]:
 
 
 def _entries(ellipsoids: Ellipsoids) -> list[dict[str, Any]]:
-    """Ellipsoids and measures, one entry per configuration."""
+    """Return ellipsoids and measures, one entry per configuration."""
     d = ellipsoids.space.dimension
     axes = ellipsoids.space.spread(ellipsoids.axes.transpose(0, 2, 1)).tolist()
     columns = zip(

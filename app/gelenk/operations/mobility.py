@@ -1,4 +1,4 @@
-"""The calculator of degrees of freedom, of a mechanism or of a robot."""
+"""The calculator of mobility: degrees of freedom of a mechanism or of a robot."""
 
 from dataclasses import asdict
 from typing import Any
@@ -17,12 +17,12 @@ from gelenk.store.records import LoadedRobot
 
 
 def run(robot: LoadedRobot | None, call: MobilityRequest, _: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Count the degrees of freedom of a mechanism or of a robot."""
     return Outcome(lambda: _counted(call) if robot is None else _counted_robot(robot.robot))
 
 
 def is_heavy(call: MobilityRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return call.robot is not None or call.has_geometry()
 
 
@@ -70,7 +70,7 @@ def _content(
 
 
 def _spaces(chain: Chain) -> dict[str, Any]:
-    """Joint space and task spaces, by their dimensions."""
+    """Return the joint space and the task spaces, by their dimensions."""
     return {
         "base_frame": chain.base_frame,
         "tip_frame": chain.tip_frame,
@@ -87,7 +87,7 @@ _GRAPH = ("ground", "chain", "loop_count", "components", "bridges", "pairs", "mo
 
 
 def _graph(found: Mechanism | None) -> dict[str, Any]:
-    """What takes more than counts to tell."""
+    """Return the fields that need the graph of a mechanism; None for each without one."""
     if found is None:
         return dict.fromkeys(_GRAPH)
     graph, names = found.topology, found.links

@@ -24,12 +24,12 @@ class Operation:
     warm_up: WarmUp[Any] | None
 
     def run(self, robot: LoadedRobot | None, request: Any, limits: Limits) -> Outcome:
-        """The outcome; raises what the operation raises.
+        """Compute the outcome; raises what the operation raises.
 
         Args:
-            robot: The robot that the path or the request names; None where there is none.
+            robot: Robot that the path or the request names, if any.
             request: An instance of the endpoint's request.
-            limits: What the answer may take.
+            limits: Limits on the work for the answer.
         """
         if isinstance(self.endpoint, RobotEndpoint) or self.endpoint.robot_field:
             return self._run(robot, request, limits)
@@ -38,7 +38,7 @@ class Operation:
 
 @cache
 def operation(name: str) -> Operation:
-    """The operation of an endpoint; raises KeyError where there is none."""
+    """Return the operation of an endpoint; raises KeyError for an unknown name."""
     endpoint = BY_NAME[name]
     module = import_module(f"gelenk.operations.{name}")
     is_heavy = getattr(module, "is_heavy", _never)

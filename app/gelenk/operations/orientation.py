@@ -17,12 +17,12 @@ _INLINE_MOTIONS = 8
 
 
 def run(call: OrientationRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compose the given motions, and return the resulting orientation in every notation."""
     return Outcome(lambda: _compute(call))
 
 
 def is_heavy(call: OrientationRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return len(call.then) > _INLINE_MOTIONS
 
 
@@ -106,7 +106,7 @@ def _projections(validations: Sequence[Validation | None]) -> list[str]:
 
 
 def _nearly(found: Notations) -> list[str]:
-    """Triples that are determined, and yet badly."""
+    """Return warnings about angle triples that are determined, but badly conditioned."""
     return [
         f"{name} is nearly degenerate, {sine} = {triple.conditioning:.3g}: an error of R grows by the inverse of that "
         f"in {outer}, while their {kept} stays accurate."

@@ -1,4 +1,4 @@
-"""What an operation returns, and within which limits it computes."""
+"""The outcome of an operation, and the limits of its computation."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ PictureFormat: TypeAlias = Literal["svg", "png"]
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What an answer may take; the operator sets it.
+    """Limits on the work for an answer, set by the operator.
 
     Attributes:
-        answer_numbers: Numbers in one answer.
-        seconds: How long a request may take; a search with a time limit of its own ends before.
-        job_bytes: What the parts of a job may take on disk.
+        answer_numbers: Maximum count of numbers in one answer.
+        seconds: Time limit of a request, [s]; a search with a time limit of its own ends before.
+        job_bytes: Maximum disk space of the parts of a job.
     """
 
     answer_numbers: int
@@ -28,14 +28,14 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The result of a computation in the shapes that it can be sent in; each is made on demand.
+    """The result of a computation in the forms that it can be sent in; each is made on demand.
 
     Attributes:
-        content: For JSON.
-        array: For npy, with headers for what the array cannot say; None where one array cannot hold the answer.
-        picture: For an image, as `svg` or `png`.
+        content: Returns the content for JSON.
+        array: Returns the array for npy, and headers for what it cannot say; None if one array cannot hold the answer.
+        picture: Draws the image, as `svg` or `png`.
         columns: Names of the array's columns, for CSV.
-        solved: What the metrics count of inverse kinematics, by the number of targets.
+        solved: Returns what the metrics count of inverse kinematics, by the number of targets.
     """
 
     content: Callable[[], Any]

@@ -11,7 +11,7 @@ from gelenk.operations.outcome import Outcome, PictureFormat
 
 
 def run(call: PlanarWorkspaceRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the primary and secondary workspaces of a planar arm, and where a point lies in them."""
     return Outcome(lambda: _workspace(call), picture=lambda kind: _picture(call, kind))
 
 

@@ -1,4 +1,4 @@
-"""Poses on the wire as the core's arrays, and the other way; compiled, so that a client need not load it."""
+"""Conversion of poses between payloads and arrays; kept out of the contract, which does without compiled code."""
 
 from collections.abc import Sequence
 
@@ -18,10 +18,10 @@ from gelenk.model.poses import ROTATION_TOLERANCE, Poses
 
 
 def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
-    """A batch of poses as it came: payloads, or an array of (N, 7), position and quaternion x y z w, or (N, 4, 4).
+    """Return a batch of poses from payloads, or an array (N, 7), position and quaternion x y z w, or (N, 4, 4).
 
     Raises:
-        InvalidPose: An orientation is no rotation, or the last row of a matrix is not 0 0 0 1.
+        InvalidPose: An orientation is not a rotation, or the last row of a matrix is not 0 0 0 1.
         InvalidArray: The array has another shape.
         InvalidField: A number of the array is not finite, or too large.
     """
@@ -70,7 +70,7 @@ def _refuse(deviations: Array, what: str, field: str) -> None:
 
 
 def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
-    """The orientations of poses in a notation; shape (N, 3), (N, 4), (N, 3, 3), or (N, 4, 4) with the positions."""
+    """Return orientations in a notation; shape (N, 3), (N, 4), (N, 3, 3), or (N, 4, 4) with the positions."""
     Rs = poses.rotations
     match pose_format:
         case "quaternion_xyzw":
@@ -90,7 +90,7 @@ def orientations(poses: Poses, pose_format: PoseFormat) -> Array:
 
 
 def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
-    """Poses as they travel: each is a valid `Pose`."""
+    """Return poses as JSON content; each is a valid `Pose`."""
     values = orientations(poses, pose_format).tolist()
     if pose_format == "matrix":
         return [{"matrix": value} for value in values]
@@ -99,7 +99,7 @@ def pose_list(poses: Poses, pose_format: PoseFormat) -> list[dict[str, object]]:
 
 
 def pose_array(poses: Poses, pose_format: PoseFormat) -> Array:
-    """Poses as one array: (N, 4, 4) for `rotation` and `matrix`, else position and orientation side by side."""
+    """Return poses as one array: (N, 4, 4) for `rotation` and `matrix`, else position and orientation side by side."""
     if pose_format in {"rotation", "matrix"}:
         return poses.matrices()
     return np.hstack((poses.positions, orientations(poses, pose_format)))

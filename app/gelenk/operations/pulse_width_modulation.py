@@ -17,7 +17,7 @@ _OF_A_SPEED = ("torque_constant", "back_emf_constant", "viscous_friction", "load
 
 
 def run(call: PwmRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute duty, voltages, times and current ripple of pulse width modulation."""
     return Outcome(lambda: _pwm(call))
 
 
@@ -45,7 +45,7 @@ def _pwm(call: PwmRequest) -> dict[str, Any]:
 
 
 def _back_emf(call: PwmRequest, motor: Motor | None) -> float:
-    """E through the period, [V]; of a wanted speed no other than its own."""
+    """Return the back-EMF E during the period, [V]; for a wanted speed, that of this speed."""
     if motor is None:
         return call.back_emf or 0.0
     of_speed = motor.back_emf_constant * (call.angular_velocity or 0.0)
@@ -56,7 +56,7 @@ def _back_emf(call: PwmRequest, motor: Motor | None) -> float:
 
 
 def _motor_for_speed(call: PwmRequest) -> Motor | None:
-    """The motor whose speed is wanted; None where another quantity is."""
+    """Return the motor whose speed is wanted; None if another quantity is given."""
     if call.angular_velocity is None:
         for field in _OF_A_SPEED:
             if getattr(call, field) is not None:
@@ -67,7 +67,7 @@ def _motor_for_speed(call: PwmRequest) -> Motor | None:
     if call.resistance is None:
         raise InvalidField("resistance", "is needed for a wanted `angular_velocity`")
     back_emf = call.torque_constant if call.back_emf_constant is None else call.back_emf_constant
-    # Neither inductance nor inertia counts in a steady state.
+    # Neither inductance nor inertia matters in a steady state.
     return Motor(call.resistance, 0.0, call.torque_constant, back_emf, call.viscous_friction or 0.0, 1.0)
 
 

@@ -1,4 +1,4 @@
-"""What an answer says of itself to the metrics; it goes along with the answer from whichever process makes it."""
+"""Counts of a request for the metrics; an answer carries them from whichever process makes it."""
 
 from collections.abc import Mapping
 from contextvars import ContextVar
@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class RequestCounts:
-    """What was in a call.
+    """Counts of one call.
 
     Attributes:
-        batch: Configurations or targets.
-        verdicts: Of inverse kinematics, targets by verdict.
-        solutions: How many were found.
-        iterations: That led to them, in all.
+        batch: Number of configurations or targets.
+        verdicts: Number of targets of inverse kinematics, by verdict.
+        solutions: Number of solutions found.
+        iterations: Total number of iterations that led to them.
     """
 
     batch: int
@@ -23,4 +23,4 @@ class RequestCounts:
 
 
 REQUEST_COUNTS: ContextVar[RequestCounts | None] = ContextVar("request_counts", default=None)
-"""That of the request which is being answered; None where there is nothing to count."""
+"""Counts of the current request; None if there is nothing to count."""

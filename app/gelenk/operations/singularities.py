@@ -32,13 +32,13 @@ from gelenk.operations.outcome import Limits, Outcome
 from gelenk.store.records import LoadedRobot
 
 _QUICK_REPORTS = 1
-"""Reports that take the event loop about half a millisecond; more go to a thread."""
+"""Reports that take the event loop about half a millisecond; more go to a worker."""
 _ENTRY = 120
-"""Numbers in a report beside those of its joints, at most."""
+"""Maximum count of numbers in a report besides those of its joints."""
 
 
 def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Report the singularities at configurations, the nearest ones, and those along a path."""
     chain, qs = chain_and_positions(loaded.robot, call)
     space = _space(call)
     _check_size(call, len(qs), len(chain), limits)
@@ -51,12 +51,12 @@ def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcom
 
 
 def is_heavy(call: SingularityRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return call.nearest or call.path or len(call.joint_positions) > _QUICK_REPORTS
 
 
 def singularity_info(chain: Chain, report: SingularityReport) -> dict[str, Any]:
-    """A report as `SingularityInfo` has it."""
+    """Return a report in the form of `SingularityInfo`."""
     defect = report.defect
     lost = zip(report.twists.T.tolist(), report.wrenches.T.tolist(), strict=True)
     return {
@@ -167,7 +167,7 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
 
 
 def _with_more(robot: Robot, chain: Chain, certificate: JacobianCertificate, rows: list[Array]) -> JacobianCertificate:
-    """The certificate, with further configurations recomputed too."""
+    """Add further configurations, whose Jacobians are recomputed, to the certificate."""
     for first in range(0, len(rows), MAX_SAMPLES):
         part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
         certificate = replace(
@@ -200,7 +200,7 @@ def _nearest(
 
 
 def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
-    """Why no singular configuration was found, and what to ask for where the task is too large to lose anything."""
+    """Return why no singular configuration was found, and perhaps a smaller task that loses something."""
     rank = structure(chain, space.task, space.reference).rank
     if rank == 0:
         return "nothing can be lost: the tip has none of these directions at any configuration"
@@ -218,7 +218,7 @@ def _why_none(chain: Chain, space: TaskSpace, search: Search) -> str:
 
 
 def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
-    """The linear directions of a task along which the tip moves; None where they are the task, or depend."""
+    """Return the linear directions in which the tip moves; None if none, all of the task, or dependent ones do."""
     names = [direction for direction in space.task.directions if direction in {"x", "y", "z"}]
     moving = tuple(name for name in names if structure(chain, Task((name,)), space.reference).rank)
     if not moving or len(moving) == len(space) or structure(chain, Task(moving), space.reference).rank < len(moving):

@@ -30,7 +30,7 @@ _ACCELERATIONS = ("start_acceleration", "end_acceleration")
 
 
 def run(call: SplineRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute a cubic spline through knots, its peaks and samples, with a worked solution."""
     return motion_outcome(call, _plan)
 
 
@@ -69,7 +69,7 @@ def _plan(call: SplineRequest) -> Planned:
 
 
 def _end_rates(call: SplineRequest, ends: Ends, joints: int) -> tuple[Array, Array]:
-    """The derivatives that the boundary gives, at the start and at the end."""
+    """Return the derivatives that the boundary gives, at the start and at the end."""
     if call.boundary == "clamped":
         return ends.start_velocity[None], ends.end_velocity[None]
     if call.boundary == "assigned":

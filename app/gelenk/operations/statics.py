@@ -43,13 +43,13 @@ from gelenk.operations.outcome import Limits, Outcome
 from gelenk.store.records import LoadedRobot
 
 _MOST_SPLITS = 20_000
-"""Configurations whose subspaces one call needs: each is a decomposition of its own."""
+"""Maximum number of configurations whose subspaces one call needs: each takes a decomposition."""
 _OF_THE_TIP = frozenset({"twists", "wrenches"})
-"""Vectors with one number a direction of the task; the others have one per joint."""
+"""Vectors with one number per direction of the task; the others have one per joint."""
 
 
 def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the joint torques of wrenches and gravity, or the wrenches that balance torques, and the subspaces."""
     robot = loaded.robot
     chain = chain_of(robot, call)
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
@@ -68,12 +68,12 @@ def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
 
 
 def is_heavy(call: StaticsRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     return not is_quick(call) or _wants_subspaces(call)
 
 
 def attempt(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome | None:
-    """The same for a few bodies; None for many."""
+    """Run the operation if the chain has few bodies; return None if it has many."""
     return run(loaded, call, limits) if has_few_bodies(loaded, call) else None
 
 
@@ -82,7 +82,7 @@ WARM_UP = MECHANISM
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Found:
-    """What a call requested: None for wrenches if there are none, for balance and splits if not requested."""
+    """Results of a call: `wrenches` is None if there are none, `balance` and `splits` if not requested."""
 
     still: Statics
     wrenches: Array | None
@@ -97,7 +97,7 @@ def _task(call: StaticsRequest) -> Sequence[Direction]:
 
 
 def _tests(call: StaticsRequest) -> dict[str, Vectors]:
-    """The vectors to be split, by the field of the answer that reports them."""
+    """Return the vectors to split, by the field of the answer that reports them."""
     given = {
         "twists": call.test_twists,
         "wrenches": call.test_wrenches,
@@ -115,7 +115,7 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
     """Refuse combinations of fields that exclude each other.
 
     Raises:
-        InvalidField: The field, and which other fields it needs or excludes.
+        InvalidField: A field needs another that is missing, or excludes one that is given.
     """
     if len(set(_task(call))) < len(_task(call)):
         raise InvalidField("task", "each direction at most once")

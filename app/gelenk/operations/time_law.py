@@ -1,4 +1,4 @@
-"""POST /v1/course/time-law: a motion between two points, or past some, by a law of time."""
+"""POST /v1/course/time-law: a motion between two points, or through several, by a time law."""
 
 from typing import Any
 
@@ -39,7 +39,7 @@ _KNOTS = {"4-3-4", "parabolic_blends"}
 
 
 def run(call: TimeLawRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute a motion by a time law, its peaks and samples, with a worked solution."""
     return motion_outcome(call, _plan)
 
 

@@ -1,4 +1,4 @@
-"""POST /v1/course/time-scaling: by which factor of time a motion keeps its limits."""
+"""POST /v1/course/time-scaling: the factor of time with which a motion keeps its limits."""
 
 from typing import Any
 
@@ -31,7 +31,7 @@ _AT_REST = 1e-9
 
 
 def run(call: TimeScalingRequest) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Scale a motion in time so that it keeps its limits, with a worked solution."""
     return motion_outcome(call, _plan)
 
 
@@ -45,7 +45,7 @@ def _plan(call: TimeScalingRequest) -> Planned:
         raise InvalidField("limits", "at least one of joint_velocity, joint_acceleration and joint_jerk is needed")
     scaling = uniform_scaling(motion, limits)
     factor = _factor(call, scaling)
-    # From 0 on: a clock that is far ahead has no digits left for a motion that has become short.
+    # Start at 0: at a late time no digits are left for a motion that has become short.
     scaled = PiecewisePolynomial(motion.breaks - motion.breaks[0], motion.coefficients).scaled(factor)
 
     def told(peaks: PeaksByOrder) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def _plan(call: TimeScalingRequest) -> Planned:
 
 
 def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:
-    """The motion as it came, its knots with their times, and up to which derivative it is continuous."""
+    """Return the given motion, times and positions of its knots, and the order of its last continuous derivative."""
     if call.waypoints is None:
         unused(call, ("times", "velocities", "accelerations", "boundary"), "needs `waypoints`, which are missing")
         needed(call, ("displacement", "duration"), "for a motion by a law; or give `times` and `waypoints`")

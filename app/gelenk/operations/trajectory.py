@@ -1,4 +1,4 @@
-"""Trajectories of a robot: planned, judged, sampled; as JSON, CSV, npy or a picture."""
+"""Trajectories of a robot: planned, audited, sampled; as JSON, CSV, npy or a picture."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from gelenk.store.records import LoadedRobot
 
 
 def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Plan and audit a trajectory, and sample it."""
     planned = Planned.of(loaded.robot, call, Bounds(MAX_SAMPLES, limits.answer_numbers))
 
     def content() -> dict[str, Any]:
@@ -24,5 +24,5 @@ def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome
 
 
 def is_heavy(_: TrajectoryRequest) -> bool:
-    """It always is: a motion takes milliseconds."""
+    """Return True: planning a motion takes milliseconds."""
     return True

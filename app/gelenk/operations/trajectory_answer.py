@@ -1,4 +1,4 @@
-"""A trajectory as it travels: samples, segments, audit, limits."""
+"""Parts of a trajectory's answer: samples, segments, audit, limits."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem import MotionLimits, SegmentReport, Trajectory
 
 _POSES = 256
-"""That are encoded in one go, less than half a millisecond."""
+"""Poses encoded at once, in less than half a millisecond."""
 _ROUNDING = 1e-9
 
 TIP_LIMITS = {
@@ -32,22 +32,22 @@ TIP_LIMITS = {
 
 
 def samples(motion: PiecewisePolynomial, times: Array) -> list[Array]:
-    """Positions, velocities and accelerations at times of shape (N,); three of (N, n)."""
+    """Return positions, velocities and accelerations at times of shape (N,); three arrays of shape (N, n)."""
     return [np.ascontiguousarray(values) for values in motion.rates_at(times)]
 
 
 def table(motion: PiecewisePolynomial, times: Array) -> Array:
-    """Time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
+    """Return time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
     return np.column_stack((times, *samples(motion, times)))
 
 
 def columns(chain: Chain) -> list[str]:
-    """What the table's columns are called."""
+    """Return the names of the table's columns."""
     return ["time", *(f"{quantity}_{name}" for quantity in ("q", "qd", "qdd") for name in chain.joint_names)]
 
 
 def told_poses(poses: Poses, pose_format: PoseFormat) -> orjson.Fragment:
-    """Poses as JSON, encoded some at a time."""
+    """Encode poses as JSON, some at a time."""
 
     def pieces() -> Iterator[bytes]:
         for i in range(0, len(poses), _POSES):
@@ -58,7 +58,7 @@ def told_poses(poses: Poses, pose_format: PoseFormat) -> orjson.Fragment:
 
 
 def told_limits(limits: MotionLimits) -> dict[str, Any]:
-    """Limits, null where there is none."""
+    """Return limits as JSON content; null for a limit of the tip that is not given."""
     return {
         "joint_velocity": limits.velocity.tolist(),
         "joint_acceleration": limits.acceleration.tolist(),
@@ -68,7 +68,7 @@ def told_limits(limits: MotionLimits) -> dict[str, Any]:
 
 
 def told_segments(found: Trajectory, bounds: tuple[Bounds, ...], *, coefficients: bool) -> list[dict[str, Any]]:
-    """What came of each segment."""
+    """Return the results of each segment."""
     entries = [_segment(report, bounds[report.index].limits) for report in found.segments]
     if coefficients:
         for entry, pieces in zip(entries, pieces_of_segments(found.motion, found.segments), strict=True):
@@ -87,7 +87,7 @@ def _segment(report: SegmentReport, limits: MotionLimits) -> dict[str, Any]:
 
 
 def pieces_of_segments(motion: PiecewisePolynomial, reports: Sequence[SegmentReport]) -> list[slice]:
-    """Which pieces begin in each segment; each is in one, if there is any."""
+    """Return, for each segment, the range of polynomial pieces that begin in it."""
     starts = np.array([report.start_time for report in reports])
     firsts = np.searchsorted(motion.breaks[:-1], starts - _ROUNDING * max(1.0, motion.duration))
     ends = np.append(firsts, len(motion.breaks) - 1)[1:]
@@ -95,14 +95,14 @@ def pieces_of_segments(motion: PiecewisePolynomial, reports: Sequence[SegmentRep
 
 
 def told_failure(found: Trajectory) -> dict[str, Any] | None:
-    """Why a trajectory ends before its time."""
+    """Return why a trajectory ends early; None if it does not."""
     if found.failure is None:
         return None
     return {**asdict(found.failure), "position": found.failure.position.tolist()}
 
 
 def told_audit(audit: Audit) -> dict[str, Any]:
-    """The judgement of a motion."""
+    """Return the audit of a motion as JSON content."""
     jumps: list[Peak | None] = [*audit.jumps] or [None] * 4
     margin, sigma = audit.limit_margin, audit.min_singular_value
     peaks = ("velocity", "acceleration", "jerk", "path_deviation", "orientation_deviation")
@@ -134,5 +134,5 @@ def _peak(peak: Peak | None) -> dict[str, Any] | None:
 
 
 def _number(value: float | None) -> float | None:
-    """The number, where there is one."""
+    """Return a number if it is finite, else None."""
     return value if value is not None and math.isfinite(value) else None

@@ -1,8 +1,8 @@
-"""What joints and tip may do on a segment: as the request has it, else as the robot's description, else assumed.
+"""Limits of joints and tip on a segment: the request's, else the robot description's, else assumed.
 
-A URDF has velocities at most. What it lacks is assumed and said: accelerations that reach the velocity limit in half a
-second and jerks that reach the acceleration limit in a tenth of one, which is what industrial arms of a few kilograms
-do.
+A URDF gives velocities at most. Limits that it lacks are assumed, and the answer says so: accelerations that reach the
+velocity limit in half a second and jerks that reach the acceleration limit in a tenth of one, as industrial arms of a
+few kilograms do.
 """
 
 import math
@@ -22,14 +22,14 @@ from gelenk.trajectory.problem import MotionLimits
 
 QUANTITIES = ("joint_velocity", "joint_acceleration", "joint_jerk")
 TURNING = 1.0
-"""Velocity of a joint that has no limit, [rad/s]."""
+"""Assumed velocity limit of a revolute joint, [rad/s]."""
 SLIDING = 0.25
-"""Of a sliding one, [m/s]: the reduced speed of ISO 10218."""
+"""Assumed velocity limit of a prismatic joint, [m/s]: the reduced speed of ISO 10218."""
 PLACEHOLDER = 100.0
-"""A limit that says that there is none, [rad/s or m/s]: robots' files have 100, 1000, 10000 and 1e16 for that."""
+"""Velocity limit, [rad/s or m/s], from which on it stands for none: robots' files have 100, 1000, 10000 and 1e16."""
 ACCELERATION_RATE = 2.0
 JERK_RATE = 10.0
-"""An assumed limit over that of the derivative before it, [1/s]."""
+"""Assumed limit divided by that of the derivative before it, [1/s]."""
 
 _ASSUMED = {
     "joint_velocity": "the robot's description has no velocity limit of {}: "
@@ -42,7 +42,7 @@ _ASSUMED = {
 
 @dataclass(frozen=True, slots=True)
 class Layer:
-    """What one place of a request says of limits, and the prefix of its fields in refusals."""
+    """Limits and scales given in one place of a request, and the prefix of its fields in refusals."""
 
     options: MotionOptions
     prefix: str = ""
@@ -50,11 +50,11 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """Limits and where they are from.
+    """Limits and their sources.
 
     Attributes:
-        limits: Scales applied.
-        sources: By quantity, one per joint.
+        limits: Limits with the scales applied.
+        sources: Source of each joint's limit, by quantity.
     """
 
     limits: MotionLimits
@@ -63,14 +63,14 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True)
 class OwnVelocities:
-    """What the robot's description says, or is assumed where it says nothing; shape (n,) each, [rad/s or m/s]."""
+    """Velocity limits of the robot's description, or assumed ones, and which are known; shape (n,), [rad/s or m/s]."""
 
     values: Array
     known: Flags
 
 
 def own_velocities(robot: Robot, chain: Chain) -> OwnVelocities:
-    """Velocity limits of a chain's variables."""
+    """Return the velocity limits of a chain's variables."""
     joints = [robot.description.joint[name] for name in chain.joint_names]
     given = np.array([joint.limits.velocity or 0.0 for joint in joints], dtype=float)
     known = (given > 0.0) & (given < PLACEHOLDER)
@@ -79,15 +79,15 @@ def own_velocities(robot: Robot, chain: Chain) -> OwnVelocities:
 
 
 def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> Bounds:
-    """The limits in force.
+    """Return the limits in force.
 
     Args:
-        chain: Whose joints they are of.
-        own: The robot's.
-        layers: What is said of them, the last word last.
+        chain: Chain of the joints.
+        own: Velocity limits of the robot.
+        layers: Limits in the request; later layers override earlier ones.
 
     Raises:
-        WrongJointCount: A list has not one number per joint.
+        WrongJointCount: A list does not have one number per joint.
         UnknownJoint: A name is not a joint of the chain.
     """
     values, told = own.values, np.where(own.known, "robot", "assumed")
@@ -109,7 +109,7 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> Boun
 
 
 def _row(chain: Chain, given: JointValues, field: str) -> Array:
-    """One number per joint, NaN where a name is left out; shape (n,)."""
+    """Return one number per joint, NaN if a name is left out; shape (n,)."""
     if isinstance(given, Mapping):
         for name in given:
             if name not in chain.joint_names:
@@ -123,7 +123,7 @@ def _row(chain: Chain, given: JointValues, field: str) -> Array:
 
 
 def _scale(layers: Sequence[Layer], name: str) -> float:
-    """The last word on a scale."""
+    """Return the scale of the last layer that gives one, else 1."""
     given = (getattr(layer.options, name) for layer in reversed(layers))
     return float(next((scale for scale in given if scale is not None), 1.0))
 
@@ -143,7 +143,7 @@ def _tip(layers: Sequence[Layer], faster: float, harder: float) -> TipLimits:
 
 
 def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[Bounds]) -> list[str]:
-    """What was assumed on any of the segments, and which limits are beyond the robot's own."""
+    """Return notes on limits assumed on any of the segments, and on limits beyond the robot's own."""
     notes = []
     for quantity, words in _ASSUMED.items():
         assumed = [any(bounds.sources[quantity][j] == "assumed" for bounds in used) for j in range(len(chain))]

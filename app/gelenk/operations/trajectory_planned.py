@@ -1,4 +1,4 @@
-"""A planned trajectory and its answer: as a whole, or some of its samples."""
+"""A planned trajectory and its answer, as a whole or in parts."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -35,40 +35,40 @@ from gelenk.trajectory.problem import Trajectory
 
 _NUMBERS_A_POSE = 16
 _LONGER, _LONG_SECONDS = 100.0, 60.0
-"""Hardly any motion lasts more than this many times its least duration, and more than this many seconds."""
+"""Hardly any motion lasts longer than this many times its least duration, plus this many seconds."""
 _MOST_NAME = 16
-"""Characters of a robot's name in a title, which has room for 48."""
+"""Maximum number of characters of a robot's name in a title, which has room for 48."""
 SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations", "tip_poses")
 """Fields of the answer that have an entry for each sample."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """The limits of one call.
+    """Limits of one call.
 
     Attributes:
-        samples: Of the motion.
-        numbers: In the samples, or in the polynomials.
+        samples: Maximum number of samples of the motion.
+        numbers: Maximum count of numbers in the samples, or in the polynomials.
     """
 
     samples: int
     numbers: int
 
     def check(self, call: TrajectoryRequest, chain: Chain, duration: float) -> None:
-        """Refuse more samples than these.
+        """Refuse a motion with too many samples.
 
         Args:
-            call: Says how often.
-            chain: Of the motion.
-            duration: Of the motion, or what it lasts at least, [s].
+            call: Request with the sample period.
+            chain: Chain of the motion.
+            duration: Duration of the motion, or a lower bound of it, [s].
 
         Raises:
-            InvalidField: There are more; it says what period there may be.
+            InvalidField: There are too many; the message gives an allowed period.
         """
         check_samples(duration, call.sample_period, self._most(call, chain))
 
     def may_be_exceeded(self, call: TrajectoryRequest, chain: Chain, shortest: float) -> bool:
-        """Whether a motion that lasts at least this, [s], may last so long that it has more samples than these."""
+        """Check whether a motion that takes at least `shortest`, [s], may last so long that it has too many samples."""
         return _LONGER * shortest + _LONG_SECONDS > (self._most(call, chain) - 1) * call.sample_period
 
     def _most(self, call: TrajectoryRequest, chain: Chain) -> int:
@@ -77,10 +77,10 @@ class Bounds:
 
 
 def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chain, Asked]:
-    """The chain and the core's input of a call, checked as far as possible before planning.
+    """Return the chain and the core's input of a call, checked as far as possible before planning.
 
     Raises:
-        InvalidInput: The field, and what is wrong with it.
+        InvalidInput: A field is invalid; the error names it.
     """
     chain = robot.chain(call.base_frame, call.tip_frame)
     question = asked(robot, chain, call)
@@ -90,15 +90,15 @@ def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chai
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """A trajectory that is planned.
+    """A planned trajectory.
 
     Attributes:
         robot: The robot.
-        chain: Base and tip.
-        call: As requested.
-        question: The problem given to the core.
-        found: What came of it.
-        bounds: Limits of the answer's size.
+        chain: Chain from base to tip.
+        call: The request.
+        question: Problem given to the core.
+        found: Result of planning.
+        bounds: Limits on the answer's size.
     """
 
     robot: Robot
@@ -113,20 +113,20 @@ class Planned:
         """Plan a trajectory.
 
         Raises:
-            InvalidInput: The field, and what is wrong with it.
-            AuditFailed: The motion is not what it should be.
+            InvalidInput: A field is invalid; the error names it.
+            AuditFailed: The planned motion fails its audit.
         """
         chain, question = checked(robot, call, bounds)
         return cls(robot, chain, call, question, plan(robot, chain, question.problem), bounds)
 
     @property
     def columns(self) -> list[str]:
-        """What the table's columns are called."""
+        """Names of the table's columns."""
         return columns(self.chain)
 
     @property
     def headers(self) -> dict[str, str]:
-        """What says beside a table what came of the motion."""
+        """Headers beside a table: duration, completed fraction and failure of the motion."""
         found = self.found
         return {
             "Gelenk-Duration": repr(found.motion.duration),
@@ -135,20 +135,20 @@ class Planned:
         }
 
     def times(self) -> Array:
-        """When the motion is sampled; shape (N,), [s].
+        """Return the sample times of the motion; shape (N,), [s].
 
         Raises:
-            InvalidField: So often that there are too many samples.
+            InvalidField: There are too many samples.
         """
         self.bounds.check(self.call, self.chain, self.found.motion.duration)
         return sample_times(self.found.motion.duration, self.call.sample_period)
 
     def table(self, times: Array) -> Array:
-        """Time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
+        """Return time, positions, velocities and accelerations side by side; shape (N, 1 + 3n)."""
         return table(self.found.motion, times)
 
     def told_samples(self, times: Array) -> dict[str, orjson.Fragment]:
-        """Of each field in `SAMPLED` that is wanted the entries at some times, as JSON."""
+        """Return the entries at some times of each requested field in `SAMPLED`, as JSON."""
         rows = [times, *samples(self.found.motion, times)]
         told = {name: json_rows(values) for name, values in zip(SAMPLED, rows, strict=False)}
         if self.call.tip_poses:
@@ -157,17 +157,17 @@ class Planned:
         return told
 
     def certificate(self, times: Array) -> Certificate | None:
-        """Differences of the tip's poses at these times from Pinocchio's, if they are sent.
+        """Compare the tip's poses at these times with Pinocchio's; None if they are not sent.
 
         Raises:
-            CertificationFailed: Too far.
+            CertificationFailed: They differ too much.
         """
         if not self.call.tip_poses:
             return None
         return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
 
     def told(self, sampled: Mapping[str, orjson.Fragment], certificate: Certificate | None) -> dict[str, Any]:
-        """The whole answer.
+        """Return the whole answer.
 
         Raises:
             TooLarge: The requested polynomials hold too many numbers.
@@ -193,7 +193,7 @@ class Planned:
         return answer | ({"timing": found.timing} if self.call.compare_timing else {})
 
     def picture(self, name: str, kind: PictureFormat) -> bytes:
-        """Position, velocity, acceleration and jerk over time, under the name of the robot."""
+        """Draw position, velocity, acceleration and jerk over time, with the robot's name in the title."""
         # Matplotlib takes a third of a second to load.
         from gelenk.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
 

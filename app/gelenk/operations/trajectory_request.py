@@ -29,18 +29,18 @@ from gelenk.trajectory.problem import Segment as Part
 from gelenk.trajectory.words import Law
 
 _SHORTEST = 1e-6
-"""From one waypoint to the next, [s]."""
+"""Shortest time between waypoints, [s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """The problem for the core, and the source of its limits.
+    """The problem for the core, and the sources of its limits.
 
     Attributes:
-        problem: For the core.
+        problem: Problem for the core.
         own: Velocity limits of the robot.
-        bounds: Of the trajectory.
-        segment_bounds: Of each segment.
+        bounds: Limits of the trajectory.
+        segment_bounds: Limits of each segment.
     """
 
     problem: Problem
@@ -50,10 +50,10 @@ class Asked:
 
 
 def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
-    """The problem for the core.
+    """Convert a request into the problem for the core.
 
     Raises:
-        InvalidInput: The field, and what is wrong with it.
+        InvalidInput: A field is invalid; the error names it.
     """
     waypoints = sum(len(segment.waypoints) for segment in call.segments if isinstance(segment, SplineSegment))
     if waypoints > MAX_WAYPOINTS:
@@ -72,7 +72,7 @@ def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
 
 
 def shortest_duration(problem: Problem) -> float:
-    """Least duration of a trajectory that its request implies, [s]."""
+    """Return the least duration of a trajectory that its request implies, [s]."""
     if problem.duration is not None:
         return problem.duration
     known = (part.duration if part.times is None else float(part.times[-1]) for part in problem.segments)
@@ -128,10 +128,10 @@ def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) 
 
 
 def _law(call: TrajectoryRequest, index: int) -> Law:
-    """The law of a segment; a path of the tip that slows down only where the joints require it has only one.
+    """Return the law of a segment; with `slow_down`, only `time_optimal` suits a path of the tip.
 
     Raises:
-        InvalidField: The request names another law and does not allow replacing it.
+        InvalidField: The request names another law, and does not allow a fallback.
     """
     segment = call.segments[index]
     law = segment.law or call.law
@@ -147,14 +147,14 @@ def _law(call: TrajectoryRequest, index: int) -> Law:
 
 
 def _is_way(segment: Segment) -> bool:
-    """Whether the tip follows a path without given times."""
+    """Check whether the tip follows a path without given times."""
     if isinstance(segment, SplineSegment):
         return segment.times is None and isinstance(segment.waypoints[0], Pose)
     return not isinstance(segment, JointSegment)
 
 
 def _check_blends(segment: SplineSegment, part: Part, place: str) -> None:
-    """Refuse parabolic blends of anything but joints with trapezoids of velocity."""
+    """Refuse parabolic blends of poses, and with any law but `trapezoidal`."""
     if not segment.blends:
         return
     if any(isinstance(one, Pose) for one in segment.waypoints):
@@ -208,7 +208,7 @@ def _times(segment: SplineSegment, place: str) -> Array:
 
 
 def _check_blend(segments: Sequence[Segment], index: int) -> None:
-    """Refuse a blend that leads to no line, or one that is said in two ways."""
+    """Refuse a blend before anything but a line, and a blend that is given in two ways."""
     line, place = segments[index], f"segments.{index}"
     names = [name for name in ("blend_radius", "blend_acceleration", "blend_time") if getattr(line, name)]
     if not names:
@@ -223,7 +223,7 @@ def _check_blend(segments: Sequence[Segment], index: int) -> None:
 
 
 def _within(chain: Chain, value: Configuration, field: str) -> Array:
-    """A configuration within its limits; shape (n,)."""
+    """Return a configuration that is within the limits, else raise; shape (n,), [rad or m]."""
     rows = one_configuration(chain, value, field)
     try:
         check_limits(chain, rows)
@@ -234,7 +234,7 @@ def _within(chain: Chain, value: Configuration, field: str) -> Array:
 
 
 def _matrix(pose: Pose, field: str) -> Array:
-    """T_base_tip; shape (4, 4)."""
+    """Return T_base_tip; shape (4, 4)."""
     try:
         return pose.transform()
     except InvalidPose as error:

@@ -1,4 +1,4 @@
-"""Velocity kinematics of a robot: the tip's motion of the joints', and the joints' of the tip's."""
+"""Velocity kinematics of a robot: the tip's motion from the joints' motion, and the inverse."""
 
 from typing import Any
 
@@ -38,15 +38,15 @@ from gelenk.operations.velocity_call import (
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 1
-"""Configurations that take the event loop less than about a millisecond; more go to a thread."""
+"""Configurations that take the event loop less than about a millisecond; more go to a worker."""
 _ROWS_NAMED = 200
-"""Rows without an answer that a header names: proxies allow headers of a few kilobytes."""
+"""Maximum number of rows without an answer in a header: proxies allow headers of a few kilobytes."""
 
 _DERIVATIVES = ("twists", "accelerations", "jerks", "snaps")
 
 
 def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
-    """Answer a request; the endpoint says with what."""
+    """Compute the tip's twists and their derivatives from joint rates, or joint rates from those of the tip."""
     robot = loaded.robot
     chain = robot.chain(call.base_frame, call.tip_frame)
     qs, rates = positions_and_rates(chain, call)
@@ -66,7 +66,7 @@ def run(loaded: LoadedRobot, call: VelocityRequest, limits: Limits) -> Outcome:
 
 
 def is_heavy(call: VelocityRequest) -> bool:
-    """Whether it takes the event loop more than about a millisecond."""
+    """Check whether a request takes the event loop more than about a millisecond."""
     slow = (call.joint_snaps, call.tip_accelerations, call.tip_jerks, call.null_space)
     return call.singularity_reports or any(part is not None for part in slow) or len(call.joint_positions) > _QUICK
 
@@ -144,7 +144,7 @@ def _head(chain: Chain, call: VelocityRequest, space: TaskSpace) -> dict[str, An
 
 
 def _with_proof(answer: dict[str, Any], call: VelocityRequest, motion: TipMotion) -> dict[str, Any]:
-    """The answer with the Jacobian's derivatives, if requested, and the certificate."""
+    """Add the certificate to the answer, and the Jacobian's derivatives if requested."""
     if call.jacobian_derivatives:
         answer["jacobian_derivatives"] = np.ascontiguousarray(motion.jacobians.swapaxes(0, 1))
     answer["certificate"] = _certificate(motion.certificate)
@@ -173,7 +173,7 @@ def _results(
     space: TaskSpace,
     parts: Decomposition,
 ) -> list[dict[str, Any]]:
-    """The report of each configuration, common to all requests; speeds of shape (N, n)."""
+    """Return the report of each configuration, common to all requests; speeds of shape (N, n)."""
     limits = velocity_limits(robot, chain)
     highest = structure(chain, space.task, space.reference).rank
     conditions = parts.condition_numbers
@@ -195,7 +195,7 @@ def _results(
 
 
 def _verdict(call: VelocityRequest, space: TaskSpace, found: InverseMotion, row: int) -> dict[str, Any]:
-    """What became of one inversion."""
+    """Return the verdict on one inversion."""
     inversion, residual = found.inversion, found.residuals[row]
     status, damping = inversion.statuses[row], float(inversion.dampings[row])
     linear = np.array([direction < 3 for direction in space.rows])
@@ -222,7 +222,7 @@ def _verdict(call: VelocityRequest, space: TaskSpace, found: InverseMotion, row:
 
 
 def _no_inverse(call: VelocityRequest, inversion: Inversion, row: int) -> str:
-    """Why there is no answer."""
+    """Return why an inversion has no answer."""
     rank, size = inversion.decomposition.ranks[row], inversion.xs.shape[1]
     if call.inverse == "exact" and rank < size:
         return (

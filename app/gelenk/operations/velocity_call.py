@@ -1,4 +1,4 @@
-"""What a call of velocity kinematics asks, checked: one question, its numbers, and how to invert."""
+"""Checks a request of velocity kinematics: one question, its numbers, and how to invert."""
 
 from collections.abc import Sequence
 from typing import Any, cast
@@ -18,21 +18,21 @@ from gelenk.model.chain import Chain
 from gelenk.model.errors import InvalidArray, InvalidField, counted, quoted
 
 RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
-"""The fields that give the joints' derivatives, in their order."""
+"""Fields of the joints' derivatives, in their order."""
 TIP = {"twists": 0, "tip_accelerations": 1, "tip_jerks": 2}
-"""What can be inverted, and how many of the rates it needs."""
+"""Fields that can be inverted, and how many of the rates each needs."""
 
 _INVERSE_ALONE = ("inverse", "damping", "damping_threshold", "weights", "null_space")
 _THRESHOLD = 0.05
-"""σ₀ of the adaptive damping where none is given."""
+"""σ₀ of the adaptive damping if none is given."""
 _LEAST_WEIGHT, _LARGEST_WEIGHT = 1e-6, 1e6
 
 
 def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Array]:
-    """Joint positions, shape (N, n), and the given rates q̇, q̈, …, shape (K, N, n).
+    """Return joint positions, shape (N, n), and the given rates q̇, q̈, …, shape (K, N, n).
 
     Raises:
-        InvalidField: A rate is given without those before it, or not one for each configuration.
+        InvalidField: A rate is given without those before it, or not once per configuration.
     """
     if isinstance(call.joint_positions, np.ndarray):
         return _split(chain, call.joint_positions)
@@ -67,10 +67,10 @@ def _one_each(chain: Chain, values: Any, field: str, count: int) -> Array:
 
 
 def asked_field(call: VelocityRequest, rates: int) -> str | None:
-    """The field to invert; None if the tip's motion is requested.
+    """Return the field to invert; None if the tip's motion is requested.
 
     Raises:
-        InvalidField: What is given does not make one question.
+        InvalidField: The given fields do not make one question.
     """
     given = [field for field in TIP if getattr(call, field) is not None]
     if not given:
@@ -92,10 +92,10 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
 
 
 def space_of_call(call: VelocityRequest) -> TaskSpace:
-    """The directions that count, as they are given, in the reference.
+    """Return the task space of the given directions, in their order, in the reference.
 
     Raises:
-        InvalidField: One of them is named twice.
+        InvalidField: A direction is named twice.
     """
     directions = DIRECTIONS if call.task is None else tuple(call.task)
     if len(set(directions)) < len(directions):
@@ -104,11 +104,11 @@ def space_of_call(call: VelocityRequest) -> TaskSpace:
 
 
 def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> Rule:
-    """How to invert.
+    """Return the rule of inversion.
 
     Raises:
-        InvalidField: An option that this inverse does not take, an invalid weight, or an exact inverse of a
-            Jacobian that is not square.
+        InvalidField: The inverse does not take a given option, a weight is invalid, or an exact inverse is requested
+            of a Jacobian that is not square.
     """
     if call.inverse == "exact":
         for field in ("weights", "null_space"):
@@ -152,7 +152,7 @@ def _weights(chain: Chain, call: VelocityRequest) -> Array | None:
 
 
 def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: int) -> Array:
-    """What is to be inverted, in the directions that count; shape (N, k)."""
+    """Return the rates to invert, in the directions of the task; shape (N, k)."""
     given: Sequence[Sequence[float]] = getattr(call, asked)
     if len(given) != count:
         raise InvalidField(asked, f"{counted(len(given), 'entry')} for {counted(count, 'configuration')}")
@@ -161,16 +161,16 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
         if len(entry) not in {6, len(space)}:
             allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
             raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed are {allowed}")
-        # Six numbers of six directions are in the order of these too.
+        # Six numbers for six directions are in the order of the directions too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
     return targets
 
 
 def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: str, space: TaskSpace) -> Array | None:
-    """ξ; shape (N, n).
+    """Return the null-space motion ξ, shape (N, n); None if not requested.
 
     Raises:
-        InvalidField: Of the wrong order, or not one for each configuration.
+        InvalidField: It has the wrong order, or does not fit the configurations.
     """
     wanted = call.null_space
     if wanted is None:

@@ -1,4 +1,4 @@
-"""What is found out once about a robot, so that the event loop can answer requests of a kind by itself from then on."""
+"""What is found out once about a robot, so that the event loop itself can answer requests of a kind afterwards."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ class WarmUp(Generic[_Request]):
     """Something to find out about a robot.
 
     Attributes:
-        is_known: Whether this process knows it.
+        is_known: Checks whether this process knows it.
         find: Finds it, in another process, because that may take long or fail; the result must be picklable.
-        keep: Keeps it in this process, in a thread.
+        keep: Stores it in this process; runs in a thread.
     """
 
     is_known: Callable[[LoadedRobot, _Request], bool]
