@@ -1,13 +1,13 @@
-"""What the variables of a chain carry: bodies with mass, and their equations of motion from our own Jacobians.
+"""Bodies that the variables of a chain move, and their equations of motion from our own Jacobians.
 
-Joints that the chain's variables do not move are locked, which joins links to bodies; one body hangs on each joint that
-moves. With J_v and J_ω the Jacobians of a body's centre of mass, in the axes of the root, the Lagrangian gives
+Joints that the chain's variables do not move are locked. This merges links into bodies, one for each moving joint.
+With J_v and J_ω the Jacobians of a body's centre of mass, in the axes of the root, the Lagrangian gives
 [Siciliano2009, 7.1]
 
     M(q) = Σ m J_vᵀJ_v + J_ωᵀ I J_ω,    g(q) = -Σ m J_vᵀ g₀,    U(q) = -Σ m g₀ᵀ c,
     S(q, q̇) = Σ m J_vᵀJ̇_v + J_ωᵀ (I J̇_ω + [ω]× I J_ω),    Ṁ = S + Sᵀ,
 
-and S q̇ are the Coriolis and centrifugal torques. Nothing here knows Pinocchio, so that the two can judge each other.
+where S q̇ are the Coriolis and centrifugal torques. Nothing here uses Pinocchio, so each can check the other.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ from gelenk.model.origins import origin_of
 from gelenk.model.poses import transform
 
 _SKEW = -np.cross(np.eye(3)[:, None], np.eye(3)[None]).reshape(3, 9)
-"""[r]× row by row as a linear function of r."""
+"""Linear map from r to the entries of [r]×, row by row; shape (3, 9)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,9 +32,9 @@ class Load:
     """A rigid payload on the tip.
 
     Attributes:
-        mass: [kg].
+        mass: Mass, [kg].
         center: Centre of mass in the tip frame; shape (3,), [m].
-        inertia: About the centre of mass, in the tip's axes; shape (3, 3), [kg m²].
+        inertia: Inertia about the centre of mass, in the tip's axes; shape (3, 3), [kg m²].
     """
 
     mass: float
@@ -44,16 +44,16 @@ class Load:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """Links that move as one.
+    """A rigid group of links that move together, or a payload.
 
     Attributes:
-        joint: The joint that carries it; of a payload None.
-        links: Their names; the first is the one whose frame the numbers are in.
-        mass: [kg].
-        center: Centre of mass; shape (3,), [m].
-        inertia: About the centre of mass; shape (3, 3), [kg m²].
-        flat: The chain from the root to its frame.
-        columns: The places of that chain's variables among those of the robot's chain.
+        joint: The joint that carries the body; None for a payload.
+        links: Names of the links; the frame of the first is the body's frame. A payload has the tip's frame.
+        mass: Mass, [kg].
+        center: Centre of mass in the body's frame; shape (3,), [m].
+        inertia: Inertia about the centre of mass, in the body's axes; shape (3, 3), [kg m²].
+        flat: The chain from the root to the body's frame.
+        columns: Indices of that chain's variables among those of the robot's chain.
     """
 
     joint: str | None
@@ -66,9 +66,9 @@ class Body:
 
 
 def locked(description: Description, chain: Chain) -> Description:
-    """A copy of the robot in which every joint that the chain's variables do not move is fixed.
+    """Copy a robot, with every joint fixed that the chain's variables do not move.
 
-    These stand at zero; a mimic joint stands where its leader at zero has it. Floating and planar joints are fixed too.
+    A fixed joint is at zero, a mimic joint at its position for a leader at zero. Floating and planar joints are fixed.
     """
     joints = tuple(_locked_joint(description, chain, joint) for joint in description.joints)
     return replace(description, joints=joints, warnings=())
@@ -90,29 +90,29 @@ def _locked_joint(description: Description, chain: Chain, joint: Joint) -> Joint
 
 
 def bodies(description: Description, chain: Chain) -> tuple[Body, ...]:
-    """The bodies that a chain's variables move, one a moving joint.
+    """Return the bodies that a chain's variables move, one per moving joint.
 
     Args:
-        description: The robot, its other joints `locked`.
+        description: The robot, with its other joints `locked`.
         chain: The chain.
     """
     parts: dict[str, list[tuple[Link, Array]]] = {j.child: [] for j in description.joints if j.type in MOVABLE}
     for link in description.links:
         first, T = _carrier(description, link.name)
         if first in parts:
-            # The link that hangs on the joint itself comes first, wherever it stands in the document.
+            # The link attached to the joint itself comes first, whatever its position in the document.
             parts[first].insert(0 if first == link.name else len(parts[first]), (link, T))
     return tuple(_joined(description, chain, first, links) for first, links in parts.items())
 
 
 def loaded(description: Description, chain: Chain, load: Load) -> Body:
-    """A payload as a body; one that no variable moves has no columns."""
+    """Return a payload as a body; its columns are empty if no variable moves it."""
     part = build_chain(description, description.root, chain.tip_frame)
     return Body(None, (), load.mass, load.center, load.inertia, part.flat, _columns(part, chain))
 
 
 def _carrier(description: Description, link: str) -> tuple[str, Array]:
-    """The link next to the joint that moves a link (the root if none does), and T from that to the link."""
+    """Child link of the nearest joint that moves a link (the root if none does), and the link's pose T in it."""
     T = np.eye(4)
     for joint in description.path_to_root(link):
         if joint.type in MOVABLE:
@@ -122,7 +122,7 @@ def _carrier(description: Description, link: str) -> tuple[str, Array]:
 
 
 def _joined(description: Description, chain: Chain, first: str, links: Sequence[tuple[Link, Array]]) -> Body:
-    """Masses joined to one, by Steiner's theorem."""
+    """Merge links into one body by Steiner's theorem."""
     weights = [_weight(link.inertial, T) for link, T in links if link.inertial is not None]
     mass = sum(weight[0] for weight in weights)
     center, inertia = np.zeros(3), np.zeros((3, 3))
@@ -138,7 +138,7 @@ def _joined(description: Description, chain: Chain, first: str, links: Sequence[
 
 
 def _weight(inertial: Inertial, T: Array) -> tuple[float, Array, Array]:
-    """Mass, centre and inertia about it, seen through a transform."""
+    """Mass, centre of mass and inertia about it, transformed by T."""
     T = T @ placement(inertial.origin.xyz, inertial.origin.rpy)
     ixx, ixy, ixz, iyy, iyz, izz = inertial.inertia
     tensor = np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
@@ -154,14 +154,14 @@ class Motions:
     """Bodies at N configurations, in the axes of the root; B bodies, n variables.
 
     Attributes:
-        masses: Shape (B,), [kg].
-        centers: Centres of mass in the root; shape (N, B, 3), [m].
-        inertias: About these; shape (N, B, 3, 3), [kg m²].
-        linear: J_v of the centres; shape (N, B, 3, n).
+        masses: Masses; shape (B,), [kg].
+        centers: Centres of mass in the root frame; shape (N, B, 3), [m].
+        inertias: Inertias about the centres of mass; shape (N, B, 3, 3), [kg m²].
+        linear: J_v of the centres of mass; shape (N, B, 3, n).
         angular: J_ω; shape (N, B, 3, n).
-        speeds: q̇; shape (N, n), where rates were requested.
-        linear_rates: J̇_v at q̇; shape (N, B, 3, n).
-        angular_rates: J̇_ω at q̇; shape (N, B, 3, n).
+        speeds: q̇, zero if no rates were requested; shape (N, n).
+        linear_rates: J̇_v at q̇; shape (N, B, 3, n). Empty if no rates were requested.
+        angular_rates: J̇_ω at q̇; the same shape.
     """
 
     masses: Array
@@ -174,11 +174,11 @@ class Motions:
     angular_rates: Array
 
     def mass_matrices(self) -> Array:
-        """M; shape (N, n, n), [kg m²], [kg m] or [kg]."""
+        """Return M; shape (N, n, n), [kg m²], [kg m] or [kg]."""
         return _summed(self.linear, self._momenta()) + _summed(self.angular, self.inertias @ self.angular)
 
     def velocity_products(self) -> Array:
-        """S; shape (N, n, n): S q̇ are the Coriolis and centrifugal torques, S + Sᵀ is Ṁ."""
+        """Return S; shape (N, n, n). S q̇ are the Coriolis and centrifugal torques, S + Sᵀ = Ṁ."""
         omegas = self.angular @ self.speeds[:, None, :, None]
         turning = _skew(omegas[..., 0]) @ (self.inertias @ self.angular)
         return _summed(self.linear, self.masses[:, None, None] * self.linear_rates) + _summed(
@@ -186,17 +186,17 @@ class Motions:
         )
 
     def gravity_torques(self, gravity: Array) -> Array:
-        """g: what holds the bodies against a gravity (3,) [m/s²] in the root's axes; shape (N, n), [N m or N]."""
+        """Return g, the torques that balance a gravity (3,) [m/s²] in the root's axes; shape (N, n), [N m or N]."""
         torques: Array = -np.einsum("kbcj,c->kj", self._momenta(), gravity)
         return torques
 
     def potential_energies(self, gravity: Array) -> Array:
-        """U, zero where the centre of mass is level with the root; shape (N,), [J]."""
+        """Return U, zero where the centre of mass is level with the root; shape (N,), [J]."""
         energies: Array = -(self.masses @ self.centers) @ gravity
         return energies
 
     def mass_scale(self) -> float:
-        """The largest term of the sums that M is, about the root's origin too, to which rounding is relative."""
+        """Return the largest term in the sums for M, about the root's origin too: rounding errors scale with it."""
         turning = (
             np.abs(self.inertias).max(axis=(2, 3), initial=0.0)
             * np.abs(self.angular).max(axis=(2, 3), initial=0.0) ** 2
@@ -204,11 +204,11 @@ class Motions:
         return float((self.masses * self._speeds() ** 2 + turning).max(initial=0.0))
 
     def gravity_scale(self, gravity: Array) -> float:
-        """The size of gravity torques, for relative errors, [N m or N]."""
+        """Return the magnitude of gravity torques, for relative errors, [N m or N]."""
         return float((self.masses * self._speeds()).max(initial=0.0) * np.abs(gravity).max())
 
     def _speeds(self) -> Array:
-        """Largest entries of J_v, of the centre of mass and of what moves through the root's origin; shape (N, B)."""
+        """Largest entries of J_v at the centre of mass, plus those due to its lever about the root; shape (N, B)."""
         turning = np.abs(self.angular).max(axis=(2, 3), initial=0.0) * np.abs(self.centers).max(axis=2)
         speeds: Array = np.abs(self.linear).max(axis=(2, 3), initial=0.0) + turning
         return speeds
@@ -219,12 +219,12 @@ class Motions:
 
 
 def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> Motions:
-    """Positions and motions of the bodies.
+    """Compute positions, inertias and Jacobians of bodies.
 
     Args:
         carried: The bodies.
         qs: Configurations of the chain; shape (N, n), [rad or m].
-        speeds: q̇, where rates of the Jacobians are wanted; shape (N, n).
+        speeds: q̇, if rates of the Jacobians are requested; shape (N, n), [rad/s or m/s].
     """
     shape = len(qs), len(carried), 6, qs.shape[1]
     Js, rates = np.zeros(shape), np.zeros(shape if speeds is not None else (0,) * 4)
@@ -253,7 +253,7 @@ def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> 
 
 
 def _placed(body: Body, part: Array) -> tuple[Array, Array, Array]:
-    """Position, rotation and Jacobian of a body's frame; the Jacobian with its columns first, as indexing wants it."""
+    """Position, rotation and Jacobian of a body's frame; the Jacobian's columns come first, for indexing."""
     positions, rotations, Js = chain_jacobians(body.flat, part)
     return positions, rotations, Js.transpose(2, 0, 1)
 
@@ -265,7 +265,7 @@ def _skew(vectors: Array) -> Array:
 
 
 def _summed(left: Array, right: Array) -> Array:
-    """Σ_b leftᵀ right over the bodies; shapes (N, B, 3, n)."""
+    """Σ_b leftᵀ right over the bodies; shapes (N, B, 3, n) → (N, n, n)."""
     count, number, _, n = left.shape
     total: Array = left.reshape(count, 3 * number, n).swapaxes(1, 2) @ right.reshape(count, 3 * number, n)
     return total

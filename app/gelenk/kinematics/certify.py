@@ -1,6 +1,6 @@
-"""The same numbers through Pinocchio, and how far the two computations are apart.
+"""Recomputation of results through Pinocchio, and the differences between the two computations.
 
-Kernels and Pinocchio share nothing but the checked description. What differs by more than rounding is never sent.
+Kernels and Pinocchio share only the checked description. A result that differs by more than rounding is never sent.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,28 +20,28 @@ from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
 
 View: TypeAlias = Literal["local_world_aligned", "local", "world", "zyz", "rpy"]
-"""What a Jacobian is expressed in: a reference frame, or rates of angles."""
+"""Reference frame of a Jacobian, or the Euler angles whose rates its angular rows give."""
 
 MAX_SAMPLES = 16
-"""Configurations of a batch that are recomputed; all of a smaller one."""
+"""Number of configurations that are recomputed in a batch; a smaller batch is recomputed in full."""
 TABLE_SAMPLES = 100
-"""Configurations at which a table is compared with a robot."""
+"""Number of configurations at which a table is compared with a robot."""
 TOLERANCE = 1e-9
-"""Allowed difference, absolute and relative to the largest number compared."""
+"""Allowed difference: relative to the largest number compared, absolute where that is below 1."""
 
 _REACH = 10.0
-"""How far from its position next to zero a joint is sampled, [rad or m]: a limit of 1e6 m says that there is none."""
+"""Largest distance of a sample from the allowed position nearest zero, [rad or m]: 1e6 m stands for no limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """How good an answer is.
+    """Agreement of poses with Pinocchio's.
 
     Attributes:
-        samples: Configurations that were recomputed through Pinocchio.
-        max_position_error: Largest distance between the two, [m].
-        max_orientation_error: Largest angle between the two, [rad].
-        seed: Of the choice of samples.
+        samples: Number of configurations recomputed through Pinocchio.
+        max_position_error: Largest distance between the positions, [m].
+        max_orientation_error: Largest angle between the orientations, [rad].
+        seed: Seed of the sample selection.
     """
 
     samples: int
@@ -52,13 +52,13 @@ class Certificate:
 
 @dataclass(frozen=True, slots=True)
 class JacobianCertificate:
-    """How good a Jacobian is.
+    """Agreement of Jacobians with Pinocchio's.
 
     Attributes:
-        samples: Configurations that were recomputed through Pinocchio.
-        max_error: Largest difference of an entry of the geometric Jacobian, [m, rad per rad or m].
-        max_time_variation_error: The same of J̇, where derivatives were requested.
-        seed: Of the choice of samples.
+        samples: Number of configurations recomputed through Pinocchio.
+        max_error: Largest difference in an entry of the Jacobian, [m, rad per rad or m].
+        max_time_variation_error: Largest difference in an entry of J̇, if derivatives were requested.
+        seed: Seed of the sample selection.
     """
 
     samples: int
@@ -72,10 +72,10 @@ def certify_poses(robot: Robot, chain: Chain, qs: Array, frames: Mapping[str, Po
 
     Args:
         robot: The robot.
-        chain: The chain whose base they are expressed in.
-        qs: Its configurations; shape (N, n).
+        chain: The chain in whose base the poses are expressed.
+        qs: Configurations of the chain; shape (N, n), [rad or m].
         frames: Poses of one or more frames at these configurations, N each.
-        seed: Chooses the samples of a large batch.
+        seed: Seed of the sample selection in a large batch.
 
     Raises:
         CertificationFailed: The two differ by more than `TOLERANCE`.
@@ -101,22 +101,22 @@ def certify_jacobians(
     values: Array | None = None,
     seed: int = 0,
 ) -> JacobianCertificate:
-    """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q by way of J̇.
+    """Compare geometric Jacobians (in the base frame, at the tip) with Pinocchio's, and ∂J/∂q through J̇.
 
     Args:
         robot: The robot.
         chain: The chain.
-        qs: Its configurations; shape (N, n).
-        Js: Jacobians; shape (N, 6, n).
+        qs: Configurations of the chain; shape (N, n), [rad or m].
+        Js: Geometric Jacobians; shape (N, 6, n).
         hessians: ∂J/∂q of these; shape (N, 6, n, n).
         view: The reference frame, or the angles, of `values`.
-        values: The Jacobians as they are sent; shape (N, 6, n), `Js` themselves if left out.
-        seed: Chooses the samples of a large batch, and the joint velocities for J̇.
+        values: The Jacobians that are sent; shape (N, 6, n). Not compared if None.
+        seed: Seed of the sample selection in a large batch, and of the joint velocities for J̇.
 
     Raises:
         CertificationFailed: The two differ by more than `TOLERANCE`.
     """
-    # Without joints there is no column to compare, and Pinocchio's Jacobian of a robot that has none at all crashes.
+    # Without joints there is no column to compare, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)
     speeds = np.random.default_rng(seed).uniform(-1.0, 1.0, len(chain))
     worst, worst_rate = 0.0, 0.0
@@ -137,14 +137,14 @@ def certify_table(robot: Robot, chain: Chain, table: DhTable, *, exact: bool = T
 
     Args:
         robot: The robot.
-        chain: Of this robot; its variables are the table's, in the same order.
-        table: Said to describe the chain.
-        exact: Whether more than rounding, at the scale of the table's longest length, is an error; a table that was
+        chain: A chain of this robot; its variables are the table's, in the same order.
+        table: The table that should describe the chain.
+        exact: Whether to refuse more than rounding, at the scale of the table's longest length; a table that was
             simplified on purpose may differ by more.
-        seed: Of the configurations, `table_configurations`.
+        seed: Seed of `table_configurations`.
 
     Raises:
-        CertificationFailed: The two differ though the table is said to be exact, or one is no number.
+        CertificationFailed: The two differ although the table should be exact, or a difference is NaN.
     """
     qs = table_configurations(chain, TABLE_SAMPLES, seed)
     Ts = np.array([table.pose(q) for q in qs.tolist()])
@@ -154,7 +154,7 @@ def certify_table(robot: Robot, chain: Chain, table: DhTable, *, exact: bool = T
 
 
 def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> Certificate:
-    """Compare two tables of the same variables, the URDF of each through Pinocchio.
+    """Compare two tables of the same variables, each as a robot in Pinocchio.
 
     Raises:
         CertificationFailed: The two differ by more than rounding.
@@ -170,10 +170,10 @@ def certify_conversion(table: DhTable, other: DhTable, seed: int = 0) -> Certifi
 
 
 def table_configurations(chain: Chain, count: int, seed: int = 0) -> Array:
-    """Random configurations of a chain: the first half within the limits, in the others joints turn all the way round.
+    """Draw random configurations of a chain: half within the limits, half with revolute joints over a full turn.
 
-    Both are uniform, from `numpy.random.default_rng(seed)`: first one number in [0, 1) for each, row by row, and
-    these between the bounds. A limit further than 10 rad or m from the position next to zero counts as that far.
+    Both are uniform: `numpy.random.default_rng(seed)` gives one number in [0, 1) per entry, row by row, which is scaled
+    to the bounds. A limit more than 10 rad or m from the allowed position nearest zero is replaced by that distance.
 
     Returns:
         Shape (count, n), [rad or m].
@@ -198,7 +198,7 @@ def _table_certificate(ours: Poses, judge: Poses, table: DhTable, exact: bool, s
 
 
 def sampled_rows(count: int, seed: int = 0) -> Sequence[int]:
-    """The rows of a batch that are recomputed: all of a small one."""
+    """Return the rows of a batch to recompute: all of a small batch, else `MAX_SAMPLES` random ones."""
     if count <= MAX_SAMPLES:
         return range(count)
     return sorted(np.random.default_rng(seed).choice(count, MAX_SAMPLES, replace=False).tolist())
@@ -209,10 +209,10 @@ def _largest(difference: Array) -> float:
 
 
 def demand(quantity: str, error: float, scale: float) -> float:
-    """The error, where it is no larger than rounding of numbers of that scale explains; NaN never is.
+    """Return the error if rounding of numbers of this scale explains it.
 
     Raises:
-        CertificationFailed: It is larger.
+        CertificationFailed: The error is larger, or NaN.
     """
     tolerance = TOLERANCE * max(1.0, scale)
     if not error <= tolerance:
@@ -221,12 +221,12 @@ def demand(quantity: str, error: float, scale: float) -> float:
 
 
 def agreed(quantity: str, difference: Array, scale: float) -> float:
-    """The largest entry of a difference, under the same condition; raises as `demand` does."""
+    """Return the largest absolute entry of a difference; raises as `demand` does."""
     return demand(quantity, _largest(difference), scale)
 
 
 def pinocchio_poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Sequence[int]) -> Poses:
-    """Pinocchio's T_base_frame at some of the configurations, by their numbers."""
+    """Compute T_base_frame through Pinocchio at the configurations with the given row numbers."""
     model, data, lock = robot.model, robot.data, robot.lock
     expansion = robot.expansion(chain)
     base, tip = robot.frame_id(chain.base_frame), robot.frame_id(frame)
@@ -243,10 +243,10 @@ def pinocchio_poses(robot: Robot, chain: Chain, frame: str, qs: Array, rows: Seq
 
 
 def _view_error(view: View, T_base_tip: pin.SE3, J: Array, value: Array) -> float:
-    """How far a Jacobian (6, n) in some view is from the geometric one, by Pinocchio's algebra of motions.
+    """Largest difference between a Jacobian (6, n) in some view and the geometric one, by Pinocchio's spatial algebra.
 
-    For angles the rates are turned back into an angular velocity: by Pinocchio for RPY, and for ZYZ by the three axes
-    they turn about, which are the base's z, the normal of both z axes, and the tip's z.
+    Euler rates are converted back into an angular velocity: by Pinocchio for RPY, and for ZYZ by the three rotation
+    axes, which are the base's z, the common normal of both z axes, and the tip's z.
     """
     if view == "local":
         return _largest(pin.SE3(T_base_tip.rotation, np.zeros(3)).toActionMatrixInverse() @ J - value)
@@ -265,16 +265,16 @@ def _view_error(view: View, T_base_tip: pin.SE3, J: Array, value: Array) -> floa
 def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate: bool) -> tuple[pin.SE3, Array, Array]:
     """Pinocchio's T_base_tip, geometric Jacobian and its time variation at given joint velocities, both (6, n).
 
-    Pinocchio gives both for each frame against the world. With r from base to tip, in the world's axes, the relative
-    Jacobian is Rᵀ(J_tip - J_base - ω_base × r) in its linear rows and Rᵀ(J_tip - J_base) in the angular ones, R the
-    base's rotation; its time variation follows by the product rule.
+    Pinocchio gives both for each frame relative to the world. With r from base to tip, in the world's axes, the linear
+    rows of the relative Jacobian are Rᵀ(J_tip - J_base - ω_base × r) and the angular rows Rᵀ(J_tip - J_base), where R
+    is the base's rotation; its time variation follows by the product rule.
     """
     expansion = robot.expansion(chain)
     full_q, full_speeds = expansion.offset + expansion.matrix @ q, expansion.matrix @ speeds
     with robot.lock:
         T_base, T_tip, J_base, J_tip = _world_jacobians(robot, chain, full_q)
         D_base, D_tip = _world_variations(robot, chain, full_q, full_speeds) if with_rate else (J_base, J_tip)
-    # Of a robot with one joint Pinocchio gives a flat (6,).
+    # For a robot with one joint Pinocchio returns a flat (6,).
     J_base, J_tip, D_base, D_tip = (
         columns.reshape(6, -1) @ expansion.matrix for columns in (J_base, J_tip, D_base, D_tip)
     )
@@ -291,7 +291,7 @@ def _jacobian(robot: Robot, chain: Chain, q: Array, speeds: Array, *, with_rate:
 
 
 def _world_jacobians(robot: Robot, chain: Chain, q: Array) -> tuple[pin.SE3, pin.SE3, Array, Array]:
-    """T_world_base, T_world_tip, and both frames' Jacobians in the world's axes, (6, nv) each."""
+    """T_world_base, T_world_tip, and the Jacobians of both frames in the world's axes, (6, nv) each."""
     pin.computeJointJacobians(robot.model, robot.data, q)
     frames = robot.frame_id(chain.base_frame), robot.frame_id(chain.tip_frame)
     T_base, T_tip = (pin.updateFramePlacement(robot.model, robot.data, frame).copy() for frame in frames)
@@ -300,7 +300,7 @@ def _world_jacobians(robot: Robot, chain: Chain, q: Array) -> tuple[pin.SE3, pin
 
 
 def _world_variations(robot: Robot, chain: Chain, q: Array, speeds: Array) -> tuple[Array, Array]:
-    """Time variation of both frames' Jacobians in the world's axes, (6, nv) each."""
+    """Time variations of the Jacobians of both frames in the world's axes, (6, nv) each."""
     pin.computeJointJacobiansTimeVariation(robot.model, robot.data, q, speeds)
     frames = robot.frame_id(chain.base_frame), robot.frame_id(chain.tip_frame)
     for frame in frames:

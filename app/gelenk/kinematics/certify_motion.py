@@ -1,8 +1,8 @@
-"""The tip's twist, acceleration, jerk and snap through Pinocchio, and how far ours are from them.
+"""Check of the tip's twist, acceleration, jerk and snap through Pinocchio.
 
-Pinocchio knows each frame's twist, its derivative in the moving frame (the spatial acceleration) and the partial
-derivatives of that one, hence the next; all are composed by its own algebra of motions. Only the snap it does not know:
-that is the difference quotient of its jerk along the motion, extrapolated after Richardson.
+Pinocchio gives each frame's twist, its derivative in the moving frame (the spatial acceleration) and the partial
+derivatives of that acceleration, hence the next derivative; its own spatial algebra combines them. It does not give the
+snap: that is the difference quotient of the jerk along the motion, with Richardson extrapolation.
 """
 
 from collections.abc import Sequence
@@ -20,27 +20,28 @@ from gelenk.model.chain import Chain
 from gelenk.model.robot import Robot
 
 BodyMotion: TypeAlias = list[pin.Motion]
-"""A frame's twist in its own axes, and its derivatives in time."""
+"""A frame's twist in its own axes, followed by its time derivatives."""
 
 QUANTITIES = ("the twist", "the acceleration", "the jerk", "the snap")
 
 _STEP, _LEVELS = 0.02, 3
-"""Of the difference quotient, as a share of the time in which the joints together turn by about 1 rad."""
+"""First step of the difference quotient, as a share of the time in which all joints together turn by about 1 rad;
+and the number of steps, each half the one before."""
 _STEPS_LOST = 1e-3
-"""What a radian of a joint's position adds to the error that it may have, relatively."""
+"""Relative increase of the snap's allowed error per radian of joint position."""
 _SLOWEST = 1e-6
-"""Pace below which that time no longer grows, [1/s]."""
+"""Smallest rate from which that time is computed, [1/s]."""
 
 
 @dataclass(frozen=True, slots=True)
 class MotionCertificate:
-    """How good the derivatives of a motion are.
+    """Agreement of a motion's derivatives with Pinocchio's.
 
     Attributes:
-        samples: Configurations that were recomputed through Pinocchio.
+        samples: Number of configurations recomputed through Pinocchio.
         max_errors: Largest difference of an entry, one for each order: twist, acceleration, jerk, snap; [m/sᵏ, rad/sᵏ].
-        max_spatial_acceleration_error: The same of the spatial acceleration, where there is one.
-        seed: Of the choice of samples.
+        max_spatial_acceleration_error: Largest difference in the spatial acceleration; None if not compared.
+        seed: Seed of the sample selection.
     """
 
     samples: int
@@ -59,28 +60,28 @@ def certify_motion(
     reference: Reference = "local_world_aligned",
     seed: int = 0,
 ) -> MotionCertificate:
-    """Compare the tip's twist, acceleration, jerk and snap, as they are sent, with Pinocchio's.
+    """Compare the tip's twist, acceleration, jerk and snap, in the reference that is sent, with Pinocchio's.
 
     Args:
         robot: The robot.
         chain: The chain.
-        qs: Its configurations; shape (N, n).
-        rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n).
+        qs: Configurations of the chain; shape (N, n), [rad or m].
+        rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         derivatives: (ṗ; ω), (p̈; ω̇), … in the reference, K of them; shape (N, 6) each.
         spatial: The spatial acceleration in the reference; shape (N, 6).
         reference: See `tip_motion`.
-        seed: Chooses the samples of a large batch.
+        seed: Seed of the sample selection in a large batch.
 
     Raises:
-        CertificationFailed: The two differ by more than `TOLERANCE`, relative to what the joints' speeds let expect.
+        CertificationFailed: The two differ by more than `TOLERANCE`, relative to `motion_scales`.
     """
-    # Without joints nothing moves, and Pinocchio's Jacobian of a robot that has none at all crashes.
+    # Without joints nothing moves, and Pinocchio crashes on the Jacobian of a robot without joints.
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)
     worst, worst_spatial = [0.0] * len(rates), 0.0
     for row in rows:
         judge, judge_spatial = _pinocchio_derivatives(robot, chain, qs[row], rates[:, row], reference)
         scales = motion_scales(robot, chain, qs[[row]], rates[:, [row]])[:, 0].tolist()
-        # A double of so many radians resolves small steps less well, on which the snap's difference quotient rests.
+        # At large joint positions a double resolves the small steps of the snap's difference quotient less finely.
         scales[3:] = [scale * (1.0 + _STEPS_LOST * float(np.abs(qs[row]).max())) for scale in scales[3:]]
         for k, expected in enumerate(judge):
             error = float(np.abs(expected - derivatives[k][row]).max())
@@ -92,9 +93,9 @@ def certify_motion(
 
 
 def motion_scales(robot: Robot, chain: Chain, qs: Array, rates: Array) -> Array:
-    """How large each derivative of the tip's motion can be when all joints move together; shape (K, N), [m/sᵏ, rad/sᵏ].
+    """Estimate how large each derivative of the tip's motion can be; shape (K, N), [m/sᵏ, rad/sᵏ].
 
-    Rounding is in proportion to it: much of it may cancel in the derivative itself.
+    Rounding errors are proportional to this, even where the terms of the derivative cancel.
     """
     extents = 1.0 + np.abs(chain.flat.placements[:, 9:]).sum() + np.abs(qs).sum(axis=1)
     orders = np.arange(1, len(rates) + 1)[:, None]
@@ -103,7 +104,7 @@ def motion_scales(robot: Robot, chain: Chain, qs: Array, rates: Array) -> Array:
 
 
 def _paces(robot: Robot, chain: Chain, rates: Array) -> Array:
-    """How fast all joints together move, counting a derivative of order k by its k-th root; shape (N,), [1/s]."""
+    """Combined rate of all joints, the largest k-th root of a k-th derivative; shape (N,), [1/s]."""
     totals = np.abs(rates @ robot.expansion(chain).matrix.T).sum(axis=2)
     paces: Array = (totals ** (1.0 / np.arange(1, len(rates) + 1)[:, None])).max(axis=0)
     return paces
@@ -112,7 +113,7 @@ def _paces(robot: Robot, chain: Chain, rates: Array) -> Array:
 def _pinocchio_derivatives(
     robot: Robot, chain: Chain, q: Array, rates: Array, reference: Reference
 ) -> tuple[list[Array], Array | None]:
-    """The tip's derivatives in a reference, one for each of the rates, and its spatial acceleration; (6,) each."""
+    """Derivatives of the tip's motion in a reference, one per rate, and its spatial acceleration; (6,) each."""
     expansion = robot.expansion(chain)
     full_q, full_rates = expansion.offset + expansion.matrix @ q, rates @ expansion.matrix.T
     T, motion = _tip_in_base(robot, chain, full_q, full_rates[:3])
@@ -127,14 +128,14 @@ def _pinocchio_derivatives(
 
 
 def _seen(T: pin.SE3, reference: Reference) -> pin.SE3:
-    """The map of a twist from the tip's axes into a reference."""
+    """Transform that takes a twist from the tip's axes into a reference."""
     if reference == "local":
         return pin.SE3.Identity()
     return T if reference == "world" else pin.SE3(T.rotation, np.zeros(3))
 
 
 def _snap(robot: Robot, chain: Chain, q: Array, rates: Array, point: Array) -> Array:
-    """(p⁗; ω⃛) of a point of the tip's body, along the base's axes, by differences of its jerk; shape (6,)."""
+    """(p⁗; ω⃛) of a point of the tip's body, along the base's axes, by difference quotients of its jerk; shape (6,)."""
 
     def jerk(time: float) -> Array:
         T, motion = _tip_in_base(robot, chain, *_after(q, rates, time))
@@ -150,14 +151,14 @@ def _snap(robot: Robot, chain: Chain, q: Array, rates: Array, point: Array) -> A
 
 
 def _after(q: Array, rates: Array, t: float) -> tuple[Array, Array]:
-    """Configuration and its first three derivatives after a time, q⁗ being constant; shapes (nq,) and (3, nq)."""
+    """Configuration and its first three derivatives at time t, for constant q⁗; shapes (nq,) and (3, nq)."""
     q1, q2, q3, q4 = rates
     moved = q + t * (q1 + t * (q2 / 2 + t * (q3 / 6 + t * q4 / 24)))
     return moved, np.array([q1 + t * (q2 + t * (q3 / 2 + t * q4 / 6)), q2 + t * (q3 + t * q4 / 2), q3 + t * q4])
 
 
 def _tip_in_base(robot: Robot, chain: Chain, q: Array, rates: Array) -> tuple[pin.SE3, BodyMotion]:
-    """T_base_tip, and the tip's motion against the base, for up to three rates of the whole model, shape (K, nv)."""
+    """T_base_tip, and the tip's motion relative to the base, for up to three rates of the full model, shape (K, nv)."""
     with robot.lock:
         T_tip, tip = _body_motion(robot, chain.tip_frame, q, rates)
         if chain.base_frame == robot.description.root:
@@ -168,13 +169,13 @@ def _tip_in_base(robot: Robot, chain: Chain, q: Array, rates: Array) -> tuple[pi
 
 
 def _body_motion(robot: Robot, frame_name: str, q: Array, rates: Array) -> tuple[pin.SE3, BodyMotion]:
-    """Pose of a frame in the world, and its twist in its own axes with up to two derivatives."""
+    """Pose of a frame in the world, and its twist in its own axes with up to two time derivatives."""
     model, data, frame = robot.model, robot.data, robot.frame_id(frame_name)
     v, a, j = (*rates, *np.zeros((3 - len(rates), model.nv)))
     motion = []
     if len(rates) > 2:
         pin.computeForwardKinematicsDerivatives(model, data, q, v, a)
-        # Of a robot with one joint Pinocchio gives a flat (6,).
+        # For a robot with one joint Pinocchio returns a flat (6,).
         parts = (part.reshape(6, -1) for part in pin.getFrameAccelerationDerivatives(model, data, frame, pin.LOCAL)[1:])
         by_q, by_v, by_a = parts
         motion = [pin.Motion(by_q @ v + by_v @ a + by_a @ j)]
@@ -186,7 +187,7 @@ def _body_motion(robot: Robot, frame_name: str, q: Array, rates: Array) -> tuple
 
 
 def _relative(T_base_tip: pin.SE3, tip: BodyMotion, base: BodyMotion) -> BodyMotion:
-    """The tip's twist against a moving base: ξ = ξ_tip - y, y = Ad(T⁻¹) ξ_base, hence ẏ = Ad(T⁻¹) ξ̇_base - ξ × y."""
+    """Motion relative to a moving base: ξ = ξ_tip - y, y = Ad(T⁻¹) ξ_base, hence ẏ = Ad(T⁻¹) ξ̇_base - ξ × y."""
     carried = [T_base_tip.actInv(motion) for motion in base]
     relative = [tip[0] - carried[0]]
     if len(tip) > 1:
@@ -199,7 +200,7 @@ def _relative(T_base_tip: pin.SE3, tip: BodyMotion, base: BodyMotion) -> BodyMot
 
 
 def _of_point(R: Array, motion: BodyMotion, point: Array) -> list[Array]:
-    """Derivatives of the position of a point of the tip's body and of its angular velocity, along the base's axes."""
+    """Derivatives of the position and angular velocity of a point of the tip's body, along the base's axes."""
     w = motion[0].angular
     u = motion[0].linear + np.cross(w, point)
     derivatives = [np.concatenate((R @ u, R @ w))]

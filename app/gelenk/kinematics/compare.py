@@ -1,9 +1,9 @@
-"""Does a DH table describe a chain of a robot, and if not, where is it wrong.
+"""Check whether a DH table describes a chain of a robot, and find where it is wrong if not.
 
-The same chain has many tables: x axes may be turned round, z axes with the sense of their joint, origins slide along
-parallel axes, and what stands in the first row's d and θ may as well stand in the base, what stands in the last row in
-the tool. So no number is compared with another one: a table describes a chain where a base, a tool and, as far as they
-may be found, zeros and senses of the joints make the poses of both equal at random configurations.
+A chain has many DH tables: x axes can be reversed, z axes too with the sense of their joint, origins slide along
+parallel axes, the first row's d and θ can move into the base, and the last row's parameters into the tool. So the
+entries are not compared one by one. A table describes a chain if some base and tool and, where these may be found,
+zeros and senses of the joints make the poses of both equal at random configurations.
 """
 
 import math
@@ -42,7 +42,7 @@ from gelenk.model.errors import InvalidField, counted, listed, quoted
 from gelenk.model.robot import Robot
 
 MAX_ROWS_WITH_SENSES = 16
-"""Longest table of which offsets and signs are found: of a longer one that would take many seconds."""
+"""Largest number of rows for which offsets and signs are found: more rows would take many seconds."""
 _MOST_DIAGNOSES = 8
 _PARALLEL = 1e-6
 _SPANNED = 1e-7
@@ -50,7 +50,7 @@ _SAME_MULTIPLIER = 1e-9
 
 
 class Unverified(NamedTuple):
-    """A number that could be another one without anyone noticing, because what was found makes up for it."""
+    """A table entry that cannot be checked, because the base, tool or offsets found compensate for its errors."""
 
     row: int
     joint: str
@@ -60,20 +60,20 @@ class Unverified(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The verdict.
+    """The result of comparing a table with a chain.
 
     Attributes:
         equivalent: Whether the table describes the chain.
-        freedom: What was found; the rest was held.
-        placement: The table as it lies on the chain, as near as it goes where it does not describe it, with the errors
-            that Pinocchio measures; None where count or types of the joints differ.
-        first_difference: The first row and parameter that differ; None where nothing does.
-        differences: All that is known to differ, the first one included.
-        diagnoses: Mistakes that would each explain it, or two together; the likeliest first.
-        unverified: Numbers that what was found makes up for.
-        notes: What else is worth knowing, a sentence each.
-        seed: Of the configurations.
-        samples: Their number.
+        freedom: The quantities that were found; the others were held.
+        placement: The table fitted to the chain as closely as possible, with the errors measured through Pinocchio;
+            None if the rows and the joints do not match in number or type.
+        first_difference: The first row and parameter that differ; None if nothing differs.
+        differences: All known differences, including the first.
+        diagnoses: Single mistakes, or pairs of them, that explain the differences; the likeliest first.
+        unverified: Entries that cannot be checked, because something found compensates for them.
+        notes: Further remarks, one sentence each.
+        seed: Seed of the random configurations.
+        samples: Number of configurations compared.
     """
 
     equivalent: bool
@@ -101,15 +101,15 @@ def compare(
 
     Args:
         robot: The robot.
-        chain: Base → tip; its joints on the way, those that follow others included, are the table's rows.
-        table: The table; its base and tool count where they are not to be found.
-        freedom: What is to be found.
+        chain: Base → tip; its joints, mimic joints included, are the table's rows.
+        table: The table; its base and tool are ignored where they are to be found.
+        freedom: The quantities to find.
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        samples: Configurations to compare at.
-        seed: Of the choice of these.
+        samples: Number of configurations to compare.
+        seed: Seed of the random configurations.
 
     Raises:
-        InvalidField: Zeros or senses are to be found of joints that follow others, or of too many.
+        InvalidField: Zeros or senses are requested for a chain with mimic joints, or with too many joints.
     """
     target = chain_screws(chain.flat)
     unlike = _unlike(chain, table)
@@ -124,7 +124,7 @@ def compare(
         raise InvalidField("find", f"offsets and signs are found of tables with at most {MAX_ROWS_WITH_SENSES} rows")
     on = subject(robot, chain, target, _senses(chain, table), tolerances, samples, seed)
     placement = placed(on, table, freedom)
-    assert placement is not None  # noqa: S101 - what is not strict always lays it somehow
+    assert placement is not None  # noqa: S101 - a fit that is not strict always succeeds
     if on.accepts(placement.errors):
         unverified = _unverified(on, placement, freedom)
         notes = (*_plain_notes(table, placement, freedom), *_notes(on, unverified))
@@ -133,7 +133,7 @@ def compare(
 
 
 def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placement, seed: int) -> Comparison:
-    """The verdict on a table of the right count and types that does not describe the chain."""
+    """Result for a table that matches the joints in number and type but does not describe the chain."""
     signs = placement.signs * on.senses if len(on.chain) == len(on.target) else on.senses
     found: list[Diagnosis] = []
     for senses in (on.senses, signs):
@@ -156,7 +156,7 @@ def _explained(on: Subject, table: DhTable, freedom: Freedom, placement: Placeme
 def _reordered(
     robot: Robot, chain: Chain, table: DhTable, freedom: Freedom, tolerances: tuple[float, float], seed: int
 ) -> list[Diagnosis]:
-    """Mistakes that explain why rows and joints do not go together."""
+    """Mistakes that explain why rows and joints do not match."""
     target = chain_screws(chain.flat)
     if not len(target) or len(chain) != len(target) or any(row.mimic for row in table.joints):
         return []
@@ -167,7 +167,7 @@ def _reordered(
 def _refused(
     unlike: Difference, found: list[Diagnosis], freedom: Freedom, robot: Robot, chain: Chain, seed: int
 ) -> Comparison:
-    """The verdict where rows and joints do not go together."""
+    """Result for a table whose rows do not match the joints."""
     ends = f"from {quoted(chain.base_frame)} to {quoted(chain.tip_frame)}"
     joints = joints_on_the_way(robot.description, chain)
     names = listed(tuple(each.name for each in joints))
@@ -178,7 +178,7 @@ def _refused(
 
 
 def _unlike(chain: Chain, table: DhTable) -> Difference | None:
-    """The first row that cannot be its joint at all: another count, another type, another joint followed."""
+    """First row that cannot match its joint: the number of rows, the joint type or the mimicked joint differs."""
     flat = chain.flat
     rows, joints = len(table.joints), len(flat.joints)
     variables = {name: i for i, name in enumerate(table.variables)}
@@ -208,13 +208,13 @@ def _drive(chain: Chain, i: int, multiplier: float, variable: int) -> str:
 
 
 def _senses(chain: Chain, table: DhTable) -> Array:
-    """Of each row 1, or -1 where its multiplier has the other sign than the chain's; shape (n,)."""
+    """Sense of each row: 1, or -1 if its multiplier and the chain's have opposite signs; shape (n,)."""
     multipliers = np.array([1.0 if row.mimic is None else row.mimic.multiplier for row in table.joints])
     return np.where(multipliers * chain.flat.drives[:, 0] < 0.0, -1.0, 1.0)
 
 
 def _unverified(on: Subject, placement: Placement, freedom: Freedom) -> tuple[Unverified, ...]:
-    """Numbers whose change the found base, tool and zeros would make up for, to first order."""
+    """Entries whose changes the found base, tool or zeros would compensate, to first order."""
     n = len(on.target)
     table = placement.table
     rows = parameters_of(table)
@@ -241,7 +241,7 @@ def _unverified(on: Subject, placement: Placement, freedom: Freedom) -> tuple[Un
 
 
 def _lie_in(changes: Array, span: Array) -> Flags:
-    """Which changes are combinations of others, column by column; shapes (m, k), (m, s) → (k,)."""
+    """Which columns of `changes` lie in the column space of `span`; shapes (m, k), (m, s) → (k,)."""
     rest = changes
     if span.shape[1]:
         U, sizes, _ = np.linalg.svd(span, full_matrices=False)
@@ -252,7 +252,7 @@ def _lie_in(changes: Array, span: Array) -> Flags:
 
 
 def _plain_notes(table: DhTable, placement: Placement, freedom: Freedom) -> list[str]:
-    """Whether the base that was found speaks for the first row."""
+    """Notes on a base found that is not plain, which may hide an error in the first row."""
     base = placement.table.base
     if not freedom.base or np.array_equal(base, plain(base, (math.inf, 1e-9))):
         return []
@@ -275,7 +275,7 @@ def _plain_notes(table: DhTable, placement: Placement, freedom: Freedom) -> list
 
 
 def _notes(on: Subject, unverified: tuple[Unverified, ...]) -> list[str]:
-    """Parameters that cannot be distinguished."""
+    """Notes on parameters that the comparison cannot distinguish."""
     notes = []
     if unverified:
         by = {each.absorbed_by for each in unverified}
@@ -291,7 +291,7 @@ def _notes(on: Subject, unverified: tuple[Unverified, ...]) -> list[str]:
 
 
 def _parallel_groups(on: Subject) -> list[list[int]]:
-    """Rows, from 1, of consecutive revolute joints with parallel axes."""
+    """Groups of rows (from 1) of consecutive revolute joints with parallel axes."""
     groups: list[list[int]] = []
     directions = on.target.directions
     for i, slides in enumerate(on.target.slides):

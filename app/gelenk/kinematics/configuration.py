@@ -1,4 +1,4 @@
-"""Configurations as callers give them, by order or by name → one array in the chain's order, checked."""
+"""Conversion of configurations, given in order or by joint name, to one checked array in the chain's order."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -20,23 +20,23 @@ from gelenk.model.errors import (
 )
 
 MAX_MAGNITUDE = 1e6
-"""Largest joint position or velocity, [rad or m (/s)]: beyond it a double no longer resolves a nanoradian."""
+"""Largest joint position or velocity, [rad or m (/s)]: a larger double does not resolve a nanoradian."""
 
 
 def configurations(chain: Chain, values: Sequence[Configuration] | Array, field: str = "joint_positions") -> Array:
-    """One row a configuration, in the chain's order; shape (N, n), [rad or m], or velocities likewise.
+    """Convert configurations (or velocities) to rows in the chain's order; shape (N, n), [rad or m (/s)].
 
     Args:
-        chain: Whose variables they are.
-        values: Numbers in the chain's order or by joint name; an array is taken as rows already.
-        field: What the messages call them.
+        chain: The chain.
+        values: Numbers in the chain's order or by joint name; an array must already have this shape.
+        field: Name of the field in error messages.
 
     Raises:
-        WrongJointCount: One of them has not one number a joint.
-        MissingJoint: One given by name leaves a joint out.
-        UnknownJoint: One given by name has a joint that the robot does not have; others of the robot are left aside.
-        InvalidField: A number is not finite or beyond `MAX_MAGNITUDE`.
-        InvalidArray: The array is no table.
+        WrongJointCount: A configuration does not have one number per joint.
+        MissingJoint: A configuration given by name omits a joint.
+        UnknownJoint: A configuration names a joint that the robot does not have; its joints off the chain are ignored.
+        InvalidField: A number is not finite or exceeds `MAX_MAGNITUDE`.
+        InvalidArray: The array is not two-dimensional.
     """
     if isinstance(values, np.ndarray):
         return checked_rows(chain, values, field)
@@ -48,7 +48,7 @@ def configurations(chain: Chain, values: Sequence[Configuration] | Array, field:
 
 
 def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
-    """A single configuration; shape (1, n). Raises as `configurations` does."""
+    """Convert a single configuration; shape (1, n). Raises as `configurations` does."""
     try:
         return configurations(chain, [value], field)
     except (WrongJointCount, MissingJoint, UnknownJoint) as error:
@@ -56,12 +56,12 @@ def one_configuration(chain: Chain, value: Configuration, field: str) -> Array:
 
 
 def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
-    """The array itself, if it has one row of numbers of sensible size for each configuration.
+    """Return the array unchanged if it has one column per joint and numbers of sensible size.
 
     Raises:
-        WrongJointCount: It has not one column a joint.
-        InvalidField: A number is not finite or beyond `MAX_MAGNITUDE`.
-        InvalidArray: It is no table.
+        WrongJointCount: The array does not have one column per joint.
+        InvalidField: A number is not finite or exceeds `MAX_MAGNITUDE`.
+        InvalidArray: The array is not two-dimensional.
     """
     if rows.ndim != 2:
         raise InvalidArray(
@@ -84,7 +84,7 @@ def checked_rows(chain: Chain, rows: Array, field: str) -> Array:
 
 @compiled
 def _joints_within(drives: Array, joints: Indices, qs: Array, most: float) -> bool:
-    """Whether no joint, moved by its variable, is beyond a magnitude; NaN is."""
+    """Whether all joint positions, mimic joints included, have at most a magnitude; false for NaN."""
     for i in range(len(joints)):
         for row in range(qs.shape[0]):
             if not abs(drives[i, 0] * qs[row, joints[i, 1]] + drives[i, 1]) <= most:
@@ -94,7 +94,7 @@ def _joints_within(drives: Array, joints: Indices, qs: Array, most: float) -> bo
 
 @compiled
 def _within(qs: Array, most: float) -> bool:
-    """Whether every number is of no greater magnitude; NaN is not."""
+    """Whether all numbers have at most a magnitude; false for NaN."""
     for row in range(qs.shape[0]):
         for column in range(qs.shape[1]):
             if not abs(qs[row, column]) <= most:
@@ -103,10 +103,10 @@ def _within(qs: Array, most: float) -> bool:
 
 
 def check_limits(chain: Chain, qs: Array) -> None:
-    """Refuse configurations beyond the limits of the chain's joints; qs has shape (N, n).
+    """Refuse configurations beyond the limits of the chain's joints; shape (N, n), [rad or m].
 
     Raises:
-        OutsideLimits: The first joint that is beyond its limits.
+        OutsideLimits: A joint is beyond its limits; names the first one.
     """
     outside = (qs < chain.lower) | (qs > chain.upper)
     if outside.any():

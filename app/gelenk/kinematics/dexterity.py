@@ -1,7 +1,7 @@
-"""How many of a set of orientations a chain can take at a position, by inverse kinematics.
+"""Share of a set of orientations that a chain can reach at a position, by inverse kinematics.
 
-The set is spread evenly and always the same: over all rotations, over all directions of the tip's z axis, or over the
-turns about the one axis that a planar arm or a SCARA has.
+The set is fixed and evenly distributed: over all rotations, over all directions of the tip's z axis, or, for a planar
+arm or a SCARA, over the rotations about its single axis.
 """
 
 import math
@@ -25,19 +25,19 @@ Over: TypeAlias = Literal["rotations", "approach_directions"]
 Spread: TypeAlias = Literal["rotations", "approach_directions", "turns", "fixed"]
 
 _SECOND_RATIO = 1.533751168755204288118041
-"""ψ⁴ = ψ + 4, the second ratio of the spiral."""
+"""The second ratio of the spiral: the root of ψ⁴ = ψ + 4."""
 _ITERATIONS = 1280
-"""Budget of a search for each orientation: 64 starts, beside the configuration that came to the cell."""
+"""Iteration budget per orientation: 64 starts, besides the configuration that reached the cell."""
 
 
 @dataclass(frozen=True, slots=True)
 class Orientations:
-    """The requested orientations.
+    """A set of orientations to reach.
 
     Attributes:
-        spread: Over what they are spread; `fixed` where the tip never turns.
-        rotations: Shape (K, 3, 3).
-        task: What of a pose counts.
+        spread: What the set covers; `fixed` if the tip never rotates.
+        rotations: Rotation matrices; shape (K, 3, 3).
+        task: The components of a pose that count.
     """
 
     spread: Spread
@@ -46,9 +46,9 @@ class Orientations:
 
 
 def orientations(chain: Chain, motion: Motion, over: Over, count: int) -> Orientations:
-    """As many orientations for a chain as requested; one where the tip never turns.
+    """Return `count` orientations for a chain; one if the tip never rotates.
 
-    Of a chain that turns about one direction only, these turns of the tip; else the requested set.
+    If the tip rotates about one direction only, they are rotations about that direction; else the requested set.
     """
     axes, rank = motion.turning
     own = chain_poses(chain.flat, mid_range(chain)[None])[1]
@@ -66,15 +66,15 @@ def orientations(chain: Chain, motion: Motion, over: Over, count: int) -> Orient
 
 
 def excluded(motion: Motion, dimensions: int, spread: Spread) -> str | None:
-    """Why the chain can take all orientations nowhere but in a set without volume; None where nothing excludes more.
+    """Explain why a chain cannot reach all orientations in any region of positions; None if it may.
 
-    Positions with all their orientations are a set of as many dimensions as both together have, and what a chain
-    reaches has no more dimensions than its tip has independent velocities.
+    A region with all its orientations has as many dimensions as both together; the set of poses that a chain reaches
+    has at most as many dimensions as its tip has independent velocities.
 
     Args:
-        motion: Of its tip.
-        dimensions: Of the grid: in a slice they are fewer than those of the workspace.
-        spread: Over what the orientations are spread.
+        motion: Motion of the chain's tip.
+        dimensions: Dimensions of the grid: fewer in a slice than in the workspace.
+        spread: What the set of orientations covers.
     """
     turns = ("fixed", "turns", "approach_directions", "rotations").index(spread)
     moves, both = motion.ranks(spread == "approach_directions")
@@ -92,7 +92,7 @@ def excluded(motion: Motion, dimensions: int, spread: Spread) -> str | None:
 
 
 def sphere_spiral(count: int) -> Array:
-    """Unit vectors at equal steps of height and of the golden angle; shape (count, 3)."""
+    """Return unit vectors on a spiral with equal steps in height and in angle, the golden angle; shape (count, 3)."""
     heights = 1.0 - (2.0 * np.arange(count) + 1.0) / count
     angles = np.arange(count) * math.pi * (3.0 - math.sqrt(5.0))
     radii = np.sqrt(1.0 - heights**2)
@@ -100,7 +100,7 @@ def sphere_spiral(count: int) -> Array:
 
 
 def rotation_spiral(count: int) -> Array:
-    """Unit quaternions x y z w spread over all rotations along a spiral of two ratios [Alexa2022]; shape (count, 4)."""
+    """Return unit quaternions x y z w on a spiral of two ratios over all rotations [Alexa2022]; shape (count, 4)."""
     steps = np.arange(count) + 0.5
     inner, outer = np.sqrt(steps / count), np.sqrt(1.0 - steps / count)
     alphas, betas = 2.0 * math.pi * steps / math.sqrt(2.0), 2.0 * math.pi * steps / _SECOND_RATIO
@@ -110,20 +110,20 @@ def rotation_spiral(count: int) -> Array:
 
 
 def shares(robot: Robot, chain: Chain, positions: Array, seeds: Array, asked: Orientations) -> Array:
-    """Of each position the share of the orientations that the chain can take there, within its limits.
+    """Compute the share of orientations that a chain reaches at each position, within its limits.
 
-    Every configuration that counts has been recomputed through Pinocchio. What a search does not find may still be
-    there: of a chain without a closed form the share is a lower bound.
+    Every configuration that counts is recomputed through Pinocchio. A search may miss a solution: for a chain without
+    a closed form the share is a lower bound.
 
     Args:
         robot: The robot.
         chain: The chain.
-        positions: Of the tip, in the base; shape (M, 3), [m].
-        seeds: For each a configuration to begin from; shape (M, n), [rad or m].
-        asked: The requested orientations.
+        positions: Positions of the tip in the base frame; shape (M, 3), [m].
+        seeds: Start configuration for each position; shape (M, n), [rad or m].
+        asked: The orientations to reach.
 
     Returns:
-        Shape (M,), from 0 to 1.
+        Shares from 0 to 1; shape (M,).
     """
     count = len(asked.rotations)
     targets = Poses(np.repeat(positions, count, axis=0), np.tile(asked.rotations, (len(positions), 1, 1)))

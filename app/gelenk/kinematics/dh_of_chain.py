@@ -1,4 +1,4 @@
-"""The DH table of a chain as a person can read it: axes nearly parallel taken as parallel where that costs little."""
+"""A readable DH table of a chain: nearly parallel axes become parallel where the error stays small."""
 
 from gelenk.kinematics.certify import Certificate, certify_table
 from gelenk.kinematics.comparison.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE
@@ -13,20 +13,20 @@ _LIMITS = f"{POSITION_TOLERANCE:g} m and {ORIENTATION_TOLERANCE:g} rad"
 def dh_of_chain(
     robot: Robot, chain: Chain, convention: Convention, snap_tolerance: float = 0.0
 ) -> tuple[DhTable, tuple[str, ...], Certificate]:
-    """The table of a chain, notes on what was chosen, and how far it is from the chain.
+    """Compute the DH table of a chain, notes on the choices made, and a certificate of its errors.
 
-    The most tilted axes come out again as they are until the rest, taken as parallel, cost little.
+    The most tilted pairs of axes are kept exact, one after another, until treating the rest as parallel costs little.
 
     Args:
         robot: The robot.
-        chain: Of this robot.
+        chain: A chain of this robot.
         convention: Standard or modified.
-        snap_tolerance: As `dh_from_chain` has it.
+        snap_tolerance: See `dh_from_chain`.
 
     Raises:
-        InvalidField: As `dh_from_chain` does.
+        InvalidField: See `dh_from_chain`.
     """
-    parallel_below = ORIENTATION_TOLERANCE  # what is tilted by more costs more
+    parallel_below = ORIENTATION_TOLERANCE  # a larger tilt causes a larger error
     while True:
         found = dh_from_chain(robot.description, chain, convention, snap_tolerance, parallel_below)
         exact = snap_tolerance == 0.0 and not found.rounded
@@ -41,7 +41,7 @@ def _is_small(cost: Certificate) -> bool:
 
 
 def _notes(found: ChainTable, certificate: Certificate) -> list[str]:
-    """Which lengths are large, and which axes were taken as parallel lest there be more of them."""
+    """Notes on large lengths, and on axes treated as parallel to avoid more of them."""
     notes = []
     longest = max(abs(length) for row in found.table.joints for length in (row.a, row.d))
     if longest > FAR * found.reach and found.far:

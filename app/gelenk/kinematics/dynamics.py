@@ -1,7 +1,7 @@
 """Dynamics of a chain: M(q) q̈ + C(q, q̇) q̇ + g(q) + Jᵀγ = τ, with γ the wrench that the tip exerts on its surroundings.
 
-The terms are Pinocchio's; each answer is compared with the Lagrangian's sums over the bodies (`bodies`), which share
-nothing with it but the checked description, and a forward dynamics is led back by an inverse one.
+The terms are Pinocchio's. Each result is compared with the Lagrangian's sums over the bodies (`bodies`), which share
+only the checked description with it, and inverse dynamics must give back the torques of forward dynamics.
 """
 
 from collections.abc import Callable, Collection
@@ -25,7 +25,7 @@ TERMS: tuple[Term, ...] = ("mass_matrix", "coriolis_matrix", "coriolis_torques",
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Dynamics:
-    """The requested terms at N configurations; None for others.
+    """The requested terms at N configurations; the others are None.
 
     Attributes:
         mass_matrices: M; shape (N, n, n).
@@ -33,11 +33,11 @@ class Dynamics:
         coriolis_torques: C q̇; shape (N, n), [N m or N].
         gravity_torques: g; shape (N, n), [N m or N].
         kinetic_energies: T; shape (N,), [J].
-        potential_energies: U, zero where the centre of mass of what moves is level with the root; shape (N,), [J].
-        torques: By inverse dynamics; shape (N, n), [N m or N].
-        accelerations: By forward dynamics; shape (N, n), [rad/s² or m/s²].
-        is_definite: Whether M is positive definite, at the configurations that were recomputed.
-        certificate: How far the second way is from all of these.
+        potential_energies: U, zero where the moving bodies' centre of mass is level with the root; shape (N,), [J].
+        torques: τ by inverse dynamics; shape (N, n), [N m or N].
+        accelerations: q̈ by forward dynamics; shape (N, n), [rad/s² or m/s²].
+        is_definite: Whether M is positive definite at all recomputed configurations.
+        certificate: Differences from the second computation.
     """
 
     mass_matrices: Array | None
@@ -63,21 +63,21 @@ def dynamics(
     accelerations: Array | None = None,
     torques: Array | None = None,
 ) -> Dynamics:
-    """Terms of the equations of motion, and their solution for torques or for accelerations, certified.
+    """Compute and certify terms of the equations of motion, and solve them for torques or accelerations.
 
     Args:
-        robot: The robot; joints that the chain does not have are locked at zero.
+        robot: The robot; joints off the chain are locked at zero.
         chain: Base and tip.
-        state: How it moves.
-        terms: Which terms are wanted.
-        gravity: In the axes of the robot's root; shape (3,), [m/s²].
+        state: Configurations, velocities and the torques of the wrench at the tip.
+        terms: The requested terms.
+        gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²].
         load: A payload on the tip.
         accelerations: q̈, for inverse dynamics; shape (N, n), [rad/s² or m/s²].
         torques: τ, for forward dynamics; shape (N, n), [N m or N].
 
     Raises:
-        InvalidField: Forward dynamics where the mass matrix is singular.
-        CertificationFailed: The two ways differ by more than rounding.
+        InvalidField: The mass matrix is singular, so forward dynamics has no solution.
+        CertificationFailed: The two computations differ by more than rounding.
     """
     found = mechanism(robot, chain)
     by = PinocchioDynamics(found, gravity, load)
@@ -104,13 +104,13 @@ _ARRAYS = (
 
 
 class _Computation:
-    """Pinocchio's numbers for a batch."""
+    """Pinocchio's dynamics for a batch of states."""
 
     def __init__(self, found: Mechanism, state: State, by: PinocchioDynamics) -> None:
         self.found, self.state, self.by = found, state, by
 
     def terms(self, terms: Collection[Term]) -> dict[str, Array]:
-        """The requested terms, by the names of `Dynamics`."""
+        """Compute the requested terms, by their field names in `Dynamics`."""
         n, by = len(self.found.chain), self.by
         found: dict[str, Array] = {}
         if "mass_matrix" in terms:
@@ -129,18 +129,18 @@ class _Computation:
         return found
 
     def inverse(self, accelerations: Array) -> Array:
-        """τ of q̈; shape (N, n), [N m or N]."""
+        """Compute τ from q̈; shape (N, n), [N m or N]."""
         by = self.by
         return self._each(accelerations.shape[1:], by.inverse, self.state.qs, self.state.speeds, accelerations)
 
     def forward(self, torques: Array) -> Array:
-        """q̈ of τ; shape (N, n), [rad/s² or m/s²]."""
+        """Compute q̈ from τ; shape (N, n), [rad/s² or m/s²]."""
         by, state = self.by, self.state
         Ms = self._each((torques.shape[1],) * 2, by.mass_matrix, state.qs)
         self._refuse_singular(Ms)
         if not by.has_followers:
             return self._each(torques.shape[1:], by.forward, state.qs, state.speeds, torques)
-        # A joint that follows another bears a torque of constraint, which the articulated bodies do not know.
+        # A mimic joint carries a constraint torque, which the articulated body algorithm ignores.
         bias = self.inverse(np.zeros_like(torques))
         scales = unit_scales(Ms)
         accelerations: Array = (
@@ -149,7 +149,7 @@ class _Computation:
         return accelerations
 
     def _each(self, shape: tuple[int, ...], term: Callable[..., Array | tuple[float, float]], *rows: Array) -> Array:
-        """A term at each configuration; zeros for a chain without joints."""
+        """Evaluate a term at each configuration; zeros for a chain without joints."""
         values = np.zeros((len(self.state.qs), *shape))
         if len(self.found.chain):
             for k, row in enumerate(zip(*rows, strict=True)):
@@ -157,10 +157,10 @@ class _Computation:
         return values
 
     def _refuse_singular(self, Ms: Array) -> None:
-        """Refuse forward dynamics where some motion needs no torque.
+        """Refuse forward dynamics if some motion needs no torque.
 
         Raises:
-            InvalidField: With the joints that take part in it, and the links without mass.
+            InvalidField: A mass matrix is singular; names the joints involved, and the links without mass.
         """
         values, vectors = np.linalg.eigh(scaled(Ms, unit_scales(Ms)))
         if not values.size:
@@ -189,7 +189,7 @@ def _certify(
     torques: Array | None,
     seed: int = 0,
 ) -> tuple[DynamicsCertificate, bool]:
-    """Compare with the sums over the bodies; also whether M is positive definite."""
+    """Compare with the sums over the bodies; also return whether M is positive definite."""
     found, state = made.found, made.state
     rows = sampled_rows(len(state.qs) if len(found.chain) else 0, seed)
     if not rows:

@@ -1,4 +1,4 @@
-"""Forward kinematics: where the tip is, and every frame that the chain moves."""
+"""Forward kinematics: poses of the tip and of every frame that the chain moves."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,9 +18,9 @@ class ForwardKinematics:
     """Poses at N configurations, in the chain's base frame.
 
     Attributes:
-        poses: T_base_tip, N of them.
-        frames: T_base_frame of each requested frame, N of them each.
-        certificate: How far Pinocchio's are from all of these.
+        poses: N poses T_base_tip.
+        frames: N poses T_base_frame of each requested frame, by its name.
+        certificate: Largest differences of all these from Pinocchio's poses.
     """
 
     poses: Poses
@@ -29,18 +29,18 @@ class ForwardKinematics:
 
 
 def forward_kinematics(robot: Robot, chain: Chain, qs: Array, frames: Sequence[str] = ()) -> ForwardKinematics:
-    """Poses of the tip, and of other frames on the chain, certified.
+    """Compute and certify poses of the tip, and of other frames on the chain.
 
     Args:
         robot: The robot.
         chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
-        frames: Other frames whose poses are wanted.
+        frames: Names of other frames whose poses are requested.
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        FrameNotOnChain: A frame also moves with joints that the chain does not have.
-        CertificationFailed: Pinocchio's poses differ.
+        FrameNotOnChain: A frame also moves with joints off the chain.
+        CertificationFailed: Pinocchio's poses differ by more than rounding.
     """
     poses = Poses(*chain_poses(chain.flat, qs))
     others = {}

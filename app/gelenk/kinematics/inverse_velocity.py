@@ -1,4 +1,4 @@
-"""Joint velocities that give the tip a twist; joint accelerations and jerks that give it an acceleration or a jerk.
+"""Joint velocities, accelerations and jerks that give the tip a desired twist, acceleration or jerk.
 
 The twist is linear in q̇, the acceleration in q̈ and the jerk in q⃛, with the same J: q̇ = J# v, q̈ = J#(r̈ - J̇ q̇) and
 q⃛ = J#(r⃛ - 2 J̇ q̈ - J̈ q̇), where J# is one of the inverses of `linear_inverse`.
@@ -23,14 +23,14 @@ from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
 
 _SLACK = 1e-9
-"""How far beyond a limit counts as at it, relatively."""
+"""Relative excess over a velocity limit that is tolerated."""
 _EDGE = 0.05
-"""Share of a joint's range from which on the objective of the limits pushes no harder."""
+"""Distance from a limit, as a share of the joint's range, within which the limit objective pushes no harder."""
 
 
 @dataclass(frozen=True, slots=True)
 class Exceeded:
-    """A joint that is faster than it may be; velocities in [rad/s or m/s]."""
+    """A joint that exceeds its velocity limit; velocities in [rad/s or m/s]."""
 
     joint: str
     velocity: float
@@ -40,13 +40,13 @@ class Exceeded:
 
 @dataclass(frozen=True, slots=True)
 class InverseMotion:
-    """The highest of the joints' derivatives at N configurations, and what the tip does with it.
+    """The next derivative of q at N configurations, and the tip's resulting motion.
 
     Attributes:
-        inversion: Solutions, with what became of each equation.
-        residuals: Requested motion minus the tip's, in the directions that count; shape (N, k), [m/s, rad/s],
-            or by s² or s³; through Pinocchio.
-        motion: What the tip does, in the chosen reference.
+        inversion: Solutions, and the outcome of each equation.
+        residuals: Requested motion minus the tip's certified motion, in the directions that count; shape (N, k),
+            [m/sᵏ, rad/sᵏ].
+        motion: The tip's motion in the chosen reference.
     """
 
     inversion: Inversion
@@ -65,21 +65,20 @@ def inverse_motion(
     space: TaskSpace = FULL_SPACE,
     null_motion: Array | None = None,
 ) -> InverseMotion:
-    """The next derivative of q for a twist (no rates given), an acceleration (q̇ given) or a jerk (q̇ and q̈ given).
+    """Solve for the next derivative of q: q̇ (no rates given), q̈ (q̇ given) or q⃛ (q̇ and q̈ given).
 
     Args:
         robot: The robot.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
-        rates: q̇, q̈ as far as they are known; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
-        targets: What the tip is to do in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].
-        rule: Which inverse.
-        space: The rows of the Jacobian that count, their reference, of targets too, and the length that makes radians
-            metres.
-        null_motion: ξ, whose part in ker J is added; shape (N, n).
+        rates: The known rates, none, q̇, or q̇ and q̈; shape (K, N, n), K from 0 to 2, [rad/sᵏ or m/sᵏ].
+        targets: Desired twist, acceleration or jerk in the directions that count; shape (N, k), [m/sᵏ, rad/sᵏ].
+        rule: The kind of inverse.
+        space: The rows of the Jacobian that count, the reference of rows and targets, and the characteristic length.
+        null_motion: ξ, whose component in ker J is added; shape (N, n).
 
     Raises:
-        CertificationFailed: Pinocchio's tip moves otherwise.
+        CertificationFailed: The tip's motion differs from Pinocchio's.
     """
     found = jacobians(robot, chain, qs, reference=space.reference)
     asked = targets
@@ -96,12 +95,12 @@ def inverse_motion(
 
 
 def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: TaskSpace) -> Array:
-    """Joint velocities ξ = -gain · gradient of an objective; shape (N, n), [rad/s or m/s].
+    """Compute joint velocities ξ = -gain · gradient of an objective; shape (N, n), [rad/s or m/s].
 
-    Away from the limits no faster than a twentieth of the range before them.
+    For `limits` the gradient within a twentieth of the range from a limit is that at this distance.
 
-    Of `manipulability`, the logarithm of the measure √det JJᵀ of the directions that count, the derivative by q_j is
-    Σ (J#)_ik ∂J_ki/∂q_j, which no scale of J's rows changes.
+    For `manipulability`, the logarithm of the measure √det JJᵀ over the directions that count, the velocities follow
+    the ascent; the derivative by q_j is Σ (J#)_ik ∂J_ki/∂q_j, independent of any scaling of J's rows.
     """
     if objective.name == "manipulability":
         Js, terms = jacobians_with_terms(chain, qs, space.reference)
@@ -112,7 +111,7 @@ def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: T
         Hs = hessians_in_reference(chain, qs, space.reference)[:, space.rows]
         climb: Array = np.einsum("bik,bkij->bj", inverses, Hs)
         return gain * climb
-    # The other objectives look at the joints alone. That of the limits grows beyond all bounds towards them.
+    # The other objectives depend on the joints alone. The limit objective is unbounded near the limits.
     if objective.name == "limits":
         edges = _EDGE * (chain.upper - chain.lower)
         limited = np.isfinite(edges)
@@ -123,10 +122,10 @@ def descent(chain: Chain, qs: Array, objective: Objective, gain: float, space: T
 
 
 def velocity_limits(robot: Robot, chain: Chain) -> Array:
-    """The largest speed of each variable of a chain that its own joint and those that mimic it on the way allow.
+    """Return the largest speed of each variable that its own joint and the chain's joints mimicking it allow.
 
     Returns:
-        Shape (n,), [rad/s or m/s]; inf where the description says nothing.
+        Shape (n,), [rad/s or m/s]; inf where the description gives no limit.
     """
     description = robot.description
     own = [description.joint[name].limits.velocity for name in chain.joint_names]
@@ -139,7 +138,7 @@ def velocity_limits(robot: Robot, chain: Chain) -> Array:
 
 
 def exceeded(chain: Chain, speeds: Array, limits: Array) -> list[Exceeded]:
-    """The joints of one configuration that are faster than they may be; speeds of shape (n,), [rad/s or m/s]."""
+    """Return the joints of one configuration that exceed their limits; speeds of shape (n,), [rad/s or m/s]."""
     return [
         Exceeded(chain.joint_names[i], float(speeds[i]), float(limits[i]), float(abs(speeds[i]) / limits[i]))
         for i in np.flatnonzero(np.abs(speeds) > limits * (1.0 + _SLACK))
@@ -147,14 +146,14 @@ def exceeded(chain: Chain, speeds: Array, limits: Array) -> list[Exceeded]:
 
 
 def _bias_in_reference(chain: Chain, qs: Array, rates: Array, poses: Poses, reference: Reference) -> Array:
-    """The part of the tip's next derivative that the known rates alone make; shape (N, 6)."""
+    """Part of the tip's next derivative that comes from the known rates alone; shape (N, 6)."""
     padded = np.concatenate((rates, np.zeros((1, *qs.shape))))
     derivatives = product_rule(jacobian_derivatives(chain, qs, rates), padded)
     return in_reference(poses, derivatives, reference)[-1]
 
 
 def _demand_same(certified: Array, computed: Array, scales: Array, targets: Array) -> None:
-    """Refuse residuals that are not those of the equation that was solved; scales of shape (N,)."""
+    """Refuse certified residuals that differ from those of the equation solved; scales of shape (N,)."""
     sizes = np.maximum(1.0, scales + np.abs(targets).max(axis=1, initial=0.0))
     worst = float((np.abs(certified - computed).max(axis=1, initial=0.0) / sizes).max(initial=0.0))
     if not worst <= TOLERANCE:

@@ -1,6 +1,6 @@
-"""The Jacobian of a chain: three reference frames, geometric or analytic, with its derivatives.
+"""Jacobians of a chain in three reference frames, geometric or analytic, with their derivatives.
 
-The kernels give the course's geometric Jacobian (base axes, at the tip) and ∂J/∂q of it; everything else follows
+The kernels give the course's geometric Jacobian (base axes, at the tip) and its ∂J/∂q; everything else follows
 from these two by the product rule. J̇ = Σ_j ∂J/∂q_j q̇_j throughout.
 """
 
@@ -22,18 +22,18 @@ Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]
 Representation: TypeAlias = Literal["geometric", "zyz", "rpy"]
 
 REPRESENTATION_TOLERANCE = 1e-6
-"""|sin θ| (ZYZ) or |cos pitch| (RPY) below which Euler rates are refused: there they lose half of the digits."""
+"""|sin θ| (ZYZ) or |cos pitch| (RPY) below which Euler rates are refused: they would lose half of their digits."""
 
 
 @dataclass(frozen=True, slots=True)
 class Jacobians:
-    """Jacobians at N configurations, rows linear before angular, one column a variable of the chain.
+    """Jacobians at N configurations, linear rows before angular, one column per variable of the chain.
 
     Attributes:
         poses: T_base_tip.
         values: J; shape (N, 6, n), [m or rad per rad or m].
-        hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n), if requested.
-        certificate: How far Pinocchio's geometric Jacobian and its time variation are from these.
+        hessians: H[:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n). None if not requested.
+        certificate: Largest differences from Pinocchio's Jacobian and its time variation.
     """
 
     poses: Poses
@@ -42,7 +42,7 @@ class Jacobians:
     certificate: JacobianCertificate
 
     def time_variations(self, velocities: Array) -> Array:
-        """J̇ at joint velocities of shape (N, n), [rad/s or m/s]; shape (N, 6, n). Needs the Hessians."""
+        """Compute J̇ at joint velocities (N, n), [rad/s or m/s]; shape (N, 6, n). Needs the Hessians."""
         if self.hessians is None:
             raise ValueError("time variation needs the Hessians")
         variations: Array = np.einsum("bkij,bj->bki", self.hessians, velocities)
@@ -58,21 +58,21 @@ def jacobians(
     representation: Representation = "geometric",
     derivatives: bool = False,
 ) -> Jacobians:
-    """Jacobians of a chain, certified.
+    """Compute and certify Jacobians of a chain.
 
     Args:
         robot: The robot.
         chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         reference: `local_world_aligned`: base axes, at the tip (the course's). `local`: tip axes, at the tip.
-            `world`: base axes, of the point of the tip's body that passes the base origin (the spatial twist).
+            `world`: base axes, at the point of the tip's body that coincides with the base origin (the spatial twist).
         representation: `geometric`: angular rows give ω. `zyz`, `rpy`: they give the rates of these angles, which
             are the same in every reference frame; the linear rows are those of `local_world_aligned`.
-        derivatives: Whether the Hessians are wanted too.
+        derivatives: Whether to compute the Hessians too.
 
     Raises:
-        RepresentationSingularity: Euler rates where they do not exist.
-        CertificationFailed: Pinocchio's differ.
+        RepresentationSingularity: The Euler rates do not exist at a configuration.
+        CertificationFailed: Pinocchio's Jacobians differ by more than rounding.
     """
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     Hs = chain_hessians(chain.flat, qs) if derivatives else None
@@ -90,12 +90,12 @@ def jacobians(
 
 
 def singular_values(Js: Array) -> Array:
-    """σ of each Jacobian, largest first; shape (N, 6, n) → (N, min(6, n)). Metres and radians are mixed."""
+    """Return σ of each Jacobian, largest first; shape (N, 6, n) → (N, min(6, n)). Metres and radians are mixed."""
     return cast(Array, np.linalg.svd(Js, compute_uv=False))
 
 
 def ranks(sigmas: Array, tolerance: float) -> Indices:
-    """Number of singular values above `tolerance` times the largest; shape (N, k) → (N,)."""
+    """Count the singular values above `tolerance` times the largest; shape (N, k) → (N,)."""
     if sigmas.shape[1] == 0:
         return np.zeros(len(sigmas), dtype=np.int64)
     counts: Indices = np.sum((sigmas > tolerance * sigmas[:, :1]) & (sigmas > 0.0), axis=1)
@@ -103,7 +103,7 @@ def ranks(sigmas: Array, tolerance: float) -> Indices:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """Cross product along axis 1 of arrays that broadcast otherwise."""
+    """Cross product along axis 1; the other axes broadcast."""
     return np.stack(
         (
             a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
@@ -170,7 +170,7 @@ def _zyz_rates(rotations: Array) -> tuple[Array, Array]:
 
 
 def _rpy_rates(rotations: Array) -> tuple[Array, Array]:
-    """E(roll, pitch, yaw) and its derivatives, shapes as of `_zyz_rates`."""
+    """E(roll, pitch, yaw) and its derivatives; shapes as in `_zyz_rates`."""
     _, pitch, yaw = rpy_from_rotations(np.ascontiguousarray(rotations)).T
     _refuse_singular("rpy", "pitch", pitch, np.cos(pitch))
     cp, sp, cy, sy = np.cos(pitch), np.sin(pitch), np.cos(yaw), np.sin(yaw)
@@ -182,7 +182,7 @@ def _rpy_rates(rotations: Array) -> tuple[Array, Array]:
 
 
 def _matrices(rows: list[list[Array]]) -> Array:
-    """Entries of shape (N,) each → matrices of shape (N, 3, 3)."""
+    """Stack entries of shape (N,) into matrices of shape (N, 3, 3)."""
     return np.moveaxis(np.array(rows), -1, 0)
 
 

@@ -1,8 +1,8 @@
-"""Compiled batches over the flat arrays of a chain; eight configurations at a time, released from the GIL.
+"""Compiled batches over the flat arrays of a chain; eight configurations at a time, without the GIL.
 
 Each function walks the chain once: constant placement, then the joint about or along local z. The eight configurations
-stand side by side in vector registers (`lanes`), whatever the number and the types of the joints; the last group of a
-batch repeats its last row. Nothing here knows Pinocchio, which makes the two honest judges of each other.
+lie side by side in vector registers (`lanes`), for any number and type of joints; the last group of a batch is padded
+with its last row. Nothing here uses Pinocchio, so each is an independent check of the other.
 """
 
 from typing import TypeAlias
@@ -15,15 +15,15 @@ from gelenk.model.chain import FlatChain
 from gelenk.model.compilation import compiled, inlined, unmanaged
 
 Frame: TypeAlias = tuple[Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes, Lanes]
-"""Poses in registers: rotation row by row, then position."""
+"""Eight poses in registers: rotation row by row, then position."""
 
 COLUMN = 6
-"""Rows of the work array that a joint's column takes."""
+"""Rows of the work array per column of the Jacobian."""
 
 
 @compiled
 def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
-    """T_base_tip of each configuration.
+    """Compute T_base_tip at each configuration.
 
     Args:
         flat: The chain.
@@ -48,7 +48,7 @@ def chain_poses(flat: FlatChain, qs: Array) -> tuple[Array, Array]:
 
 @compiled
 def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
-    """T_base_tip and the geometric Jacobian, in the base frame and at the tip, one column a variable.
+    """Compute T_base_tip and the geometric Jacobian, in the base frame and at the tip, one column per variable.
 
     Args:
         flat: The chain.
@@ -76,15 +76,15 @@ def chain_jacobians(flat: FlatChain, qs: Array) -> tuple[Array, Array, Array]:
 
 @compiled
 def chain_measures(flat: FlatChain, qs: Array, rows: Indices) -> tuple[Array, Array, Array]:
-    """T_base_tip and Yoshikawa's measure of some rows of the geometric Jacobian [Yoshikawa1985].
+    """Compute T_base_tip and Yoshikawa's measure of some rows of the geometric Jacobian [Yoshikawa1985].
 
-    The measure is the product of the singular values, here of the lengths that are left of the rows (of the columns
-    where there are fewer of these) when each is made square to those before it.
+    The measure is the product of the singular values. Here it is computed as the product of the lengths that
+    Gram-Schmidt orthogonalisation leaves of the rows (or of the columns, if fewer).
 
     Args:
         flat: The chain.
         qs: Configurations; shape (N, n), [rad or m].
-        rows: Which rows count, such as 0, 1, 2 for the translation; shape (k,).
+        rows: Indices of the rows that count, such as 0, 1, 2 for translation; shape (k,).
 
     Returns:
         Positions, shape (N, 3), [m]; rotations, shape (N, 3, 3); measures, shape (N,).
@@ -106,7 +106,7 @@ def chain_measures(flat: FlatChain, qs: Array, rows: Indices) -> tuple[Array, Ar
 
 @unmanaged
 def _measure(J: Array, n: int, rows: Indices) -> Lanes:
-    """The product of what is left of each row by Gram and Schmidt; `J`'s rows that count are spent."""
+    """Product of the lengths that Gram-Schmidt leaves of the rows (or columns, if fewer); overwrites those in `J`."""
     k = len(rows)
     few = n < k
     count, length = (n, k) if few else (k, n)
@@ -131,7 +131,7 @@ def _measure(J: Array, n: int, rows: Indices) -> Lanes:
 
 @inlined
 def _place(rows: Indices, i: int, m: int, few: bool) -> int:
-    """Where entry m of the i-th row, or column if there are fewer of these, stands among rows of lanes."""
+    """Row of lanes that holds entry m of the i-th row of J (of the i-th column if `few`)."""
     place: int = COLUMN * i + rows[m] if few else COLUMN * m + rows[i]
     return place
 
@@ -143,9 +143,9 @@ def _entry(J: Array, rows: Indices, i: int, m: int, few: bool) -> Lanes:
 
 @compiled
 def chain_hessians(flat: FlatChain, qs: Array) -> Array:
-    """∂J/∂q of the geometric Jacobian in the base frame at the tip, one index a variable.
+    """Compute ∂J/∂q of the geometric Jacobian in the base frame at the tip, by the variables.
 
-    With columns (v_i; w_i) in the order of the way: ∂w_i/∂q_j = w_j × w_i for j before i, else 0;
+    With columns (v_i; w_i) in order from base to tip: ∂w_i/∂q_j = w_j × w_i for j before i, else 0;
     ∂v_i/∂q_j = w_j × v_i for j up to i, w_i × v_j for j after it [Hourtash2005].
 
     Args:
@@ -170,7 +170,7 @@ def chain_hessians(flat: FlatChain, qs: Array) -> Array:
 
 @compiled
 def _add_hessian(flat: FlatChain, columns: Array, H: Array) -> None:
-    """Sum the derivatives of each joint's column by each joint into those by the variables; columns (m, 6)."""
+    """Add the derivatives of each joint's column by each joint to those of the variables; columns (m, 6)."""
     for i in range(len(columns)):
         for j in range(len(columns)):
             weight = flat.drives[i, 0] * flat.drives[j, 0]
@@ -188,19 +188,19 @@ def _add_hessian(flat: FlatChain, columns: Array, H: Array) -> None:
 
 @inlined
 def joint_columns(flat: FlatChain, work: Array, columns: Array) -> Frame:
-    """The tip's frame, and the Jacobian's column of each joint of the way, mimic ones apart.
+    """Return the tip's frame, and fill in one Jacobian column per joint, mimic joints separately.
 
-    The column is (z_i × (p - o_i); z_i) of a revolute joint and (z_i; 0) of a prismatic one; z_i is the joint's
+    The column is (z_i × (p - o_i); z_i) for a revolute joint and (z_i; 0) for a prismatic one; z_i is the joint's
     axis, o_i a point on it, p the tip.
 
     Args:
         flat: The chain.
-        work: The variables, a row of lanes each.
-        columns: Filled, `COLUMN` rows of lanes a joint.
+        work: The variables, one row of lanes each.
+        columns: Output, `COLUMN` rows of lanes per joint.
     """
     frame = first_frame(flat)
     for i in range(len(flat.joints)):
-        # The point on the axis waits in the linear part until the tip is known.
+        # The linear part holds the point on the axis until the tip is known.
         for k in range(3):
             store(columns, COLUMN * i + k, frame[9 + k])
             store(columns, COLUMN * i + 3 + k, frame[2 + 3 * k])
@@ -227,7 +227,7 @@ def joint_columns(flat: FlatChain, work: Array, columns: Array) -> Frame:
 
 @inlined
 def variable_columns(flat: FlatChain, columns: Array, J: Array) -> None:
-    """The columns of the joints summed into those of the variables that move them, `COLUMN` rows of lanes each."""
+    """Sum the columns of the joints into those of their variables in `J`, `COLUMN` rows of lanes each."""
     J[:] = 0.0
     for i in range(len(flat.joints)):
         row = COLUMN * flat.joints[i, 1]
@@ -237,7 +237,7 @@ def variable_columns(flat: FlatChain, columns: Array, J: Array) -> None:
 
 @inlined
 def gather_rows(qs: Array, first: int, work: Array) -> None:
-    """The configurations from row `first` on, side by side: a row of lanes a variable."""
+    """Copy eight configurations from row `first` on into `work`: one row of lanes per variable."""
     last = len(qs) - 1
     for lane in range(LANES):
         row = min(first + lane, last)
@@ -247,7 +247,7 @@ def gather_rows(qs: Array, first: int, work: Array) -> None:
 
 @inlined
 def first_frame(flat: FlatChain) -> Frame:
-    """The placement before the first joint."""
+    """Return the placement before the first joint."""
     A = flat.placements[0]
     return (
         lanes(A[0]), lanes(A[1]), lanes(A[2]), lanes(A[3]), lanes(A[4]), lanes(A[5]),
@@ -257,7 +257,7 @@ def first_frame(flat: FlatChain) -> Frame:
 
 @inlined
 def moved(frame: Frame, prismatic: int, value: Lanes) -> Frame:
-    """A frame slid along its own z by `value` [m], or turned about it by `value` [rad]."""
+    """Translate a frame along its own z by `value` [m], or rotate it about z by `value` [rad]."""
     r00, r01, r02, r10, r11, r12, r20, r21, r22, p0, p1, p2 = frame
     if prismatic:
         return (
@@ -275,7 +275,7 @@ def moved(frame: Frame, prismatic: int, value: Lanes) -> Frame:
 
 @inlined
 def placed(frame: Frame, flat: FlatChain, i: int) -> Frame:
-    """A frame followed by the constant placement i."""
+    """Multiply a frame by the constant placement i."""
     r00, r01, r02, r10, r11, r12, r20, r21, r22, p0, p1, p2 = frame
     A = flat.placements[i]
     a00, a01, a02, a10, a11, a12, a20, a21, a22 = A[0], A[1], A[2], A[3], A[4], A[5], A[6], A[7], A[8]
@@ -290,12 +290,12 @@ def placed(frame: Frame, flat: FlatChain, i: int) -> Frame:
 
 _TURNS = 0.6366197723675814
 _QUARTER_1, _QUARTER_2, _QUARTER_3 = 1.5707962512969971, 7.549789415861596e-08, 5.390302858158119e-15
-"""π/2 in three parts, the first two short enough that their products with a whole number are exact [Cody1980]."""
+"""π/2 in three parts, the first two short enough that their products with an integer are exact [Cody1980]."""
 
 
 @inlined
 def cosine_sine(angle: Lanes) -> tuple[Lanes, Lanes]:
-    """Cosine and sine, within 2e-16 (and 1e-16 times the magnitude) up to 1e6 rad, by short polynomials on ±π/4.
+    """Compute cosine and sine by short polynomials on ±π/4, within 2e-16 + 1e-16 |angle| up to 1e6 rad.
 
     The coefficients are those of Moshier's Cephes library.
     """
@@ -318,14 +318,14 @@ def cosine_sine(angle: Lanes) -> tuple[Lanes, Lanes]:
 
 @inlined
 def store_frame(frame: Frame, rows: Array) -> None:
-    """A frame into twelve rows of lanes."""
+    """Store a frame in twelve rows of lanes."""
     for k in range(12):
         store(rows, k, frame[k])
 
 
 @inlined
 def _scatter_pose(pose: Array, lane: int, position: Array, rotation: Array) -> None:
-    """Write one lane's frame into a row of the results."""
+    """Copy one lane's frame into a row of the results."""
     for j in range(3):
         position[j] = pose[(9 + j) * LANES + lane]
         for k in range(3):

@@ -1,4 +1,4 @@
-"""The equations of motion as the Lagrangian's sums over the bodies: what judges the numbers of `dynamics`."""
+"""The equations of motion as the Lagrangian's sums over the bodies, which check the results of `dynamics`."""
 
 from dataclasses import dataclass
 
@@ -9,20 +9,20 @@ from gelenk.kinematics.certify import agreed
 from gelenk.model.arrays import Array
 
 SINGULAR = 1e-12
-"""Smallest eigenvalue of M, scaled to a diagonal of ones, below which it counts as singular: units play no part in it,
-and an acceleration would be left with fewer than four digits."""
+"""Smallest eigenvalue at or below which M counts as singular, once scaled to a unit diagonal: the scaling removes the
+units, and accelerations would keep fewer than four digits."""
 _ROUNDING = 1e-14
-"""What of the largest entry of M on the diagonal may be rounding in a smaller one."""
+"""A diagonal entry of M below this share of the largest is rounding."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class State:
-    """How a chain moves at N configurations.
+    """N states of a chain, with the load of the wrench at its tip.
 
     Attributes:
         qs: Configurations; shape (N, n), [rad or m].
         speeds: q̇; shape (N, n), [rad/s or m/s].
-        held: Jᵀγ, torques that the wrench at the tip takes; shape (N, n), [N m or N].
+        held: Jᵀγ, the torques that the wrench at the tip requires; shape (N, n), [N m or N].
     """
 
     qs: Array
@@ -32,19 +32,18 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class DynamicsCertificate:
-    """How good an answer is: Pinocchio's numbers against sums over the bodies; None where not requested.
+    """Largest differences between Pinocchio's dynamics and sums over the bodies; None where not requested.
 
     Attributes:
-        samples: Configurations that were recomputed.
-        max_mass_error: Of an entry of M.
-        max_coriolis_error: Of C q̇, [N m or N].
-        max_skew_error: Of an entry of C + Cᵀ - Ṁ, which is zero where Ṁ - 2C is skew.
-        max_gravity_error: Of g, [N m or N].
-        max_energy_error: Of T and U, [J].
-        max_torque_error: Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].
-        max_round_trip_error: Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m
-            or N].
-        seed: Of the choice of samples.
+        samples: Number of configurations recomputed.
+        max_mass_error: Error in an entry of M.
+        max_coriolis_error: Error in C q̇, [N m or N].
+        max_skew_error: Error in an entry of C + Cᵀ - Ṁ, which is zero if Ṁ - 2C is skew.
+        max_gravity_error: Error in g, [N m or N].
+        max_energy_error: Error in T or U, [J].
+        max_torque_error: Residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].
+        max_round_trip_error: Error in the torques of inverse after forward dynamics, [N m or N].
+        seed: Seed of the sample selection.
     """
 
     samples: int
@@ -59,7 +58,7 @@ class DynamicsCertificate:
 
 
 def unit_scales(Ms: Array) -> Array:
-    """Roots of the diagonals of mass matrices, zero where that is rounding; shape (N, n, n) → (N, n)."""
+    """Return the square roots of M's diagonal, zero where an entry is rounding; shape (N, n, n) → (N, n)."""
     diagonals = np.diagonal(Ms, axis1=1, axis2=2)
     least = _ROUNDING * diagonals.max(axis=1, initial=0.0, keepdims=True)
     scales: Array = np.sqrt(np.where(diagonals > least, diagonals, 0.0))
@@ -67,21 +66,22 @@ def unit_scales(Ms: Array) -> Array:
 
 
 def scaled(Ms: Array, scales: Array) -> Array:
-    """M with rows and columns divided by scales, zero where these are; shapes (N, n, n), (N, n)."""
+    """Divide rows and columns of M by scales, with zero where a scale is zero; shapes (N, n, n), (N, n)."""
     inverses = np.divide(1.0, scales, out=np.zeros_like(scales), where=scales > 0.0)
     quotient: Array = Ms * inverses[:, :, None] * inverses[:, None, :]
     return quotient
 
 
 class Lagrangian:
-    """The terms of the equations of motion, and how far others are from them: None where there are no others.
+    """The equations of motion by sums over bodies, with comparisons of other results.
 
-    Each comparison raises CertificationFailed where the two differ by more than rounding.
+    A comparison returns None if the other result is None, and raises CertificationFailed if the two differ by more than
+    rounding.
 
     Args:
         moving: The bodies.
-        state: How they move.
-        gravity: In the root's axes; shape (3,), [m/s²].
+        state: The states of the chain.
+        gravity: Gravity in the root's axes; shape (3,), [m/s²].
     """
 
     def __init__(self, moving: Motions, state: State, gravity: Array) -> None:
@@ -95,37 +95,37 @@ class Lagrangian:
         self._gravity_scale = moving.gravity_scale(gravity)
 
     def is_definite(self) -> bool:
-        """Whether all M are positive definite beyond rounding."""
+        """Return whether all M are positive definite beyond rounding."""
         values = np.linalg.eigvalsh(scaled(self._Ms, unit_scales(self._Ms)))
         return bool((values[:, 0] > SINGULAR).all())
 
     def scale(self, accelerations: Array) -> float:
-        """The largest term of M q̈ + C q̇ + g + Jᵀγ."""
+        """Return the largest term of M q̈ + C q̇ + g + Jᵀγ, [N m or N]."""
         by_mass = (np.abs(self._Ms) @ np.abs(accelerations)[..., None]).max(initial=0.0)
         held = np.abs(self._state.held).max(initial=0.0)
         return max(float(by_mass), float(held), self._bias_scale, self._gravity_scale)
 
     def mass_error(self, Ms: Array | None) -> float | None:
-        """Largest error of an entry of M."""
+        """Return the largest error in an entry of M."""
         return None if Ms is None else agreed("the mass matrix", Ms - self._Ms, self._mass_scale)
 
     def coriolis_error(self, torques: Array | None) -> float | None:
-        """Largest error of C q̇, [N m or N]."""
+        """Return the largest error in C q̇, [N m or N]."""
         return None if torques is None else agreed("a Coriolis torque", torques - self._by_speed, self._bias_scale)
 
     def skew_error(self, Cs: Array | None) -> float | None:
-        """Largest error of an entry of C + Cᵀ - Ṁ."""
+        """Return the largest entry of C + Cᵀ - Ṁ."""
         if Cs is None:
             return None
         M_dots = self._Ss + self._Ss.swapaxes(1, 2)
         return agreed("the mass matrix's derivative", Cs + Cs.swapaxes(1, 2) - M_dots, self._speed_scale)
 
     def gravity_error(self, torques: Array | None) -> float | None:
-        """Largest error of g, [N m or N]."""
+        """Return the largest error in g, [N m or N]."""
         return None if torques is None else agreed("a gravity torque", torques - self._by_gravity, self._gravity_scale)
 
     def energy_error(self, kinetic: Array | None, potential: Array | None) -> float | None:
-        """Largest error of T and U, [J]."""
+        """Return the largest error in T or U, [J]."""
         if kinetic is None or potential is None:
             return None
         speeds = self._state.speeds
@@ -136,7 +136,7 @@ class Lagrangian:
         return max(error, agreed("the potential energy", potential - expected, float(weights)))
 
     def torque_error(self, accelerations: Array, torques: Array) -> float:
-        """Largest error of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
+        """Return the largest residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
         by_mass = (self._Ms @ accelerations[..., None])[..., 0]
         expected = by_mass + self._by_speed + self._by_gravity + self._state.held
         return agreed("a torque", torques - expected, self.scale(accelerations))

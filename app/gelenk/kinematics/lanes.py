@@ -1,9 +1,9 @@
-"""Eight numbers side by side in one vector register, as a numba type of their own.
+"""A numba type that holds eight numbers side by side in one vector register.
 
-A compiled function that is written for one number (`frame` products, polynomials, factorisations) works on `Lanes`
-as it stands: the operators are the machine's vector instructions. So one source serves one configuration and eight,
-for any number of joints, and nothing depends on whether a compiler recognises a loop. Where the processor has shorter
-registers LLVM splits the operations. `Lanes` live inside compiled functions only; a comparison gives a `Mask`.
+A compiled function written for one number (`frame` products, polynomials, factorisations) works on `Lanes` unchanged:
+the operators are the machine's vector instructions. So one source serves one configuration and eight, for any number
+of joints, and does not rely on the compiler to vectorise loops. On processors with shorter registers LLVM splits the
+operations. `Lanes` exist only inside compiled functions; a comparison gives a `Mask`.
 """
 
 import operator
@@ -17,24 +17,24 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import intrinsic, models, register_model
 
 Lanes: TypeAlias = Any
-"""Eight doubles; what it is to a reader of signatures, the compiler has a type of its own."""
+"""Eight doubles, for annotations only: the compiler uses `LanesType`."""
 
 LANES = 8
-"""How many numbers a register holds: AVX-512's count."""
+"""Number of doubles per register, as in AVX-512."""
 
 _DOUBLES = ir.VectorType(ir.DoubleType(), LANES)
 _BOOLS = ir.VectorType(ir.IntType(1), LANES)
 
 
 class LanesType(types.Type):
-    """Eight doubles."""
+    """Numba type of eight doubles."""
 
     def __init__(self) -> None:
         super().__init__(name="Lanes")
 
 
 class MaskType(types.Type):
-    """Eight truth values."""
+    """Numba type of eight truth values."""
 
     def __init__(self) -> None:
         super().__init__(name="Mask")
@@ -56,12 +56,12 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def _compiled_call(emitter: Callable[..., Any]) -> Any:
-    """A function of compiled code, by what types it takes and the instructions it stands for; Any to a type checker."""
+    """Turn an emitter of LLVM instructions into a function for compiled code; Any to a type checker."""
     return intrinsic(emitter)
 
 
 def _splat(builder: ir.IRBuilder, scalar: ir.Value) -> ir.Value:
-    """The same number in every lane."""
+    """Copy one number to every lane."""
     vector = builder.insert_element(ir.Constant(_DOUBLES, ir.Undefined), scalar, ir.Constant(ir.IntType(32), 0))
     zeros = ir.Constant(ir.VectorType(ir.IntType(32), LANES), [0] * LANES)
     return builder.shuffle_vector(vector, ir.Constant(_DOUBLES, ir.Undefined), zeros)
@@ -76,7 +76,7 @@ def _as_lanes(context: Any, builder: ir.IRBuilder, type_: Any, value: ir.Value) 
 
 
 def _binary(function: Callable[..., Any], result: Any, emit: Callable[[ir.IRBuilder, Any, Any], Any]) -> None:
-    """An operator on lanes and lanes, or lanes and a number."""
+    """Define an operator on two lanes, or on lanes and a number."""
 
     class Template(AbstractTemplate):
         key = function
@@ -145,7 +145,7 @@ _mask_operator(operator.or_, lambda builder, a, b: builder.or_(a, b))
 
 
 def _call(builder: ir.IRBuilder, name: str, *values: ir.Value) -> ir.Value:
-    """An LLVM intrinsic on vectors."""
+    """Call an LLVM intrinsic on vectors."""
     function_type = ir.FunctionType(_DOUBLES, [_DOUBLES] * len(values))
     module = builder.module
     full = f"llvm.{name}.v{LANES}f64"
@@ -179,12 +179,12 @@ def _extreme(relation: str) -> Any:
 
 
 min_lanes, max_lanes = _extreme("<"), _extreme(">")
-"""Smaller and larger of two; the second where one is NaN."""
+"""Minimum and maximum of two, lane by lane; the second value where one is NaN."""
 
 
 @_compiled_call
 def lanes(_typing: Any, x: Any) -> Any:
-    """The same number in every lane."""
+    """Return lanes that all hold the same number."""
     return lanes_type(types.float64), lambda _c, builder, _s, args: _splat(builder, args[0])
 
 
@@ -199,7 +199,7 @@ def _is_flat(array: Any) -> bool:
 
 @_compiled_call
 def load(_typing: Any, array: Any, row: Any) -> Any:
-    """Lanes from row `row` of a flat work array, LANES numbers a row."""
+    """Load lanes from row `row` of a flat work array, LANES numbers per row."""
     if not _is_flat(array):
         return None
 
@@ -212,7 +212,7 @@ def load(_typing: Any, array: Any, row: Any) -> Any:
 
 @_compiled_call
 def store(_typing: Any, array: Any, row: Any, value: Any) -> Any:
-    """Lanes into row `row` of a flat work array."""
+    """Store lanes in row `row` of a flat work array."""
     if not _is_flat(array):
         return None
 
@@ -226,7 +226,7 @@ def store(_typing: Any, array: Any, row: Any, value: Any) -> Any:
 
 @_compiled_call
 def where(_typing: Any, mask: Any, a: Any, b: Any) -> Any:
-    """`a` in the lanes where the mask holds, else `b`."""
+    """Select `a` in the lanes where the mask is true, else `b`."""
 
     def emit(context: Any, builder: ir.IRBuilder, sig: Any, args: Any) -> Any:
         a_value, b_value = (_as_lanes(context, builder, sig.args[i], args[i]) for i in (1, 2))
@@ -237,7 +237,7 @@ def where(_typing: Any, mask: Any, a: Any, b: Any) -> Any:
 
 @_compiled_call
 def bits(_typing: Any, mask: Any) -> Any:
-    """A mask as an integer, lane 0 the lowest bit."""
+    """Return a mask as an integer, with lane 0 as the lowest bit."""
 
     def emit(_context: Any, builder: ir.IRBuilder, _sig: Any, args: Any) -> Any:
         return builder.zext(builder.bitcast(args[0], ir.IntType(LANES)), ir.IntType(64))

@@ -1,4 +1,4 @@
-"""Velocities and forces of the tip with every joint within its limits, by part, configuration and direction."""
+"""Largest velocities and forces of the tip with every joint within its limits, per configuration and direction."""
 
 from dataclasses import dataclass
 
@@ -20,14 +20,14 @@ from gelenk.model.errors import TooLarge
 from gelenk.model.robot import Robot
 
 MAX_SUBSETS = 2_000_000
-"""Sets of joints that one call goes through, a few microseconds each."""
+"""Largest number of sets of joints that one call examines, at a few microseconds each."""
 
 _WITHIN = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
 class JointBounds:
-    """Symmetric limits of a chain's variables, NaN where there is none.
+    """Symmetric limits of a chain's variables, NaN for no limit.
 
     Attributes:
         velocity: q̇max; shape (n,), [rad/s or m/s].
@@ -40,14 +40,17 @@ class JointBounds:
 
 @dataclass(frozen=True, slots=True)
 class LimitedMotion:
-    """The motion within the limits, of one part at one configuration, in D directions.
+    """Velocities and forces within the joint limits at one configuration, in D directions.
+
+    They are translational, [m/s] and [N], or rotational, [rad/s] and [N m].
 
     Attributes:
-        velocities: Largest along each direction alone, and largest component; shape (D, 2), None where a joint has no
-            velocity limit.
-        velocity_vertices: Of the polytope, where all motion keeps to a plane, by the part's rows; shape (V, k).
-        forces: Likewise, NaN where unbounded; None where a joint has no effort limit.
-        force_vertices: Likewise, None too where the polytope is unbounded.
+        velocities: Largest velocity purely along each direction, and largest component along it; shape (D, 2). None if
+            a joint has no velocity limit.
+        velocity_vertices: Vertices of the velocity polytope, in the rows used; shape (V, k). None unless all motion
+            stays in a plane and all joints have limits.
+        forces: Largest forces in the same way, NaN where unbounded; None if a joint has no effort limit.
+        force_vertices: Vertices of the force polytope in the same way; None also if it is unbounded.
     """
 
     velocities: Array | None
@@ -57,7 +60,7 @@ class LimitedMotion:
 
 
 def joint_bounds(robot: Robot, chain: Chain) -> JointBounds:
-    """The limits that the robot's description gives the chain's variables."""
+    """Return the velocity and effort limits of the chain's variables from the robot's description."""
     limits = [robot.description.joint[name].limits for name in chain.joint_names]
     return JointBounds(
         np.array([np.nan if limit.velocity is None else limit.velocity for limit in limits], dtype=float),
@@ -66,14 +69,14 @@ def joint_bounds(robot: Robot, chain: Chain) -> JointBounds:
 
 
 def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, directions: Array) -> list[LimitedMotion]:
-    """The motion of the tip within the joint limits, one entry a configuration.
+    """Compute the tip's largest velocities and forces within the joint limits, one entry per configuration.
 
     Args:
-        ellipsoids: Of translation or of rotation.
-        Js: The Jacobians that they are of; shape (N, 6, n).
+        ellipsoids: Ellipsoids of translation or of rotation.
+        Js: The Jacobians of these ellipsoids; shape (N, 6, n).
         bounds: The limits.
-        directions: Unit vectors in the base's axes; shape (D, 3). Of those that are not in the task the numbers mean
-            nothing.
+        directions: Unit vectors in the axes of the Jacobians; shape (D, 3). Numbers for directions outside the task are
+            meaningless.
 
     Raises:
         TooLarge: More sets of joints than `MAX_SUBSETS`.
@@ -94,10 +97,10 @@ def limited_motion(ellipsoids: Ellipsoids, Js: Array, bounds: JointBounds, direc
 def _at(
     J: Array, range_: Array, bounds: JointBounds, along: Array, inside: Flags, plane: Array | None
 ) -> LimitedMotion:
-    """One configuration; `range_` holds an orthonormal basis of range(J), `plane` one of the plane of all motion."""
+    """One configuration; the columns of `range_` span range(J), those of `plane` the plane of all motion."""
     reduced, shares = range_.T @ J, along @ range_
     moves = inside & (np.linalg.norm(along - shares @ range_.T, axis=1) <= _WITHIN)
-    # Of a direction that is lost rounding alone is left, which would be drawn out into a polygon.
+    # In a lost direction only rounding is left, which would otherwise give the polygon a false width.
     flat = None if plane is None else plane.T @ range_ @ reduced
     has_velocity, has_effort = not np.isnan(bounds.velocity).any(), not np.isnan(bounds.effort).any()
     return LimitedMotion(
@@ -121,7 +124,7 @@ def _velocities(J: Array, limits: Array, shares: Array, moves: Flags) -> Array:
 
 
 def _forces(J: Array, limits: Array, shares: Array, moves: Flags) -> Array:
-    """A component is unbounded where no joint feels a part of it; a force alone, where no joint feels any of it."""
+    """A component is unbounded if part of it loads no joint; a pure force, if none of it loads a joint."""
     forces = np.full((len(shares), 2), np.nan)
     if len(J):
         forces[:, 0] = largest_forces(J, limits, shares)

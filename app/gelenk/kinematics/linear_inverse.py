@@ -1,12 +1,12 @@
-"""Linear equations J x = b that have no inverse, too many solutions or none: exact, pseudo- and damped inverses.
+"""Solution of linear equations J x = b by exact, pseudo- and damped inverses, also for singular or non-square J.
 
 All come from one singular value decomposition, of
 
     A = S J W^(-1/2) = Σ u_i σ_i v_iᵀ
 
-where W weighs the joints (larger: moves less) and S multiplies the angular rows by a characteristic length. Without
-that length metres and radians are mixed: J#, σ and the condition number then depend on the unit of length, and so does
-what is near to a singularity. Only where J x = b has one solution is that choice without effect.
+where W weights the joints (a larger weight moves less) and S multiplies the angular rows by a characteristic length.
+Without that length metres and radians are mixed: J#, σ, the condition number and the distance from a singularity then
+depend on the unit of length. Only a unique solution of J x = b is independent of this choice.
 """
 
 from dataclasses import dataclass, replace
@@ -18,30 +18,30 @@ from gelenk.kinematics.words import InverseName, InverseStatus
 from gelenk.model.arrays import Array, Flags, Indices
 
 SOLVED = 1e-9
-"""Largest entry of a residual that counts as none, relative to the largest of 1 and of the entries of b."""
+"""Largest residual entry that counts as zero, relative to the largest of 1 and the entries of b."""
 
 _LARGEST = 1e100
-"""A joint velocity beyond it is no answer."""
+"""Largest joint velocity that counts as a solution."""
 _DAMPINGS = 10.0 ** np.arange(-16.0, 33.0, 0.25)
-"""Where the smallest damping that keeps the velocity limits is looked for, in proportion to σ_max²."""
+"""Trial values, relative to σ_max², in the search for the smallest damping that satisfies the velocity limits."""
 _ROUNDS, _POINTS = 6, 65
-"""How often that search is made finer, and into how many steps."""
+"""Number of rounds of that search, and grid points in each refinement."""
 _ROUNDING = 1e-15
-"""A singular value below this times the largest is rounding, and no damping makes it count."""
+"""A singular value up to this times the largest is rounding, and is never used, not even with damping."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """How J x = b is solved.
+    """The method and parameters for solving J x = b.
 
     Attributes:
-        inverse: `exact`: x = J⁻¹ b of a square J. `pseudo_inverse`: of all x that minimise ‖S(Jx - b)‖ the one of
-            smallest xᵀWx. `damped`: λ xᵀWx + ‖S(Jx - b)‖² is minimal, x = (JᵀS²J + λW)⁻¹ JᵀS² b.
-        rank_tolerance: A singular value of A counts where it exceeds this times the largest.
-        damping: λ ≥ 0, the course's (others write λ² for it); None: as small as `damping_threshold` and the velocity
-            limits allow.
-        damping_threshold: σ₀ of the adaptive λ = max(0, σ₀² - σ_min²), so that no gain exceeds 1/σ₀.
-        weights: The diagonal of W, positive; shape (n,); ones where None.
+        inverse: `exact`: x = J⁻¹ b for a square J. `pseudo_inverse`: the x with the smallest xᵀWx among those that
+            minimise ‖S(Jx - b)‖. `damped`: minimises λ xᵀWx + ‖S(Jx - b)‖², x = (JᵀS²J + λW)⁻¹ JᵀS² b.
+        rank_tolerance: A singular value of A counts towards the rank if it exceeds this times the largest.
+        damping: λ ≥ 0 as in the course (others write λ² for it); None: as small as `damping_threshold` and the
+            velocity limits allow.
+        damping_threshold: σ₀ of the adaptive λ = max(0, σ₀² - σ_min²), which bounds all gains by 1/σ₀.
+        weights: The positive diagonal of W; shape (n,). None for ones.
     """
 
     inverse: InverseName = "pseudo_inverse"
@@ -53,14 +53,14 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Decomposition:
-    """A = U diag(σ) Vᵀ of N configurations.
+    """Singular value decompositions A = U diag(σ) Vᵀ at N configurations.
 
     Attributes:
         left: Columns u_i; shape (N, k, k).
-        sigmas: σ, largest first; shape (N, min(k, n)), units mixed unless a length is given.
+        sigmas: σ, largest first; shape (N, min(k, n)). Units are mixed unless a characteristic length is given.
         right: Rows v_iᵀ; shape (N, n, n).
-        ranks: How many σ count; shape (N,).
-        least: σ of no more than this are rounding, which no damping makes count; shape (N,).
+        ranks: Numerical ranks; shape (N,).
+        least: Singular values up to this are rounding and never used; shape (N,).
         row_scales: The diagonal of S; shape (k,).
         column_scales: The diagonal of W^(-1/2); shape (n,).
     """
@@ -75,7 +75,7 @@ class Decomposition:
 
     @property
     def condition_numbers(self) -> list[float | None]:
-        """σ_max / σ_min, none where the rank is not full."""
+        """Ratios σ_max / σ_min; None where the rank is not full."""
         full = self.sigmas.shape[1]
         return [
             float(sigma[0] / sigma[-1]) if full and rank == full else None
@@ -83,29 +83,29 @@ class Decomposition:
         ]
 
     def lost_directions(self, row: int) -> Array:
-        """Unit vectors in the directions that count along which the tip cannot move; shape (lost, k)."""
+        """Return unit vectors, in the rows of J, along which the tip cannot move; shape (lost, k)."""
         lost = self.left[row, :, self.ranks[row] :].T / self.row_scales
         unit: Array = lost / np.linalg.norm(lost, axis=1, keepdims=True)
         return unit
 
     def gains(self, damping: Array) -> Array:
-        """By what each uᵢᵀSb is multiplied: σ/(σ² + λ), or 1/σ of those that count where λ = 0; (N, min(k, n))."""
+        """Return the factors of uᵢᵀSb: σ/(σ² + λ); for λ = 0, 1/σ up to the rank and 0 beyond; (N, min(k, n))."""
         dampings = np.reshape(damping, (-1, 1))
         counts = np.arange(self.sigmas.shape[1]) < self.ranks[:, None]
         usable = np.where(dampings > 0.0, self.sigmas > self.least[:, None], counts)
-        # σ² may vanish where σ does not.
+        # σ² may underflow where σ does not.
         denominators = self.sigmas + dampings / np.where(usable, self.sigmas, 1.0)
         return np.where(usable, 1.0 / np.where(usable, denominators, 1.0), 0.0)
 
     def apply(self, gains: Array, bs: Array) -> Array:
-        """Solutions x = W^(-1/2) V diag(gains) Uᵀ S b; shape (N, n)."""
+        """Compute x = W^(-1/2) V diag(gains) Uᵀ S b; shape (N, n)."""
         few = self.sigmas.shape[1]
         parts = gains * np.einsum("bki,bk->bi", self.left[:, :, :few], bs * self.row_scales)
         xs: Array = np.einsum("bij,bi->bj", self.right[:, :few], parts) * self.column_scales
         return xs
 
     def kernel_parts(self, xs: Array) -> Array:
-        """(I - J#J) ξ, with the weighted pseudo-inverse; shape (N, n)."""
+        """Compute (I - J#J) ξ with the weighted pseudo-inverse; shape (N, n)."""
         counts = np.arange(self.right.shape[1]) < self.ranks[:, None]
         coordinates = np.einsum("bij,bj->bi", self.right, xs / self.column_scales)
         free = np.where(counts, 0.0, coordinates)
@@ -118,11 +118,11 @@ class Inversion:
     """The solutions of N equations J x = b.
 
     Attributes:
-        xs: Solutions; shape (N, n); zero where there is none.
+        xs: Solutions, zero where none exists; shape (N, n).
         residuals: b - J x; shape (N, k).
-        statuses: `solved`; `approximate`: no x gives b, or damping keeps from it; `singular`: there is no inverse.
-        dampings: λ of each; shape (N,).
-        shares: How much of the null-space motion the velocity limits left room for, in [0, 1]; shape (N,).
+        statuses: `solved`; `approximate`: no x gives b, or damping prevents it; `singular`: no solution exists.
+        dampings: λ of each equation; shape (N,).
+        shares: Share of the null-space motion that the velocity limits allow, in [0, 1]; shape (N,).
         decomposition: Singular values and ranks.
     """
 
@@ -135,13 +135,13 @@ class Inversion:
 
 
 def decompose(Js: Array, rule: Rule, row_scales: Array, least: Array | None = None) -> Decomposition:
-    """Singular values of A = S J W^(-1/2) at each configuration.
+    """Compute the singular value decomposition of A = S J W^(-1/2) at each configuration.
 
     Args:
-        Js: The rows that count; shape (N, k, n).
+        Js: The rows of the Jacobian that count; shape (N, k, n).
         rule: Weights and rank tolerance.
         row_scales: The diagonal of S; shape (k,).
-        least: Entries of Js that may be none but the rounding of what they are sums of; shape (N,). None if left out.
+        least: Magnitude of rounding errors in the entries of Js; shape (N,). Zero if None.
     """
     column_scales = np.ones(Js.shape[2]) if rule.weights is None else 1.0 / np.sqrt(rule.weights)
     left, sigmas, right = np.linalg.svd(row_scales[:, None] * Js * column_scales)
@@ -163,13 +163,13 @@ def invert(
     """Solve J x = b at N configurations.
 
     Args:
-        Js: The rows that count; shape (N, k, n).
-        bs: What they are to give; shape (N, k).
-        rule: How.
+        Js: The rows of the Jacobian that count; shape (N, k, n).
+        bs: Right-hand sides; shape (N, k).
+        rule: The method and its parameters.
         row_scales: The diagonal of S; shape (k,).
-        null_motion: ξ, whose part in ker J is added; shape (N, n).
-        limits: Largest |x| of each joint that the adaptive damping is to keep; shape (n,), inf where there is none.
-        least: Entries of Js that may be none but rounding; shape (N,).
+        null_motion: ξ, whose component in ker J is added; shape (N, n).
+        limits: Largest |x| of each joint, observed by the adaptive damping only; shape (n,), inf for no limit.
+        least: Magnitude of rounding errors in the entries of Js; shape (N,).
     """
     parts = decompose(Js, rule, row_scales, least)
     dampings = _dampings(parts, rule)
@@ -188,7 +188,7 @@ def invert(
 
 
 def _dampings(parts: Decomposition, rule: Rule) -> Array:
-    """λ of each configuration before velocity limits count; shape (N,)."""
+    """λ of each configuration, without the velocity limits; shape (N,)."""
     count = len(parts.sigmas)
     if rule.inverse != "damped" or parts.sigmas.shape[1] == 0:
         return np.zeros(count)
@@ -198,10 +198,10 @@ def _dampings(parts: Decomposition, rule: Rule) -> Array:
 
 
 def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, limits: Array) -> tuple[float, Array]:
-    """The smallest λ, no less than `least`, at which no joint is too fast, and the joint velocities there.
+    """Smallest λ ≥ `least` at which all joints keep their velocity limits, and the joint velocities there.
 
-    The weighted length of x falls as λ grows, but single joints may become faster meanwhile: a grid over all magnitudes
-    finds where all of them keep their limits for the first time, finer ones between its points find it more closely.
+    The weighted length of x falls as λ grows, but a single joint may become faster: a grid over all magnitudes finds
+    the first λ at which all joints keep their limits, and finer grids between its points refine it.
     """
     sigmas = parts.sigmas[row]
     few = len(sigmas)
@@ -226,7 +226,7 @@ def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, li
 
 
 def _room(xs: Array, added: Array, limits: Array) -> Array:
-    """The largest share in [0, 1] of an addition that keeps every joint within its limit; shape (N,)."""
+    """Largest share of `added`, in [0, 1], that keeps every joint within its limit; shape (N,)."""
     rooms = np.maximum(np.where(added > 0.0, limits - xs, limits + xs), 0.0)
     too_far = np.abs(added) > rooms
     shares = np.where(too_far, rooms, 1.0) / np.where(too_far, np.abs(added), 1.0)
@@ -235,7 +235,7 @@ def _room(xs: Array, added: Array, limits: Array) -> Array:
 
 
 def _judged(Js: Array, bs: Array, rule: Rule, inversion: Inversion) -> Inversion:
-    """The residuals and what they mean; a row without an inverse, or whose numbers leave all bounds, is zero."""
+    """Add residuals and statuses; a solution that does not exist, or is not finite or too large, becomes zero."""
     parts = inversion.decomposition
     void: Flags = np.logical_not((np.abs(inversion.xs) <= _LARGEST).all(axis=1))
     if rule.inverse == "exact":

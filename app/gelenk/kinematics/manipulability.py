@@ -1,12 +1,12 @@
-"""Manipulability: what the tip can do with joint velocities, or torques, of norm one [Yoshikawa1985].
+"""Manipulability: tip velocities and forces for joint velocities, or torques, of norm one [Yoshikawa1985].
 
 J = U Σ Vᵀ maps the unit sphere of joint velocities to the velocity ellipsoid vᵀ(JJᵀ)#v = 1 with semi-axes σ_i along
-u_i, and the unit sphere of joint torques comes from the force ellipsoid FᵀJJᵀF = 1 with semi-axes 1/σ_i along the same
-u_i. Translation and rotation are two ellipsoids, because metres and radians have no common norm; with a characteristic
-length L there is a third one of (v; L ω) and (F; M / L).
+u_i. Jᵀ maps the force ellipsoid FᵀJJᵀF = 1, with semi-axes 1/σ_i along the same u_i, to the unit sphere of joint
+torques. Translation and rotation have separate ellipsoids, because metres and radians have no common norm; a
+characteristic length L gives a third one, of (v; L ω) and (F; M / L).
 
-Directions in which a chain never moves are no axes: a planar arm has an ellipse. Which these are is its structure,
-found at random configurations, and a singularity is where a semi-axis of those that are left vanishes.
+Directions in which a chain never moves are not axes: a planar arm has an ellipse. They belong to the chain's structure,
+found at random configurations. A configuration is singular where one of the remaining semi-axes vanishes.
 """
 
 import math
@@ -31,27 +31,27 @@ from gelenk.model.robot import Robot
 Part: TypeAlias = Literal["translation", "rotation", "combined"]
 
 STRUCTURAL_TOLERANCE = 1e-9
-"""A direction in which no random configuration moves by more than this, relative to the largest motion, is none."""
+"""A direction counts as one of motion if some random configuration moves more than this, relative to the largest."""
 ELLIPSOID_TOLERANCE = 10.0 * STRUCTURAL_TOLERANCE
-"""Allowed relative difference between JJᵀ and what the ellipsoids say of it, motion that is none included."""
+"""Allowed relative difference between JJᵀ and its ellipsoids, including motion in directions that do not count."""
 WITHIN = 1e-9
-"""How far a unit vector may be from a space that it is said to be in."""
+"""Largest distance of a unit vector from a space that still counts as lying in it."""
 _ROUNDING = 1e-14
-"""Share of a unit vector in a direction, or of a torque in the largest, that is none."""
+"""A torque up to this share of the largest counts as zero."""
 
 _SAMPLES = 8
 
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """The directions of translation, of rotation or of both in which a chain moves at some configuration.
+    """The directions of translation, rotation or both in which a chain moves at some configuration.
 
     Attributes:
-        rows: Rows of J that count; k of them.
-        basis: Orthonormal columns that span the velocities of all configurations together; shape (k, e).
-        dimension: Rank of these rows of J at almost every configuration; at most e, and less where the tip keeps to
-            a surface that is not flat.
-        components: How many numbers a vector of the part has: 3, or 6 of translation and rotation together.
+        rows: The k rows of J that count.
+        basis: Orthonormal columns that span the velocities at all configurations together; shape (k, e).
+        dimension: Rank of these rows of J at almost every configuration; at most e, and less where the tip stays on a
+            curved line or surface.
+        components: Number of components of a vector: 3, or 6 for translation and rotation together.
     """
 
     rows: tuple[int, ...]
@@ -61,11 +61,11 @@ class Space:
 
     @property
     def is_plane(self) -> bool:
-        """Whether all motion keeps to one plane."""
+        """Whether all motion stays in one plane."""
         return int(self.basis.shape[1]) == 2
 
     def spread(self, vectors: Array) -> Array:
-        """Vectors by rows (..., k) → by all components, (..., 3), or (..., 6) of translation and rotation together."""
+        """Expand vectors in the rows that count to all components; shape (..., k) → (..., 3) or (..., 6)."""
         full = np.zeros((*vectors.shape[:-1], self.components))
         full[..., [row % self.components for row in self.rows]] = vectors
         return full
@@ -73,14 +73,14 @@ class Space:
 
 @dataclass(frozen=True, slots=True)
 class Ellipsoids:
-    """Velocity and force ellipsoids of one part at N configurations, d axes each.
+    """Velocity and force ellipsoids of one part (translation, rotation or both) at N configurations, d axes each.
 
     Attributes:
         space: The directions that count.
         sigmas: Semi-axes of the velocity ellipsoids, largest first, exactly 0 where they vanish; shape (N, d).
         axes: Principal axes of both ellipsoids as unit columns in `space.rows`; shape (N, k, d).
-        gradients: Of Yoshikawa's measure by each variable, NaN where the measure vanishes and has a kink; shape
-            (N, n), if requested.
+        gradients: Gradient of Yoshikawa's measure by the variables, NaN where the measure vanishes and has a kink;
+            shape (N, n). None if not requested.
     """
 
     space: Space
@@ -90,29 +90,29 @@ class Ellipsoids:
 
     @property
     def measures(self) -> Array:
-        """Yoshikawa's measure, the product of the semi-axes, which is √det(JJᵀ) of a regular chain; shape (N,)."""
+        """Yoshikawa's measure, the product of the semi-axes: √det(JJᵀ) if all k rows are independent; shape (N,)."""
         return cast(Array, np.prod(self.sigmas, axis=1))
 
     @property
     def volumes(self) -> Array:
-        """Volume of the velocity ellipsoids, area of ellipses, length of segments; shape (N,)."""
+        """Volumes of the velocity ellipsoids, areas of ellipses or lengths of segments; shape (N,)."""
         d = self.space.dimension
         return cast(Array, self.measures * (math.pi ** (d / 2) / math.gamma(d / 2 + 1)))
 
     @property
     def ranks(self) -> Indices:
-        """How many axes do not vanish; shape (N,)."""
+        """Number of axes that do not vanish; shape (N,)."""
         return cast(Indices, np.count_nonzero(self.sigmas, axis=1))
 
 
 @dataclass(frozen=True, slots=True)
 class ManipulabilityCertificate:
-    """How good ellipsoids are.
+    """Agreement of ellipsoids with their Jacobians, and of these with Pinocchio's.
 
     Attributes:
-        jacobians: How far Pinocchio's Jacobians are from those behind them.
-        max_ellipsoid_error: Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to σ₁² or the
-            square of the largest entry of J: also what motion there is along an axis that is said not to be one.
+        jacobians: Differences of the Jacobians from Pinocchio's.
+        max_ellipsoid_error: Largest entry of JJᵀ - Σ u_i σ_i² u_iᵀ, relative to the larger of σ₁² and the square of the
+            largest entry of J; includes motion along directions that do not count as axes.
     """
 
     jacobians: JacobianCertificate
@@ -124,9 +124,9 @@ class Manipulability:
     """Ellipsoids at N configurations, by part.
 
     Attributes:
-        parts: Those that the task has rows of.
+        parts: Ellipsoids of the parts that the task includes.
         Js: Jacobians in the reference; shape (N, 6, n).
-        certificate: How good they are.
+        certificate: Errors of Jacobians and ellipsoids.
     """
 
     parts: dict[Part, Ellipsoids]
@@ -145,21 +145,21 @@ def manipulability(
     rank_tolerance: float = 1e-10,
     gradient: bool = False,
 ) -> Manipulability:
-    """Ellipsoids of a chain, certified.
+    """Compute and certify velocity and force ellipsoids of a chain.
 
     Args:
         robot: The robot.
         chain: Base and tip.
         qs: Configurations in the chain's order; shape (N, n), [rad or m].
         task: The directions that count, in the axes of the reference.
-        reference: In whose axes all vectors are, `local_world_aligned` (the base's) or `local` (the tip's).
-        characteristic_length: L > 0 of the combined ellipsoid, [m]; without it there is none.
-        rank_tolerance: A semi-axis vanishes where it is no longer than this times the longest.
-        gradient: Whether the gradients of Yoshikawa's measure are wanted.
+        reference: Axes of all vectors: `local_world_aligned` (the base's) or `local` (the tip's).
+        characteristic_length: L > 0 of the combined ellipsoid, [m]; None for no combined ellipsoid.
+        rank_tolerance: A semi-axis vanishes if it is no longer than this times the longest.
+        gradient: Whether to compute the gradients of Yoshikawa's measure.
 
     Raises:
         InvalidField: A direction of the task appears twice.
-        CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids are not those of the Jacobians.
+        CertificationFailed: Pinocchio's Jacobians differ, or the ellipsoids do not match the Jacobians.
     """
     rows = task_rows(task)
     Js, terms = jacobians_with_terms(chain, qs, reference)
@@ -185,7 +185,7 @@ def manipulability(
 def _certified(
     robot: Robot, chain: Chain, qs: Array, values: Array, reference: Reference, *, derivatives: bool
 ) -> JacobianCertificate:
-    """The geometric Jacobians, which those in the tip's axes are compared with too, and their derivatives."""
+    """Certify the geometric Jacobians and their derivatives, and with them the Jacobians in the tip's axes."""
     Hs = chain_hessians(chain.flat, qs) if derivatives else None
     if reference == "local_world_aligned":
         return certify_jacobians(robot, chain, qs, values, Hs)
@@ -193,7 +193,7 @@ def _certified(
 
 
 def task_rows(task: Sequence[Direction]) -> tuple[int, ...]:
-    """The rows of J of a task, in their own order.
+    """Return the rows of J that a task selects, in ascending order.
 
     Raises:
         InvalidField: A direction appears twice.
@@ -210,14 +210,14 @@ def space_of(
     reference: Reference = "local_world_aligned",
     components: int = 3,
 ) -> Space:
-    """The directions among some rows of J in which a chain moves at all, angular rows times a length [m].
+    """Find the directions among some rows of J in which a chain moves at all, with angular rows scaled by a length.
 
     Args:
         chain: Base and tip.
-        rows: Which rows count.
-        length: What angular ones are multiplied by, [m].
-        reference: Whose rows they are.
-        components: How many numbers a vector of the part has, 3 or 6.
+        rows: The rows that count.
+        length: Factor of angular rows, [m].
+        reference: Reference of the Jacobian.
+        components: Number of components of a vector, 3 or 6.
     """
     space = _structure(chain, rows, reference)
     if length == 1.0 or space.basis.shape[1] == len(rows):
@@ -229,7 +229,7 @@ def space_of(
 
 @lru_cache(maxsize=1024)
 def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Space:
-    """From random configurations: turning joints all the way round, sliding ones within a metre."""
+    """Directions of motion at random configurations: revolute joints over a full turn, prismatic ones within ±1 m."""
     whole, terms = jacobians_with_terms(chain, random_configurations(chain, _SAMPLES), reference)
     Js, least = whole[:, rows], float(rounding(terms).max())
     sigmas = np.linalg.svd(Js, compute_uv=False)
@@ -243,7 +243,7 @@ def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Spa
 
 
 def _aligned_basis(projector: Array, dimension: int) -> Array:
-    """An orthonormal basis of a projector's range, as near to the coordinate axes as can be; shape (k, dimension)."""
+    """Orthonormal basis of a projector's range, as close to the coordinate axes as possible; shape (k, dimension)."""
     whole = np.rint(projector)
     left = whole if np.abs(projector - whole).max() < STRUCTURAL_TOLERANCE else projector
     columns = []
@@ -252,19 +252,19 @@ def _aligned_basis(projector: Array, dimension: int) -> Array:
         column = left[:, pivot] / math.sqrt(left[pivot, pivot])
         columns.append(column)
         left = left - np.outer(column, column)
-    # Adding zero makes -0 a plain one.
+    # Adding zero turns -0.0 into 0.0.
     return np.array(columns).reshape(dimension, len(projector)).T + 0.0
 
 
 def _stretches(rows: tuple[int, ...], length: float) -> Array:
-    """1 for each linear row and the length for each angular one."""
+    """Row factors: 1 for linear rows, the length for angular rows."""
     return np.array([length if row >= 3 else 1.0 for row in rows])
 
 
 def _ellipsoids(
     space: Space, Js: Array, Hs: Array | None, length: float, terms: Array, rank_tolerance: float
 ) -> tuple[Ellipsoids, float]:
-    """The ellipsoids of a part, and their largest relative error; semi-axes no longer than terms' rounding vanish."""
+    """Ellipsoids of a part and their largest relative error; semi-axes within the rounding of `terms` vanish."""
     d, stretches = space.dimension, _stretches(space.rows, length)
     Js = Js[:, space.rows] * stretches[:, None]
     if d == 0:
@@ -276,7 +276,7 @@ def _ellipsoids(
     counted = np.where(sigmas > np.maximum(rank_tolerance * sigmas[:, :1], rounding(terms)[:, None]), sigmas, 0.0)
     gradients = None
     if Hs is not None:
-        # The signs of the columns that the pseudo-inverse is made of must be those of the decomposition.
+        # The pseudo-inverse needs the columns with the signs of the decomposition.
         inverses = _pseudo_inverses(space.basis @ left[:, :, :d], counted, right)
         traces = np.einsum("bik,bkij->bj", inverses, Hs[:, space.rows] * stretches[:, None, None])
         gradients = np.prod(counted, axis=1)[:, None] * traces
@@ -291,19 +291,19 @@ def _pseudo_inverses(left: Array, sigmas: Array, right: Array) -> Array:
 
 
 def _signed(axes: Array) -> Array:
-    """Unit columns turned so that the largest component of each is positive; shape (N, k, d)."""
+    """Unit columns with signs chosen so that the largest component of each is positive; shape (N, k, d)."""
     largest = np.argmax(np.abs(axes) > np.abs(axes).max(axis=1, keepdims=True) - WITHIN, axis=1)
     signs = np.sign(np.take_along_axis(axes, largest[:, None, :], axis=1))
     return axes * np.where(signs == 0.0, 1.0, signs)
 
 
 def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> float:
-    """How far Σ u_i σ_i² u_iᵀ is from JJᵀ, relative to the square of the largest semi-axis or entry of the whole J.
+    """Difference of Σ u_i σ_i² u_iᵀ from JJᵀ, relative to the square of the largest semi-axis or entry of the whole J.
 
-    Where all rows of a part nearly vanish, what the structure calls no direction is as large as they are.
+    Where all rows of a part nearly vanish, motion that the structure excludes is as large as they are.
 
     Raises:
-        CertificationFailed: By more than rounding.
+        CertificationFailed: The difference exceeds rounding.
     """
     squares = (Js @ Js.transpose(0, 2, 1)) - (axes * sigmas[:, None, :] ** 2) @ axes.transpose(0, 2, 1)
     largest = np.maximum(sigmas[:, 0], sizes)
@@ -315,22 +315,21 @@ def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> flo
 
 
 def is_within_task(space: Space, directions: Array) -> Flags:
-    """Of each unit vector, shape (D, 3), whether it has no component but in the rows that count; shape (D,)."""
+    """Return whether each unit vector lies in the rows that count; shape (D, 3) → (D,)."""
     return cast(Flags, np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
 
 
 def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: float) -> tuple[Array, Array]:
-    """How far the ellipsoids of translation or of rotation reach along unit vectors u.
+    """Compute the extent of ellipsoids of translation or of rotation along unit vectors u.
 
-    The velocity [uᵀ(JJᵀ)#u]^(-½) is the largest along u, with no other component, of joint velocities of norm one; 0
-    where the tip cannot move along u alone. The force [uᵀJJᵀu]^(-½) is the largest along u that joint torques of
-    norm one balance; NaN where it is unbounded, that is where u needs no more torque than `tolerance` times the
-    largest.
+    The velocity [uᵀ(JJᵀ)#u]^(-½) is the largest purely along u for joint velocities of norm one; 0 where the tip cannot
+    move along u alone. The force [uᵀJJᵀu]^(-½) is the largest along u that joint torques of norm one balance; NaN where
+    it is unbounded.
 
     Args:
-        ellipsoids: At N configurations.
-        directions: Unit vectors in the base's axes; shape (D, 3).
-        tolerance: Of the force that is unbounded.
+        ellipsoids: Ellipsoids at N configurations.
+        directions: Unit vectors in the axes of the ellipsoids; shape (D, 3).
+        tolerance: The force is unbounded where u needs no more torque than this times the largest.
 
     Returns:
         Velocities and forces; shape (N, D) each.

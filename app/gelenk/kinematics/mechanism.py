@@ -1,11 +1,11 @@
-"""A robot as the variables of one chain move it, and Pinocchio's algorithms on that, reduced to these variables.
+"""A robot reduced to the joints that one chain's variables move, and Pinocchio's dynamics in these variables.
 
-All other joints are locked at zero, so that a hand's fingers are one body with the hand, and Pinocchio's model has no
-joint too many. With q_model = q₀ + E q, a follower of a mimic joint included, forces of constraint do no work and
+All other joints are locked at zero: a hand and its fingers become one body, and Pinocchio's model has no unneeded
+joints. With q_model = q₀ + E q, mimic joints included, constraint forces do no work and
 
     τ = Eᵀ τ_model,    M = Eᵀ M_model E,    C = Eᵀ C_model E    (E is constant, so Ṁ - 2C stays skew).
 
-The root link stands still, and gravity is given in its axes.
+The root link is at rest, and gravity is given in its axes.
 """
 
 import threading
@@ -22,23 +22,23 @@ from gelenk.model.chain import Chain
 from gelenk.model.robot import Robot
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.81)
-"""Along -z of the root, [m/s²]."""
+"""Standard gravity, along -z of the root, [m/s²]."""
 _KEPT = 16
-"""Mechanisms of a robot that are kept: a new one takes milliseconds."""
+"""Number of mechanisms cached per robot: building one takes milliseconds."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mechanism:
-    """A robot with the joints locked that a chain does not move.
+    """A robot whose joints are locked except those that a chain moves.
 
     Attributes:
-        robot: It, as a robot of its own.
-        chain: The chain in it: the same variables.
-        bodies: What the variables carry.
-        without_mass: Names of moved links that have no mass, though they have a shape or all that moves with them has
-            none either; a mere frame on a body with mass is left out.
-        base: Pinocchio's joint that carries the base (0: none), and the base's placement on that.
-        tip: The same of the tip.
+        robot: The robot with locked joints.
+        chain: The chain in this robot, with the same variables.
+        bodies: The bodies that the variables move.
+        without_mass: Names of moved links without mass that have a shape or belong to a body without mass; a mere frame
+            on a body with mass is omitted.
+        base: Pinocchio's joint that carries the base (0 for none), and the base's placement on it.
+        tip: Pinocchio's joint that carries the tip, and the tip's placement on it.
     """
 
     robot: Robot
@@ -49,14 +49,14 @@ class Mechanism:
     tip: tuple[int, pin.SE3]
 
     def carried(self, load: Load | None) -> tuple[Body, ...]:
-        """The bodies, and a payload where there is one that moves."""
+        """Return the bodies, including a payload if there is one that moves."""
         if load is None or not self.moves_tip:
             return self.bodies
         return *self.bodies, loaded(self.robot.description, self.chain, load)
 
     @property
     def moves_tip(self) -> bool:
-        """Whether the tip moves against the root, as it does unless the chain leads up to the root."""
+        """Whether the tip moves relative to the root; false if the chain leads up to the root."""
         return self.tip[0] > 0
 
 
@@ -65,13 +65,13 @@ _lock = threading.Lock()
 
 
 def known_mechanism(robot: Robot, chain: Chain) -> Mechanism | None:
-    """The mechanism of a chain, where it was needed before."""
+    """Return the cached mechanism of a chain, if any."""
     with _lock:
         return _known.get(robot, {}).get((chain.base_frame, chain.tip_frame))
 
 
 def mechanism(robot: Robot, chain: Chain) -> Mechanism:
-    """The mechanism of a chain."""
+    """Return the mechanism of a chain, built once and cached."""
     found = known_mechanism(robot, chain)
     if found is not None:
         return found
@@ -90,7 +90,7 @@ def mechanism(robot: Robot, chain: Chain) -> Mechanism:
 
 
 def _carrier(robot: Robot, frame: str) -> tuple[int, pin.SE3]:
-    """The joint that carries a frame, and the frame's placement on it."""
+    """Pinocchio's joint that carries a frame, and the frame's placement on it."""
     found = robot.model.frames[robot.frame_id(frame)]
     return int(found.parentJoint), found.placement.copy()
 
@@ -104,14 +104,14 @@ def _without_mass(robot: Robot, parts: Sequence[Body]) -> tuple[str, ...]:
 
 
 class PinocchioDynamics:
-    """Pinocchio's algorithms on a mechanism, with a model and a work space of this object's own.
+    """Pinocchio's algorithms on a mechanism, with their own model and work space, so that threads need no lock.
 
-    So no thread needs to wait for another. Not for a chain without joints: Pinocchio's algorithms crash on it.
+    Not for a chain without joints, on which Pinocchio's algorithms crash.
 
     Args:
         found: The mechanism.
-        gravity: In the root's axes; shape (3,), [m/s²].
-        load: On the tip.
+        gravity: Gravity in the root's axes; shape (3,), [m/s²].
+        load: A payload on the tip.
     """
 
     def __init__(self, found: Mechanism, gravity: Array, load: Load | None = None) -> None:
@@ -126,52 +126,52 @@ class PinocchioDynamics:
         expansion = robot.expansion(chain)
         self._offset, self._matrix = expansion.offset, expansion.matrix
         self._upper = ~np.tri(self._model.nv, k=-1, dtype=bool)
-        # Without followers the matrix is a permutation.
+        # Without mimic joints the matrix is a permutation.
         self.has_followers = self._matrix.shape[0] != self._matrix.shape[1]
 
     def mass_matrix(self, q: Array) -> Array:
-        """M by the composite rigid body algorithm [Featherstone2008, 6.2]; shape (n, n)."""
+        """Compute M by the composite rigid body algorithm [Featherstone2008, 6.2]; shape (n, n)."""
         M = np.asarray(pin.crba(self._model, self._data, self._full(q))).reshape(self._square)
-        # Pinocchio fills the upper triangle.
+        # Pinocchio fills only the upper triangle.
         return self._reduced(np.where(self._upper, M, M.T))
 
     def coriolis_matrix(self, q: Array, v: Array) -> Array:
-        """C, the one with Ṁ - 2C skew [Echeandia2021]; shape (n, n)."""
+        """Compute the C for which Ṁ - 2C is skew [Echeandia2021]; shape (n, n)."""
         C = pin.computeCoriolisMatrix(self._model, self._data, self._full(q), self._matrix @ v)
         return self._reduced(np.asarray(C).reshape(self._square))
 
     def gravity_torques(self, q: Array) -> Array:
-        """g(q); shape (n,), [N m or N]."""
+        """Compute g(q); shape (n,), [N m or N]."""
         return self._torques(pin.computeGeneralizedGravity(self._model, self._data, self._full(q)))
 
     def inverse(self, q: Array, v: Array, a: Array) -> Array:
-        """τ = M q̈ + C q̇ + g by the recursive Newton-Euler algorithm [Featherstone2008, 5.3]; shape (n,), [N m or N]."""
+        """Compute τ = M q̈ + C q̇ + g by recursive Newton-Euler [Featherstone2008, 5.3]; shape (n,), [N m or N]."""
         matrix = self._matrix
         return self._torques(pin.rnea(self._model, self._data, self._full(q), matrix @ v, matrix @ a))
 
     def forward(self, q: Array, v: Array, torques: Array) -> Array:
-        """q̈ by the articulated body algorithm [Featherstone2008, 7.3]; shape (n,). Not where mimic joints follow."""
+        """Compute q̈ by the articulated body algorithm [Featherstone2008, 7.3]; shape (n,). Not with mimic joints."""
         matrix = self._matrix
         a = pin.aba(self._model, self._data, self._full(q), matrix @ v, matrix @ torques)
         accelerations: Array = matrix.T @ np.asarray(a).reshape(-1)
         return accelerations
 
     def energies(self, q: Array, v: Array) -> tuple[float, float]:
-        """T and U [J], U zero where the centre of mass of what moves is level with the root."""
+        """Compute T and U, [J]; U is zero where the moving bodies' centre of mass is level with the root."""
         full_q = self._full(q)
         kinetic = pin.computeKineticEnergy(self._model, self._data, full_q, self._matrix @ v)
         return float(kinetic), float(pin.computePotentialEnergy(self._model, self._data, full_q))
 
     def static_torques(self, q: Array, v: Array, point: Array, wrench: Array) -> tuple[Array, float]:
-        """Torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
+        """Compute torques that hold the robot while its tip exerts a wrench, and the power of that wrench at q̇.
 
-        The wrench acts from the tip on its surroundings, which are at rest in the base frame: where the chain moves the
-        base against the root, the base takes the reaction.
+        The tip exerts the wrench on surroundings at rest in the base frame: if the chain moves the base relative to the
+        root, the reaction acts on the base.
 
         Args:
-            q: Configuration; shape (n,).
-            v: Joint velocities; shape (n,).
-            point: Where the force acts, in the base frame; shape (3,), [m].
+            q: Configuration; shape (n,), [rad or m].
+            v: Joint velocities; shape (n,), [rad/s or m/s].
+            point: Point where the force acts, in the base frame; shape (3,), [m].
             wrench: Force and moment in the base's axes; shape (6,), [N] and [N m].
         """
         model, data, full_q = self._model, self._data, self._full(q)
@@ -182,7 +182,7 @@ class PinocchioDynamics:
         twist = pin.Motion.Zero()
         for sign, joint in ((1.0, self._tip[0]), (-1.0, self._base[0])):
             twist += sign * data.oMi[joint].act(data.v[joint])
-            # The surroundings act on the robot the other way round.
+            # The surroundings exert the opposite force on the robot.
             forces[joint] -= sign * data.oMi[joint].actInv(force)
         torques = pin.computeStaticTorque(model, data, full_q, _force_vector(forces))
         return self._torques(torques), float(force.dot(twist))
