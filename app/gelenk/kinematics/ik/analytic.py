@@ -53,8 +53,8 @@ def nearest(
     Args:
         question: The problem.
         form: The closed form of the chain.
-        elbow_angle: Desired angle of a free elbow, [rad]; by default the seed's, or the nearest solution's if that does
-            not fit the limits.
+        elbow_angle: Desired angle of a free elbow, [rad]; by default the seed's, or the nearest solution's if that
+            does not fit the limits.
         deadline: When to stop, on `gelenk.model.compilation.clock`, [s].
     """
     count, n = len(question), len(question.chain)

@@ -1,8 +1,8 @@
-"""Which arms have a closed form, judged by the lines of their joints alone; and the names of its branches.
+"""Recognition of arms with a closed form by the lines of their joints, and the names of the branches.
 
-The plan of an arm is made by looking at which axes are parallel, meet or slide. It is then put to the test: of random
-configurations of the arm each must be among the branches of its own pose, else the plan is dropped. So what is
-recognised here is solved, whatever the description calls itself.
+The plan of an arm follows from which axes are parallel, intersect or slide. It is then tested: random configurations
+of the arm must be among the branches of their own poses, else the plan is dropped. So an arm that is recognised here
+is also solved, whatever its description says.
 """
 
 from collections.abc import Iterator, Sequence
@@ -43,15 +43,15 @@ from gelenk.model.poses import Poses, inverse
 
 GENERAL_NAME = "six turning joints, by elimination"
 _EXACTLY, _ROUNDED, _NEARLY = 1e-14, 1e-10, 1e-6
-"""Distance [m] at which lines meet, and sine of the angle at which they are parallel: descriptions round π."""
+"""Distance [m] at which lines intersect, and sine of the angle at which they are parallel: descriptions round π."""
 _CLEARLY = 1e-4
-"""The same that shows beyond doubt that they do not."""
+"""Distance or sine above which they clearly do not."""
 _SINGULAR = 1e-6
-"""Smallest singular value so near to a singularity that rounding may cost a solution."""
+"""Smallest singular value below which rounding may cost a solution, [m, rad]."""
 _TESTS, _MUST_PASS = 48, 46
-"""Configurations of the test, and how many must be found again: a few may lie next to a singularity."""
+"""Test configurations, and how many must be found again: a few may lie next to a singularity."""
 _NAMING = 64
-"""Configurations that tell what the roots are called."""
+"""Number of random configurations used to name the roots."""
 _GENERAL_TESTS, _GENERAL_MUST_PASS = 500, 498
 _FOUND_AGAIN = 1e-6
 _LINES = 16
@@ -62,13 +62,12 @@ class ClosedForm:
     """The closed form of a chain.
 
     Attributes:
-        name: What makes it one, in words.
+        name: The geometric property that allows it, in words.
         chain: The chain.
-        task: What counts of a target.
-        plan: How it is solved.
-        choices: What each root means: its bit, the name of the choice, and what it is called where the bit is 0 and
-            where it is 1.
-        tolerance: How far the geometry may be from what the plan assumes: sine of an angle, or distance [m].
+        task: The pose directions that count.
+        plan: How the chain is solved.
+        choices: Meaning of each root.
+        tolerance: Allowed deviation of the geometry from the plan: sine of an angle, or distance [m].
     """
 
     name: str
@@ -88,15 +87,15 @@ class ClosedForm:
         elbow_angles: Array | float | None = None,
         most: int = MOST,
     ) -> Branches:
-        """All branches of each target, or the nearest to the seed.
+        """Compute the branches of each target, nearest to the seed first.
 
         Args:
-            targets: T_base_tip wanted; N of them.
-            seeds: One configuration for all, or one each; shape (1 or N, n), [rad or m].
+            targets: Desired T_base_tip; N of them.
+            seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
             tolerances: Of position [m] and orientation [rad].
-            respect_limits: Whether solutions are to be within the limits.
-            elbow_angles: Of an arm with a free elbow, one for all or one each; that of the seed if left out, [rad].
-            most: Bound on the solutions of one target.
+            respect_limits: Whether solutions must be within the joint limits.
+            elbow_angles: Angles of a free elbow, one for all targets or one each; by default the seeds', [rad].
+            most: Largest number of solutions of one target.
         """
         chain = self.chain
         goal = make_goal(chain, self.task, *tolerances, respect_limits=False, max_iterations=1, random_seed=0)
@@ -109,34 +108,34 @@ class ClosedForm:
 
     @property
     def is_exact(self) -> bool:
-        """Whether the geometry is what the plan assumes, rounding apart."""
+        """Whether the geometry is what the plan assumes, up to rounding."""
         return self.tolerance <= _EXACTLY
 
     @property
     def doubt(self) -> float:
         """Smallest singular value [m, rad] below which the arm may have other solutions than those reported.
 
-        Where two solutions meet, what is off by ε is off by √ε in the joints: in the geometry, or at least by rounding.
+        Where two solutions meet, a deviation ε of the geometry, or of rounding, moves the joints by √ε.
         """
         return max(_SINGULAR, 10.0 * float(np.sqrt(self.tolerance)))
 
     @property
     def method(self) -> str:
-        """The name of the method in answers."""
+        """Name of the method in answers: `elimination` or `analytic`."""
         return "elimination" if self.plan.kind == GENERAL else "analytic"
 
     @property
     def has_double_roots(self) -> bool:
-        """Whether it rests on a polynomial whose double roots are known to half the digits alone."""
+        """Whether the form uses a quartic, whose double roots are accurate only to half the digits."""
         return self.plan.form in {SKEW, OBLIQUE}
 
     @property
     def has_free_elbow(self) -> bool:
-        """Whether the arm has a joint more than a pose needs, which turns the elbow about shoulder and wrist."""
+        """Whether the arm has a seventh joint, so that its elbow can turn about the line from shoulder to wrist."""
         return self.plan.kind == ELBOW
 
     def elbow_angles(self, qs: Array) -> Array:
-        """The elbow's angle about the line from shoulder to wrist, from the plane of that line and axis 1; shape (N,).
+        """Elbow angle about the line from shoulder to wrist, zero in the plane of that line and axis 1; (N,), [rad].
 
         Args:
             qs: Configurations of an arm with a free elbow; shape (N, 7), [rad].
@@ -145,7 +144,7 @@ class ClosedForm:
 
     @lru_cache(maxsize=64)  # noqa: B019
     def branch(self, code: int) -> dict[str, str | int]:
-        """The names of the roots that a branch took."""
+        """Return the names of the roots in a branch code, by choice."""
         named: dict[str, str | int] = {}
         for choice in self.choices:
             if choice.bit:
@@ -158,20 +157,20 @@ class ClosedForm:
         return named
 
     def free_joints(self, mask: int) -> list[str]:
-        """The names of the joints that a singular configuration leaves free."""
+        """Return the names of the joints that a bit mask marks as free."""
         return [name for j, name in enumerate(self.chain.joint_names) if mask >> j & 1]
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The meaning of one of two roots.
+    """The meaning of a root in branch codes.
 
     Attributes:
-        name: `shoulder`, `elbow` or `wrist`; `arm` where roots are numbered.
-        bit: Of the code; 0 where roots are numbered.
-        values: What it is called where the bit is 0, and where it is 1.
-        turned_by: Another bit that may turn the two round.
-        turns: Whether it does.
+        name: `shoulder`, `elbow` or `wrist`; `arm` if roots are numbered.
+        bit: Bit of the root in the code; 0 if roots are numbered.
+        values: Names of the root if the bit is 0, and if it is 1.
+        turned_by: Another bit that may swap the two names.
+        turns: Whether that bit swaps them.
     """
 
     name: str
@@ -185,7 +184,7 @@ _VALUES = {"shoulder": ("front", "back"), "elbow": ("up", "down"), "wrist": ("no
 
 
 def closed_form(chain: Chain, task: Task = FULL_POSE) -> ClosedForm | None:
-    """The closed form that gives all solutions of a task, or None where none is known."""
+    """Return the closed form that gives all solutions of a task, or None if none is known."""
     holder = _recognised(chain, task)
     if not holder:
         holder.append(_recognise(chain, task))
@@ -193,12 +192,12 @@ def closed_form(chain: Chain, task: Task = FULL_POSE) -> ClosedForm | None:
 
 
 def is_looked_at(chain: Chain, task: Task = FULL_POSE) -> bool:
-    """Whether `closed_form` knows its answer already; else it takes some hundredths of a second."""
+    """Check whether the result of `closed_form` is cached; if not, it takes some hundredths of a second."""
     return bool(_recognised(chain, task))
 
 
 def look_at(chain: Chain, task: Task, found: ClosedForm | None) -> None:
-    """Take over what `closed_form` has found in another process, of the same chain."""
+    """Cache a result of `closed_form` from another process for the same chain."""
     holder = _recognised(chain, task)
     if not holder:
         holder.append(None if found is None else replace(found, chain=chain))
@@ -206,7 +205,7 @@ def look_at(chain: Chain, task: Task, found: ClosedForm | None) -> None:
 
 @lru_cache(maxsize=1024)
 def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: ARG001
-    """The cache of recognised closed forms; empty at first."""
+    """Cache entry of a closed form; an empty list at first."""
     return []
 
 
@@ -223,12 +222,12 @@ def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
 
 @lru_cache(maxsize=256)
 def elimination(chain: Chain) -> ClosedForm | None:
-    """How all solutions of six turning joints without a closed form are found; None where that does not work."""
+    """Return the elimination that solves six revolute joints of any geometry; None if it fails on the chain."""
     if not _is_simple(chain) or len(chain) != 6 or chain.flat.joints[:, 0].any():
         return None
     ahead = _screws(chain, _NEARLY)
     forms = [ClosedForm(GENERAL_NAME, chain, FULL_POSE, _general_plan(screws)) for screws in (ahead, ahead.reversed())]
-    # Where the geometry is special one of the two is better, or neither works.
+    # If the geometry is special, one of the two is better, or neither works.
     scores = [_found_again(form, _GENERAL_TESTS) for form in forms]
     best = int(np.argmax(scores))
     if scores[best] < _GENERAL_MUST_PASS:
@@ -237,7 +236,7 @@ def elimination(chain: Chain) -> ClosedForm | None:
 
 
 def screws_of_six(chain: Chain) -> "Screws | None":
-    """The lines of six joints, each a variable of its own that no other can make up for; None of other chains."""
+    """Return the joint lines of a chain with six independent variables; None for other chains."""
     if len(chain) != 6 or not _is_simple(chain) or not _is_independent(chain, FULL_POSE):
         return None
     return _screws(chain, _NEARLY)
@@ -245,19 +244,19 @@ def screws_of_six(chain: Chain) -> "Screws | None":
 
 @lru_cache(maxsize=256)
 def _limit_rows(chain: Chain, respect_limits: bool) -> Array:
-    """Lower and upper limits of the variables, infinite where they do not count; shape (2, n)."""
+    """Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m]."""
     return np.stack(limits_of(chain, respect_limits))
 
 
 def _is_simple(chain: Chain) -> bool:
-    """Whether each joint of the way is a variable of its own, moved one to one."""
+    """Check for 2 to 7 joints, each with its own variable and a drive ratio of ±1."""
     flat = chain.flat
     own = len(flat.joints) == len(chain) and (flat.joints[:, 1] == np.arange(len(chain))).all()
     return bool(own) and 2 <= len(chain) <= 7 and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
 
 
 def _is_independent(chain: Chain, task: Task) -> bool:
-    """Whether no joint can compensate another in the task, except for the elbow of seven joints."""
+    """Check that no joint can compensate another in the task, except by the elbow motion of seven joints."""
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
     qs = np.random.default_rng(1).uniform(-reach, reach, (5, len(chain)))
     Js = linearise(chain, Poses(*chain_poses(chain.flat, qs)), qs, task)[1]
@@ -269,16 +268,16 @@ def _is_independent(chain: Chain, task: Task) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Screws:
-    """The lines of the joints at zero, in solving order.
+    """The lines of the joints at the zero configuration, in solving order.
 
     Attributes:
         axes: Unit vectors; shape (n, 3).
-        points: A point on each; shape (n, 3), [m].
-        slides: Which joints slide; shape (n,).
-        tip: The tip's origin at zero, where solving starts at the base, else the base's; shape (3,), [m].
-        zero: T_0⁻¹; shape (12,).
-        backwards: Whether the order is from the tip's end.
-        tolerance: Distance [m] at which lines count as meeting, and sine of an angle at which they count as parallel.
+        points: A point on each line; shape (n, 3), [m].
+        slides: Which joints are prismatic; shape (n,).
+        tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
+        zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
+        backwards: Whether solving starts at the tip.
+        tolerance: Distance [m] at which lines count as intersecting, and sine at which they count as parallel.
     """
 
     axes: Array
@@ -290,7 +289,7 @@ class Screws:
     tolerance: float
 
     def reversed(self) -> "Screws":
-        """The same arm from its other end: M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹."""
+        """Return the same arm from its other end: M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹."""
         return Screws(
             -self.axes[::-1],
             self.points[::-1].copy(),
@@ -326,7 +325,7 @@ def _screws(chain: Chain, tolerance: float) -> Screws:
 
 
 def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, Plan]]:
-    """The ways in which an arm may be solved, the best first."""
+    """Yield names and plans by which an arm may be solved, the best first."""
     ahead = _screws(chain, tolerance)
     n = len(chain)
     if n == 7:
@@ -339,12 +338,12 @@ def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, Plan]]:
                 candidates += list(_decoupled_plans(screws, last))
         if n == 6:
             candidates += list(_parallel_plans(screws))
-    # Pairs of roots before quartics; of equals the order above.
+    # Pairs of roots come before quartics; the sort is stable.
     yield from sorted(candidates, key=lambda candidate: candidate[1].form in {SKEW, OBLIQUE})
 
 
 def _decoupled_plans(screws: Screws, last: int) -> Iterator[tuple[str, Plan]]:
-    """An arm of two or three joints that positions the point in which the last axes meet."""
+    """Yield plans for joints that position the point in which the last axes intersect."""
     n = len(screws.axes)
     placed = n - last
     if screws.slides[placed:].any():
@@ -369,7 +368,7 @@ def _decoupled_plans(screws: Screws, last: int) -> Iterator[tuple[str, Plan]]:
 
 
 def _is_positioned(screws: Screws, placed: int, centre: Array) -> bool:
-    """Whether the first joints move a point in as many directions as they are: else its position does not tell them."""
+    """Check that the first joints move a point in independent directions, so that its position determines them."""
     step, rng = 1e-5, np.random.default_rng(2)
     ranks = []
     for _ in range(5):
@@ -383,7 +382,7 @@ def _is_positioned(screws: Screws, placed: int, centre: Array) -> bool:
 
 
 def _carried(screws: Screws, q: Array, point: Array) -> Array:
-    """A point moved by the first joints."""
+    """Move a point by the first joints; shape (3,), [m]."""
     for i in reversed(range(len(q))):
         h, o = screws.axes[i], screws.points[i]
         if screws.slides[i]:
@@ -414,7 +413,7 @@ def _plan(screws: Screws, kind: int, form: int, placed: int, order: Sequence[int
 
 
 def _meeting_point(screws: Screws, first: int, n: int) -> Array | None:
-    """The point in which the axes from `first` on meet, no two neighbours of them parallel; without any, the tip."""
+    """Point in which axes `first` to n - 1 intersect, or None; tip's foot on a single axis, tip without axes; (3,)."""
     axes, points = screws.axes[first:n], screws.points[first:n]
     if len(axes) == 0:
         return screws.tip
@@ -430,10 +429,10 @@ def _meeting_point(screws: Screws, first: int, n: int) -> Array | None:
 
 
 def _elimination(screws: Screws, order: Sequence[int]) -> tuple[int, Array] | None:
-    """How the positioning joints are solved if they are eliminated in that order; and the constants of it.
+    """Return how to solve the positioning joints in an order of elimination, and the constants for it.
 
-    Rows of the constants: axes 0-2 and points 3-5 in that order, 8 what β has of the axis, 9 and 10 directions square
-    to it, 11 and 12 how the two equations are combined, 14 and 15 β (see `compositions`).
+    Rows of the constants: 0-2 axes and 3-5 points in that order, 8 components of the two β along axis 2, 9 and 10
+    directions perpendicular to it, 11 and 12 combinations of the two equations, 14 and 15 β (see `compositions`).
     """
     sign = 1.0 if order[0] < order[1] else -1.0
     axes, points = sign * screws.axes[list(order)], screws.points[list(order)].copy()
@@ -461,7 +460,7 @@ def _elimination(screws: Screws, order: Sequence[int]) -> tuple[int, Array] | No
 
 
 def _combination(lines: Array, betas: Array, x: Array, y: Array, tolerance: float) -> tuple[int, Array] | None:
-    """How two equations B u = b tell a vector u of a plane whose length is known; B's rows are β in the axes x, y."""
+    """Choose how to solve B u = b for a plane vector u of known length; the rows of B are β in the axes x, y."""
     B = np.column_stack((betas @ x, betas @ y))
     lengths = np.linalg.norm(B, axis=1)
     if lengths.max() <= tolerance:
@@ -483,7 +482,7 @@ def _combination(lines: Array, betas: Array, x: Array, y: Array, tolerance: floa
 
 
 def _parallel_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
-    """Six turning joints, the second to the fourth about parallel axes."""
+    """Yield the plan for six revolute joints whose axes 2, 3 and 4 are parallel."""
     h = screws.axes[1]
     if screws.slides.any() or np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > screws.tolerance:
         return
@@ -497,7 +496,7 @@ def _parallel_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
     for k, (start, arm) in enumerate(((h @ points[4], points[5] - points[4]), (0.0, screws.axes[5]))):
         axial = (h @ h5) * (h5 @ arm)
         lines[14 + k] = start + axial, h @ arm - axial, h @ np.cross(h5, arm)
-    # Of (cos q_5, sin q_5) the combination is that of a plane's axes.
+    # The plane vector u is (cos q_5, sin q_5).
     combined = _combination(lines, lines[14:16] @ np.eye(3)[:, [1, 2, 0]], np.eye(3)[0], np.eye(3)[1], screws.tolerance)
     if combined is not None:
         lines[6] = _square_to(h)
@@ -505,7 +504,7 @@ def _parallel_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
 
 
 def _general_plan(screws: Screws) -> Plan:
-    """Six turning joints of any geometry."""
+    """Return the plan for six revolute joints of any geometry."""
     lines = np.zeros((_LINES, 3))
     points = screws.points.copy()
     for i in range(5):
@@ -522,7 +521,7 @@ def _general_plan(screws: Screws) -> Plan:
 
 
 def _elbow_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
-    """Seven turning joints, the first three axes meeting in a point and the last three in another."""
+    """Yield the plan for seven revolute joints with a spherical shoulder and wrist."""
     if screws.slides.any():
         return
     shoulder, wrist = _meeting_point(screws, 0, 3), _meeting_point(screws, 4, 7)
@@ -540,7 +539,7 @@ def _elbow_plans(screws: Screws) -> Iterator[tuple[str, Plan]]:
 
 
 def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Array, Array]:
-    """Where two lines are nearest to each other; of parallel ones the foot of the first's point."""
+    """Closest points of two lines; for parallel ones, p and its foot on the second line; shape (3,) each."""
     normal = np.cross(a, b)
     square = float(normal @ normal)
     if square <= tolerance**2:
@@ -549,21 +548,21 @@ def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Arr
     s, t = np.cross(between, b) @ normal / square, np.cross(between, a) @ normal / square
     first, second = p + s * a, q + t * b
     if np.linalg.norm(second - first) <= tolerance:
-        # They meet: one point for both.
+        # The lines intersect: use one point for both.
         first = second = 0.5 * (first + second)
     return np.asarray(first), np.asarray(second)
 
 
 def _square_to(h: Array) -> Array:
-    """A unit vector square to a unit vector."""
+    """Return a unit vector perpendicular to a unit vector."""
     x = np.cross(np.eye(3)[int(np.argmin(np.abs(h)))], h)
     return np.asarray(x / np.linalg.norm(x))
 
 
 def _found_again(form: ClosedForm, count: int) -> int:
-    """How many of some random configurations are among the branches of their own poses, with no joint left free.
+    """Count random configurations that are among the branches of their own poses, with no joint left free.
 
-    A joint that is always free is none that the plan determines: then it would not find solutions with another seed.
+    The plan does not determine a joint that is always free, so it would not find solutions from other seeds.
     """
     qs, table = _trial(form, count)
     free = np.add.reduceat(np.append(table.free, 0), table.firsts[:-1]) * (np.diff(table.firsts) > 0)
@@ -571,7 +570,7 @@ def _found_again(form: ClosedForm, count: int) -> int:
 
 
 def _trial(form: ClosedForm, count: int) -> tuple[Array, Branches]:
-    """Random configurations, and the branches of their poses from other seeds."""
+    """Draw random configurations and solve their poses from other seeds."""
     chain = form.chain
     reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
     draws = np.random.default_rng(0).uniform(-reach, reach, (2, count, len(chain)))
@@ -582,7 +581,7 @@ def _trial(form: ClosedForm, count: int) -> tuple[Array, Branches]:
 
 
 def _row_of(chain: Chain, table: Branches, i: int, q: Array) -> int:
-    """Which row of the table is configuration q among the branches of target i; -1 if none is."""
+    """Return the row of configuration q among the branches of target i in the table; -1 if it is missing."""
     first, last = table.firsts[i], table.firsts[i + 1]
     differences = table.qs[first:last] - q
     turning = chain.flat.joints[:, 0] == 0
@@ -595,7 +594,7 @@ Roots: TypeAlias = dict[str, int]
 
 
 def _roots(plan: Plan) -> Roots:
-    """Which bit of the code is the shoulder's, the elbow's and the wrist's choice, as far as the arm has them."""
+    """Return the code bits of the shoulder, elbow and wrist choices that the arm has."""
     ends = ("wrist", "shoulder") if plan.backwards else ("shoulder", "wrist")
     if plan.kind == PARALLEL:
         roots = {"elbow": SECOND_ROOT}
@@ -617,11 +616,11 @@ def _roots(plan: Plan) -> Roots:
 
 
 def _choices(form: ClosedForm) -> tuple[Choice, ...]:
-    """The names of the roots, found out by trying.
+    """Name the roots by trial.
 
-    The shoulder is at the front in the branch that the middle of the ranges lies in; the elbow is up where the joints
-    lie higher along the base's z, or, where the arm moves at one height, where the elbow's joint has the lesser angle;
-    the wrist does not flip where its middle joint is positive.
+    The shoulder is `front` in the branch of the mid-range configuration. The elbow is `up` where the joints lie higher
+    along the base's z or, at equal heights, where the sine of the elbow joint is smaller. The wrist is `no_flip` where
+    the sine of its middle joint is positive.
     """
     roots = _roots(form.plan)
     qs, table = _trial(form, _NAMING)
@@ -633,7 +632,7 @@ def _choices(form: ClosedForm) -> tuple[Choice, ...]:
     shoulder = roots.get("shoulder", 0)
     for name, bit in roots.items():
         if len(np.unique(all_codes & bit)) < 2:
-            continue  # The two roots are always one.
+            continue  # The two roots always coincide.
         set_ = (codes & bit) != 0
         if name == "shoulder":
             choices.append(_named(name, bit, _share(set_, _near_middle(form, qs)) > 0.5))
@@ -658,13 +657,13 @@ def _share(flags: Flags, among: Flags) -> float:
 
 
 def _near_middle(form: ClosedForm, qs: Array) -> Flags:
-    """The tenth of the configurations that is nearest to the middle of the ranges."""
+    """Flag the tenth of the configurations that is nearest to mid-range; shape (N,)."""
     distances = np.square(qs - mid_range(form.chain)).sum(axis=1)
     return np.asarray(distances <= np.quantile(distances, 0.1))
 
 
 def _middle_of_wrist(form: ClosedForm, qs: Array) -> Array:
-    """The middle joint of the three that turn about a point, or the fifth of an arm of three parallel axes."""
+    """Sine of the middle wrist joint, or of joint 5 of an arm with three parallel axes; shape (N,)."""
     n = len(form.chain)
     if form.plan.kind == PARALLEL:
         j = 1 if form.plan.backwards else 4
@@ -676,7 +675,7 @@ def _middle_of_wrist(form: ClosedForm, qs: Array) -> Array:
 
 
 def _elbow_heights(form: ClosedForm, qs: Array, codes: Array, bit: int) -> Flags:
-    """Which configurations have the higher elbow of the two that differ in it alone."""
+    """Flag configurations whose elbow is higher than in the branch that differs in its bit alone; shape (N,)."""
     higher = np.zeros(len(qs), dtype=bool)
     poses = Poses(*chain_poses(form.chain.flat, qs))
     elbows = form.elbow_angles(qs) if form.has_free_elbow else None
@@ -691,7 +690,7 @@ def _elbow_heights(form: ClosedForm, qs: Array, codes: Array, bit: int) -> Flags
 
 
 def _height(form: ClosedForm, q: Array) -> float:
-    """Sum of the joints' heights along the base's z, and, where that tells nothing, less of the elbow's angle."""
+    """Sum of the joints' heights along the base's z, with the sine of the elbow joint as a tie-breaker."""
     flat = form.chain.flat
     total, T = 0.0, np.eye(4)
     for i, row in enumerate(flat.placements[:-1]):
@@ -710,11 +709,11 @@ def _height(form: ClosedForm, q: Array) -> float:
 
 
 def _fits(form: ClosedForm) -> bool:
-    """Whether a plan gives all solutions of the task: of a whole pose, or of what the arm has joints for."""
+    """Check that a plan gives all solutions of the task: a full pose, or one with as many directions as joints."""
     n, plan, wanted = len(form.chain), form.plan, frozenset(form.task.directions)
     if len(wanted) == 6:
         return True
-    # From the tip's end the whole orientation of the target would count.
+    # Solving from the tip would use the target's full orientation.
     if plan.kind != DECOUPLED or n != len(wanted) or plan.backwards:
         return False
     if n == 3 and wanted in {frozenset("xyz"), frozenset(("rx", "ry", "rz"))}:
@@ -727,14 +726,14 @@ def _fits(form: ClosedForm) -> bool:
 
 
 def _plane_of(form: ClosedForm) -> int | None:
-    """Along which axis of the base all joints turn and slide; None where they do not."""
+    """Return the index of the base axis parallel to all joint axes; None if there is none."""
     k = int(np.argmax(np.abs(form.plan.axes[0])))
     along = np.abs(form.plan.axes @ np.eye(3)[k])
     return k if (along >= 1.0 - _NEARLY**2).all() else None
 
 
 def _in_reach_of(form: ClosedForm, rows: Array) -> Array:
-    """The targets, with the height that does not count put to that in which a planar arm moves."""
+    """Move the targets of a planar task into the plane of the arm; shape (N, 12)."""
     wanted = form.task.directions
     if len(wanted) == 6 or {*"xyz"} <= set(wanted) or not {"x", "y"} & set(wanted):
         return rows

@@ -1,16 +1,16 @@
-"""Closed forms, compiled: each a composition of the geometric subproblems, one target at a time.
+"""Closed forms as compiled compositions of the geometric subproblems, one target at a time.
 
-A chain is a product of screws: T = E_1 ⋯ E_n T_0, where E_i turns about or slides along the line of joint i as it lies
-at zero, and T_0 is the tip's pose there [Brockett1984]. With M = T T_0⁻¹ the three classes are
+A chain is a product of screws: T = E_1 ⋯ E_n T_0, where E_i turns about or slides along the line of joint i at the
+zero configuration, and T_0 is the tip's pose there [Brockett1984]. With M = T T_0⁻¹ the classes are
 
-- `DECOUPLED`: the last turning axes meet in a point. What comes before them brings that point to M times its place at
-  zero, and they turn the rest. Backwards, with M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹, the same serves a shoulder whose axes meet.
-- `PARALLEL`: axes 2, 3 and 4 are parallel to h. E_2 E_3 E_4 keeps every height along h, so heights tell q_1 and q_5.
-- `ELBOW`: seven joints, the first three axes meeting in a point and the last three in another. The distance of the two
-  points tells the elbow's joint; the elbow turns freely about the line between them.
-- `GENERAL`: six turning joints of any geometry, see `elimination`.
+- `DECOUPLED`: the last revolute axes intersect in a point. The joints before them move that point to its image under
+  M, and they set the orientation. Backwards, with M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹, this also solves a spherical shoulder.
+- `PARALLEL`: axes 2, 3 and 4 are parallel to h. E_2 E_3 E_4 preserves heights along h, which determine q_1 and q_5.
+- `ELBOW`: seven joints, the first three axes intersecting in one point and the last three in another. The distance of
+  the two points determines the elbow joint; the elbow turns freely about the line between them.
+- `GENERAL`: six revolute joints of any geometry, see `elimination`.
 
-What is found here is as exact as the geometry is; polishing and judging come after.
+The candidates are only as exact as the geometry; `branch_kernels` polishes and checks them.
 """
 
 import math
@@ -37,48 +37,48 @@ from gelenk.model.compilation import inlined, unmanaged
 DECOUPLED, PARALLEL, ELBOW, GENERAL = 0, 1, 2, 3
 """Classes of arms."""
 SKEW, COPLANAR, OBLIQUE, SQUARE, RAILS = 0, 1, 2, 3, 4
-"""How a positioning arm is solved, by its joints 1 and 2: `SKEW` and `COPLANAR` where joint 2 turns; where it slides,
-`OBLIQUE` or `SQUARE` to a joint 1 that turns, `RAILS` with one that slides too."""
+"""Forms of a positioning arm, by its joints 1 and 2: `SKEW` and `COPLANAR` if joint 2 is revolute; if it is prismatic,
+`OBLIQUE` or perpendicular (`SQUARE`) to a revolute joint 1, or `RAILS` with a prismatic one."""
 
 MOST = 32
-"""Most candidates of a target."""
+"""Largest number of candidates of a target."""
 FIRST_ROOT, SECOND_ROOT, LAST_ROOT, ARM_ROOT, ROOT_NUMBER = 1, 2, 4, 8, 4
-"""Bits of a candidate's code: which of two roots was taken where; above them the number of a quartic's root."""
+"""Bits of a candidate's code, each for one of two roots; from bit `ROOT_NUMBER` on, the number of a quartic's root."""
 
 _NO_ARM = 1e-10
-"""A lever this short [m, or the sine of an angle] turns nothing: the joint is free."""
+"""Lever arm [m, or sine of an angle] below which a joint has no effect and is free."""
 _FLAT = 1e-7
-"""Sine below which the middle turn of three may be none but rounding."""
+"""Sine of the middle of three turns below which it may be rounding."""
 _NEARLY_FLAT = 1e-2
-"""Sine below which its square tells more than its cosine."""
+"""Sine below which its square is more accurate than the cosine."""
 _OF_DOUBLE_ROOT = 1e-6
-"""A lever so short may be none but the error of a quartic's double root, [rad]: what it tells may be wrong."""
+"""Lever arm [sine] below which it may be the error of a quartic's double root, and an angle from it wrong."""
 
 _TURNS_TRIED = 16
-"""Angles of a free joint at which the other joints are solved for."""
+"""Number of angles of a free joint at which the other joints are solved for."""
 _MOST_BEFORE_LAST = 12
-"""Candidates after which there might be no room for those at the last angles of a free joint."""
+"""Candidates beyond which there may be no room for those at the extreme angles of a free joint."""
 
 Motion: TypeAlias = tuple[float, float, float, float, float, float, float, float, float, float, float, float]
 """A displacement: rotation row by row, then translation."""
 
 
 class Plan(NamedTuple):
-    """How an arm is solved; the joints in solving order, which is from the tip's end where `backwards`.
+    """How an arm is solved, with its joints in solving order: from the tip if `backwards`.
 
     Attributes:
         kind: `DECOUPLED`, `PARALLEL`, `ELBOW` or `GENERAL`.
-        backwards: 1 where the arm is solved from its tip's end.
-        form: How the positioning joints are solved.
-        placed: How many joints position the wrist's point, or 3 for `ELBOW`.
-        axes: Directions of the joints at zero; shape (n, 3).
-        points: A point on each; shape (n, 3), [m].
-        slides: 1 where a joint slides; shape (n,).
+        backwards: 1 if the arm is solved from its tip.
+        form: How the positioning joints are solved: `SKEW`, `COPLANAR`, `OBLIQUE`, `SQUARE` or `RAILS`.
+        placed: Number of joints that position the wrist point; 3 for `ELBOW`.
+        axes: Joint axes at zero; shape (n, 3).
+        points: A point on each axis; shape (n, 3), [m].
+        slides: 1 for a prismatic joint; shape (n,).
         order: The positioning joints in the order of elimination; shape (3,).
         lines: Constants of the positioning arm, see `closed_form`; shape (16, 3).
         zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
-        reach: Bound of sliding joints and of the arm, [m].
-        terms: Of a general arm the left sides of its equations, see `elimination`; else empty.
+        reach: Bound on prismatic joints and on the size of the arm, [m].
+        terms: Left sides of the equations of a general arm, see `elimination`; else empty.
     """
 
     kind: int
@@ -96,17 +96,17 @@ class Plan(NamedTuple):
 
 
 class Candidates(NamedTuple):
-    """The solutions that a composition finds for one target.
+    """The candidates that a composition finds for one target, and space for finding them.
 
     Attributes:
         values: Joint values, in solving order; shape (MOST, n), [rad or m].
-        codes: Which roots were taken; shape (MOST,).
-        free: Bit i where joint i was free and has kept the seed's value; shape (MOST,).
-        roots: Room; shape (8,).
-        first: Positions of the first joints, in the order of elimination; shape (8, 3).
-        marks: Their codes and free joints; shape (2, 8).
-        space: Room for a general arm.
-        doubtful: 1 where a root is double as far as it is known, so that rounding may have cost some; shape (1,).
+        codes: Bits of the roots chosen; shape (MOST,).
+        free: Bit mask: bit i is set if joint i was free and kept the seed's value; shape (MOST,).
+        roots: Space for the roots of an equation; shape (8,).
+        first: Values of the positioning joints, in the order of elimination; shape (8, 3), [rad or m].
+        marks: Their codes and bit masks of free joints; shape (2, 8).
+        space: Space for a general arm.
+        doubtful: 1 if a root may be double, so that rounding may have cost solutions; shape (1,).
     """
 
     values: Array
@@ -125,17 +125,17 @@ _AXIS, _POINT, _SQUARE, _LEVEL, _ALONG, _ACROSS, _SOLVE, _CENTRE, _LEVER = 0, 3,
 
 @unmanaged
 def compose(plan: Plan, target: Array, seed: Array, elbow_angle: float, found: Candidates) -> int:
-    """Fill the candidates of one target.
+    """Compute the candidates of one target.
 
     Args:
         plan: The arm.
         target: T_base_tip, rotation row by row, then position; shape (12,).
-        seed: Joint values that free joints keep, in solving order; shape (n,).
-        elbow_angle: Where the elbow is to be on its circle, [rad]; of `ELBOW` alone.
-        found: Filled.
+        seed: Joint values that free joints keep, in solving order; shape (n,), [rad or m].
+        elbow_angle: Desired angle of the elbow on its circle, [rad]; used by `ELBOW` alone.
+        found: Output.
 
     Returns:
-        How many there are.
+        Number of candidates.
     """
     M = _displacement(plan, target)
     found.doubtful[0] = 0
@@ -150,7 +150,7 @@ def compose(plan: Plan, target: Array, seed: Array, elbow_angle: float, found: C
 
 @inlined
 def _displacement(plan: Plan, t: Array) -> Motion:
-    """M = T T_0⁻¹, or its inverse where the arm is solved backwards."""
+    """Compute M = T T_0⁻¹, or its inverse if the arm is solved backwards."""
     z = plan.zero
     r00 = t[0] * z[0] + t[1] * z[3] + t[2] * z[6]
     r01 = t[0] * z[1] + t[1] * z[4] + t[2] * z[7]
@@ -190,14 +190,14 @@ def _displaced(M: Motion, a: Vector) -> Vector:
 
 @inlined
 def _about(plan: Plan, i: int, angle: float, a: Vector) -> Vector:
-    """A point turned about the line of joint i."""
+    """Turn a point about the line of joint i."""
     o = row(plan.points, i)
     return plus(o, 1.0, turned(row(plan.axes, i), angle, minus(a, o)))
 
 
 @unmanaged
 def _decoupled(plan: Plan, M: Motion, seed: Array, found: Candidates) -> int:
-    """First what brings the wrist's point to its place, then the turns of the wrist, for each of these."""
+    """Find the joints that position the wrist point, then for each solution the turns of the wrist."""
     centre = row(plan.lines, _CENTRE)
     goal = _displaced(M, centre)
     ways = 1
@@ -215,7 +215,7 @@ def _decoupled(plan: Plan, M: Motion, seed: Array, found: Candidates) -> int:
 
 @unmanaged
 def _with_wrist(plan: Plan, M: Motion, way: int, seed: Array, found: Candidates, count: int) -> int:
-    """Add one way to position the wrist's point with each way to turn the wrist; how many candidates there are then."""
+    """Combine one positioning of the wrist point with all turns of the wrist; return the new number of candidates."""
     last, left = len(plan.axes) - 1, len(plan.axes) - plan.placed
     square = row(plan.lines, _SQUARE)
     a, y = _rotated(M, row(plan.axes, last)), _rotated(M, square)
@@ -244,7 +244,7 @@ def _with_wrist(plan: Plan, M: Motion, way: int, seed: Array, found: Candidates,
 
 @inlined
 def _few_turns(plan: Plan, a: Vector, y: Vector, square: Vector, values: Array) -> None:
-    """The last two joints, or the last, by where they turn the last axis and a vector square to it; or none."""
+    """Solve the last two joints, one or none, from the images of the last axis and a vector perpendicular to it."""
     last, left = len(plan.axes) - 1, len(plan.axes) - plan.placed
     if left == 2:
         h = row(plan.axes, last - 1)
@@ -258,20 +258,20 @@ def _few_turns(plan: Plan, a: Vector, y: Vector, square: Vector, values: Array) 
 def _three_turns(
     plan: Plan, i: int, a: Vector, y: Vector, square: Vector, second: bool, seed: Array, values: Array
 ) -> tuple[int, int]:
-    """Angles of the joints i, i + 1, i + 2, whose axes f, g, h meet, by where they turn h and a vector square to it.
+    """Solve joints i, i + 1, i + 2, whose axes f, g, h intersect, from the images of h and a perpendicular vector.
 
     Args:
         plan: The arm.
-        i: Which joints.
-        a: R h, R = R_f R_g R_h.
-        y: R times the vector square to h.
-        square: That vector.
-        second: Which of the two solutions.
-        seed: What a free joint keeps.
-        values: Their three are filled.
+        i: Index of the first of the three joints.
+        a: R h, with R = R_f R_g R_h.
+        y: R times the vector perpendicular to h.
+        square: The vector perpendicular to h.
+        second: Whether to compute the second of the two solutions.
+        seed: Values that free joints keep, [rad or m].
+        values: Output: entries i to i + 2, [rad].
 
     Returns:
-        1, 0 where there is only this one, -1 where there is none; and 1 where joint i was free, else 0.
+        1 if there are two solutions, 0 if only this one, -1 if none; and 1 if joint i was free, else 0.
     """
     f, g, h = row(plan.axes, i), row(plan.axes, i + 1), row(plan.axes, i + 2)
     axial = dot(g, h) * dot(f, g)
@@ -297,20 +297,20 @@ def _three_turns(
 
 @inlined
 def _by_lean(b: Vector, g: Vector, f: Vector, side: float, lean: float) -> Vector:
-    """A direction b that joint g has turned next to axis f, known by how far the two are to be apart.
+    """Refine a direction b, which joint g has turned close to axis f, by its angle to f.
 
-    Where its two solutions nearly meet, the cosine tells joint g to half the digits alone. The sine keeps them all,
-    also where g never brings b onto f, be it for the rounding of the axes' angles.
+    Where its two solutions nearly meet, the cosine gives joint g to half the digits only. The sine keeps all of them,
+    even if rounding of the axes keeps g from ever bringing b exactly onto f.
 
     Args:
-        b: The direction, to half the digits.
-        g: The joint's axis.
-        f: The axis that it is next to.
-        side: 1 where b is on the side of f × g times its sign along f, else -1.
-        lean: The square of the sine between b and f.
+        b: The direction, accurate to half the digits.
+        g: Axis of the joint.
+        f: The axis close to b.
+        side: 1 if b lies on the side of f × g, times the sign of b along f, else -1.
+        lean: The squared sine of the angle between b and f.
 
     Returns:
-        What it has square to f.
+        The part of b perpendicular to f.
     """
     beside, aside = plus(g, -dot(f, g), f), cross(f, g)
     along, square = math.copysign(1.0, dot(b, f)), dot(aside, aside)
@@ -321,11 +321,11 @@ def _by_lean(b: Vector, g: Vector, f: Vector, side: float, lean: float) -> Vecto
 
 @unmanaged
 def _positions(plan: Plan, start: Vector, goal: Vector, seed: Array, found: Candidates) -> int:
-    """E_1 E_2 E_3 start = goal: the three joints, in the order of elimination; the third may be missing.
+    """Solve E_1 E_2 E_3 start = goal for the joints in the order of elimination; the third may be missing.
 
-    The first joint keeps two quantities of a point: its height along the axis and its distance from a point on it
-    where it turns, two coordinates square to the axis where it slides. Both are β·u + γ u² = k of u, the vector from a
-    point on axis 2 to E_2 v, v to E_3 start; so with joint 3 in v and joint 2 eliminated, one equation is left.
+    Joint 1 preserves two quantities of a point: height along the axis and distance from a point on it if revolute, two
+    coordinates perpendicular to the axis if prismatic. With v from a point on axis 2 to E_3 start, and u = E_2 v, both
+    have the form β·u + γ u² = k. Eliminating joint 2 leaves one equation in joint 3, on which v depends.
     """
     L = plan.lines
     o1, o2 = row(L, _POINT), row(L, _POINT + 1)
@@ -350,7 +350,7 @@ def _positions(plan: Plan, start: Vector, goal: Vector, seed: Array, found: Cand
 
 @unmanaged
 def _third(plan: Plan, start: Vector, o2: Vector) -> tuple[Vector, Vector, Vector, Coefficients]:
-    """The vector v as a function of joint 3, and its square."""
+    """Return the vector v and its square as functions of joint 3."""
     zero = (0.0, 0.0, 0.0)
     if plan.placed < 3:
         v0 = minus(start, o2)
@@ -388,7 +388,7 @@ def _total(f: Quadratic, factor: float, g: Quadratic) -> Quadratic:
 
 @inlined
 def _basis(slides: int, q: float) -> Coefficients:
-    """The functions of a joint of which others are sums."""
+    """Return 1, cos q, sin q for a revolute joint, or 1, q, q² for a prismatic one."""
     if slides:
         return 1.0, q, q * q
     return 1.0, math.cos(q), math.sin(q)
@@ -396,7 +396,7 @@ def _basis(slides: int, q: float) -> Coefficients:
 
 @inlined
 def _roots_of(slides: int, g: Coefficients, kept: float) -> tuple[float, float, bool, bool]:
-    """Where a function of joint 3 vanishes, as `turns_at` has it; and whether it does everywhere: then `kept`."""
+    """Solve a function of joint 3 for zeros, see `turns_at`; also flag a zero function, whose root is `kept`."""
     if abs(g[0]) + abs(g[1]) + abs(g[2]) < _NO_ARM * _NO_ARM:
         return kept, 0.0, True, True
     if slides:
@@ -413,7 +413,7 @@ def _third_slides(plan: Plan) -> int:
 
 @unmanaged
 def _quadratic_roots(plan: Plan, f: Quadratic, found: Candidates) -> int:
-    """Joint 3 from one quadratic equation; where there is none, its place is held by zero."""
+    """Solve a quadratic equation for joint 3; return the number of roots, or one zero without a joint 3."""
     if plan.placed < 3:
         found.roots[0] = 0.0
         return 1
@@ -436,9 +436,9 @@ def _by_turn(
     seed: Array,
     found: Candidates,
 ) -> int:
-    """Joints 2 and 3 where joint 2 turns: u is of v's height and length, and two equations tell where it points.
+    """Solve joints 2 and 3 if joint 2 is revolute: u has v's height and length, and two equations give its direction.
 
-    Of axes 1 and 2 that meet, `off_axis` is how far the goal is from axis 1; else it is negative.
+    If axes 1 and 2 intersect, `off_axis` is the distance of the goal from axis 1, else negative.
     """
     L, slides = plan.lines, _third_slides(plan)
     h2 = row(L, _AXIS + 1)
@@ -481,7 +481,7 @@ def _by_turn(
             continue
         side = rest_of(math.sqrt(length), w)
         if 0.0 <= off_axis < math.sqrt(length):
-            # Seen from axis 1 it is the same side of a smaller triangle, which keeps more digits of it.
+            # A smaller triangle at axis 1 has the same side, and gives it with more digits.
             side = rest_of(off_axis, (value(height, basis) - lean * k1) / math.sqrt(1.0 - lean * lean))
         for sign in range(2):
             u = plus(scaled(w, x), side if sign else -side, y)
@@ -505,7 +505,7 @@ def _by_slide(
     seed: Array,
     found: Candidates,
 ) -> int:
-    """Joints 2 and 3 where joint 2 slides: u = v + q_2 h_2."""
+    """Solve joints 2 and 3 if joint 2 is prismatic: u = v + q_2 h_2."""
     L, slides = plan.lines, _third_slides(plan)
     h2, l1, l2 = row(L, _AXIS + 1), row(L, _LEVER), row(L, _LEVER + 1)
     miss = _sum(scaled(-1.0, _along(l1, v0, v1, v2)), 1.0, (k1, 0.0, 0.0))
@@ -552,7 +552,7 @@ def _by_slide(
 
 @unmanaged
 def _finished(plan: Plan, start: Vector, goal: Vector, seed: Array, ways: int, found: Candidates) -> int:
-    """Joint 1 for each way of the others; what is free is put to the seed's value."""
+    """Solve joint 1 for each solution of the others, and set free joints to the seed's values."""
     L, slides = plan.lines, plan.slides
     h1, h2, o1, o2 = row(L, _AXIS), row(L, _AXIS + 1), row(L, _POINT), row(L, _POINT + 1)
     h3, o3 = row(L, _AXIS + 2), row(L, _POINT + 2)
@@ -578,7 +578,7 @@ def _finished(plan: Plan, start: Vector, goal: Vector, seed: Array, ways: int, f
 
 @inlined
 def _moved(slides: int, h: Vector, o: Vector, q: float, p: Vector) -> Vector:
-    """A point moved by a joint along h, or about the line along h through o."""
+    """Move a point by a joint along h, or about the line along h through o."""
     if slides:
         return plus(p, q, h)
     return plus(o, 1.0, turned(h, q, minus(p, o)))
@@ -586,10 +586,10 @@ def _moved(slides: int, h: Vector, o: Vector, q: float, p: Vector) -> Vector:
 
 @unmanaged
 def _parallel(plan: Plan, M: Motion, seed: Array, found: Candidates) -> int:
-    """Heights along h of a point on the last axis, and of its direction, for joints 1 and 5; then 6; then the plane.
+    """Solve joints 1 and 5 by heights along h, of a point on the last axis and of its direction; then 6, 2, 3 and 4.
 
-    E_1⁻¹ M and E_5 E_6 differ by motions that keep heights along h. Both heights are linear in cosine and sine of q_1
-    on one side and of q_5 on the other, so (cos q_5, sin q_5) is eliminated as the turn of joint 2 is elsewhere.
+    E_1⁻¹ M and E_5 E_6 differ by a motion that preserves heights along h. Both heights are linear in cos q_1, sin q_1
+    on one side and in cos q_5, sin q_5 on the other, so (cos q_5, sin q_5) is eliminated like joint 2 in `_by_turn`.
     """
     L = plan.lines
     h, h1, o1 = row(plan.axes, 1), row(plan.axes, 0), row(plan.points, 0)
@@ -630,21 +630,21 @@ def _parallel(plan: Plan, M: Motion, seed: Array, found: Candidates) -> int:
 def _in_plane(
     plan: Plan, M: Motion, q1: float, q5: float, side: float, code: int, seed: Array, found: Candidates, count: int
 ) -> int:
-    """Joint 6 by where it turns h, and joints 2, 3 and 4 as a planar arm; adds what there is to the candidates.
+    """Solve joint 6 from the image of h, and joints 2, 3 and 4 as a planar arm, and add the candidates.
 
     Args:
         plan: The arm.
         M: The displacement.
         q1: Joint 1, [rad].
         q5: Joint 5, [rad], perhaps only to half the digits.
-        side: On which side of where its two solutions meet it is, 0 where that is not known.
-        code: Of the roots so far.
-        seed: What free joints keep.
+        side: Side of q5 relative to where its two solutions meet, ±1, or 0 if unknown.
+        code: Bits of the roots chosen so far.
+        seed: Values that free joints keep, [rad].
         found: The candidates.
-        count: How many there are.
+        count: Number of candidates so far.
 
     Returns:
-        How many there are then.
+        New number of candidates.
     """
     h, h5, h6 = row(plan.axes, 1), row(plan.axes, 4), row(plan.axes, 5)
     outwards = turned(row(plan.axes, 0), q1, h)
@@ -669,14 +669,14 @@ def _in_plane(
     for k in range(_TURNS_TRIED + 2):
         if count > before:
             break
-        # Joint 6 is free where it is: where the plane's joints do not reach then, the next angle that they reach, at
-        # last where the way is shortest, and longest.
+        # Joint 6 is free: from the seed's angle on, try angles until the planar joints can reach, at last those with
+        # the smallest and the largest distance from joint 2 to joint 4.
         q6 = seed[5] + (k + 1) // 2 * (2.0 * math.pi / _TURNS_TRIED) * (1.0 if k % 2 else -1.0)
         if k >= _TURNS_TRIED:
             q6 = furthest + (math.pi if k == _TURNS_TRIED else 0.0)
         count = _planar(plan, M, q1, angle_onto(h5, turned(h6, q6, g), h), q6, 1 << 5, code, seed, found, count)
     for k in range(4 if side == 0.0 else 0):
-        # The last angles that they reach, stretched and folded: there joint 3 is next to a singularity too.
+        # The extreme angles that they reach, stretched and folded: joint 3 is singular there too.
         away = _span(plan, k < 2) ** 2 - mean
         if abs(away) <= swing and count < _MOST_BEFORE_LAST:
             q6 = furthest + (1.0 if k % 2 else -1.0) * math.acos(away / swing)
@@ -686,7 +686,7 @@ def _in_plane(
 
 @unmanaged
 def _span(plan: Plan, stretched: bool) -> float:
-    """How far joint 4 is from joint 2 where joint 3 is stretched, or folded, [m]."""
+    """Distance from joint 2 to joint 4 with joint 3 stretched or, as a signed number, folded, [m]."""
     h, o2, o3, o4 = row(plan.axes, 1), row(plan.points, 1), row(plan.points, 2), row(plan.points, 3)
     base, arm = _flattened(h, minus(o3, o2)), _flattened(h, minus(o4, o3))
     return math.sqrt(dot(base, base)) + (1.0 if stretched else -1.0) * math.sqrt(dot(arm, arm))
@@ -694,10 +694,10 @@ def _span(plan: Plan, stretched: bool) -> float:
 
 @unmanaged
 def _reaches(plan: Plan, M: Motion, q1: float, q5: float) -> tuple[float, float, float]:
-    """The square of the way from joint 2 to joint 4 as joint 6 turns, where its axis is parallel to theirs.
+    """Squared distance from joint 2 to joint 4 as a function of joint 6, if its axis is parallel to theirs.
 
     Returns:
-        Its mean and how far it swings from there [m²], and joint 6 where it is largest [rad].
+        Mean and amplitude [m²], and the angle of joint 6 where it is largest [rad].
     """
     h, o2, p5 = row(plan.axes, 1), row(plan.points, 1), _about(plan, 4, -q5, row(plan.points, 3))
     squares = (0.0, 0.0, 0.0)
@@ -723,7 +723,7 @@ def _planar(
     found: Candidates,
     count: int,
 ) -> int:
-    """Joints 2, 3 and 4 for given others; `lost` are those of these that were free. Else as `_in_plane`."""
+    """Solve joints 2, 3 and 4 for given others, `lost` being the bits of their free ones; see `_in_plane`."""
     h, h1, h5, h6 = row(plan.axes, 1), row(plan.axes, 0), row(plan.axes, 4), row(plan.axes, 5)
     square = row(plan.lines, _SQUARE)
     x = turned(h1, -q1, _rotated(M, turned(h6, -q6, turned(h5, -q5, square))))
@@ -761,13 +761,13 @@ def _planar(
 
 @inlined
 def _flattened(h: Vector, a: Vector) -> Vector:
-    """A vector's part square to h."""
+    """Part of a vector perpendicular to h."""
     return plus(a, -dot(h, a), h)
 
 
 @unmanaged
 def _elbow(plan: Plan, M: Motion, seed: Array, elbow_angle: float, found: Candidates) -> int:
-    """The elbow's joint by the distance from shoulder to wrist, then the shoulder's turns, then the wrist's."""
+    """Solve the elbow joint by the distance from shoulder to wrist, then the shoulder, then the wrist."""
     L = plan.lines
     shoulder, centre = row(L, _POINT), row(L, _CENTRE)
     line = minus(_displaced(M, centre), shoulder)
@@ -824,14 +824,14 @@ def _elbow(plan: Plan, M: Motion, seed: Array, elbow_angle: float, found: Candid
 
 @unmanaged
 def _shoulder_turn(h1: Vector, line: Vector, at_zero: Vector, elbow: Vector, angle: float) -> Motion:
-    """The rotation that puts the wrist's point on a line from the shoulder, and the elbow at an angle about it.
+    """Rotation that puts the wrist point on a line from the shoulder, and the elbow at an angle about that line.
 
     Args:
-        h1: From which the angle is measured: the plane of it and the line is where the angle is zero.
-        line: Where the wrist's point is to be, from the shoulder.
-        at_zero: Where the elbow's joint has put it.
-        elbow: Where the elbow is, likewise.
-        angle: About the line, [rad].
+        h1: Axis 1; the angle is zero in the plane of this axis and the line.
+        line: Desired wrist point, from the shoulder, [m].
+        at_zero: Wrist point with only the elbow joint moved, from the shoulder, [m].
+        elbow: Elbow at zero, from the shoulder, [m].
+        angle: Elbow angle about the line, [rad].
     """
     n, m = _unit(line), _unit(at_zero)
     d = turned(n, angle, _where_zero(n, h1))
@@ -851,7 +851,7 @@ def _shoulder_turn(h1: Vector, line: Vector, at_zero: Vector, elbow: Vector, ang
 
 @unmanaged
 def _general(plan: Plan, M: Motion, found: Candidates) -> int:
-    """Joint 3 by elimination, then 4 and 5, then 1 and 2, then 6."""
+    """Solve joint 3 by elimination, then 4 and 5, then 1 and 2, then 6."""
     L, axes, space = plan.lines, plan.axes, found.space
     size, origin, square = L[_LEVEL, 0], row(L, _SQUARE + 1), row(L, _SQUARE)
     points = L[:6]
@@ -882,7 +882,7 @@ def _general(plan: Plan, M: Motion, found: Candidates) -> int:
 
 @inlined
 def _screwed(axes: Array, points: Array, i: int, angle: float, p: Vector) -> Vector:
-    """A point turned about the line of joint i."""
+    """Turn a point about the line of joint i."""
     return plus(row(points, i), 1.0, turned(row(axes, i), angle, minus(p, row(points, i))))
 
 
@@ -894,17 +894,17 @@ def _unit(a: Vector) -> Vector:
 
 @inlined
 def _where_zero(n: Vector, h1: Vector) -> Vector:
-    """The direction square to the line from shoulder to wrist at which the elbow's angle is zero."""
+    """Direction of elbow angle zero, perpendicular to the line from shoulder to wrist."""
     d = _flattened(n, h1)
     if dot(d, d) < _NO_ARM:
-        # Along the first axis there is no such plane: any vector that is not along it will do.
+        # A line along axis 1 spans no plane with it: start from any vector not along the line.
         d = _flattened(n, (1.0, 0.0, 0.0) if abs(n[0]) < 0.9 else (0.0, 1.0, 0.0))
     return _unit(d)
 
 
 @unmanaged
 def elbow_angle(plan: Plan, values: Array) -> float:
-    """Where the elbow of an arm with a spherical shoulder and wrist is about the line between the two, [rad]."""
+    """Compute the elbow angle of an arm about the line from spherical shoulder to spherical wrist, [rad]."""
     shoulder = row(plan.lines, _POINT)
     elbow, wrist = row(plan.points, 3), row(plan.lines, _CENTRE)
     for k in range(4):

@@ -1,11 +1,11 @@
-"""All solutions of any six joints with a proof by counting: what isolated solutions there are is followed to a target.
+"""All solutions of any six joints, followed from a known target to the requested one and proved complete by counting.
 
-Joint values and targets may be complex. Then all targets but special ones have the same number of solutions, 16 of six
-turning joints of general geometry [Raghavan1993], and no target has more that stand alone. Those of one target lead to
-those of any other [Morgan1989]; on the way round a loop they change places, so that one leads to all [Sommese2005]. So
-many isolated solutions of the requested target are all there are, however they were found.
+Joint values and targets may be complex. Then all targets but special ones have the same number of solutions, 16 for
+six revolute joints of general geometry [Raghavan1993], and no target has more isolated ones. Paths lead from the
+solutions of one target to those of any other [Morgan1989]. Along a loop of targets the solutions permute, so that one
+leads to all [Sommese2005]. If the requested target has that many isolated solutions, they are all, however found.
 
-An arm of any joints of the same kinds is solved by loops once, from it each arm, from that each target.
+Loops solve one arm of each combination of joint types; paths lead from it to each arm, and from that to each target.
 """
 
 from collections.abc import Callable
@@ -27,37 +27,37 @@ from gelenk.model.chain import Chain
 from gelenk.model.poses import Poses
 
 _GENERAL = (16, 16, 8, 2)
-"""Solutions of six joints of which so many slide, the others turn, of general geometry [Mavroidis1994]."""
+"""Solutions of six joints of general geometry, by the number of prismatic joints [Mavroidis1994]."""
 _LOOPS, _BARREN = 60, 3
-"""Loops at most, and how many without a new solution end the search for more."""
+"""Most loops, and the number of loops without a new solution that ends the search."""
 _LONGEST = (0.05, 0.01)
-"""Largest corrections of the first and the second try [rad, or sizes of the arm]."""
+"""Largest corrections of the first and the second try [rad or sizes of the arm]."""
 _FAR = 18.0
-"""Imaginary part of a solution at infinity: beyond it rounding is all that is left [rad]."""
+"""Imaginary part that counts as infinity: beyond it only rounding is left [rad]."""
 _ALONE, _ALONE_FAR = 1e-8, 1e-4
-"""Newton's last step at a solution that stands alone: near to real values, and far away, where numbers are large."""
+"""Largest last Newton step at an isolated solution: near real values, and far away, where numbers are large."""
 _APART, _APART_STEPS = 1e-5, 1e3
-"""How far apart two solutions are: so far, and so many of Newton's last steps [rad or sizes of the arm]."""
+"""Distance beyond which solutions are different: absolute [rad or sizes of the arm], and in last Newton steps."""
 _AROUND = 0.3
-"""Imaginary part of what may lead to a real solution [rad or sizes of the arm]."""
+"""Largest imaginary part of a place that may lead to a real solution [rad or sizes of the arm]."""
 _EXACTLY, _NEARLY = 1e-12, tuple(10.0**-k for k in range(11, 1, -1))
-"""Sines and distances [sizes of the arm] that are zero up to rounding, and that make an arm nearly special."""
+"""Sines and distances [sizes of the arm] that count as zero by rounding, and those that make an arm nearly special."""
 _SEEDS = (11, 12, 13)
-"""Of targets at which all solutions of an arm are looked for."""
+"""Random seeds of the targets at which all solutions of an arm are sought."""
 
 _ROUNDING = 1e-14
-"""Errors up to which refining has come to a solution next to a singularity [m, rad]."""
+"""Largest error of a refined solution next to a singularity [m, rad]."""
 _AS_IT_IS = np.eye(4)
 
 
 class Arm(NamedTuple):
-    """An arm in complex numbers, a target, and all its solutions.
+    """An arm in complex numbers, a target, and its known solutions.
 
     Attributes:
         screws: Axes, then points, in sizes of the arm; shape (12, 3).
-        slides: 1 where a joint slides; shape (6,).
+        slides: 1 for a prismatic joint; shape (6,).
         target: Quaternion w x y z and position; shape (7,).
-        starts: The solutions; shape (k, 6).
+        starts: Solutions of the target; shape (k, 6).
     """
 
     screws: ComplexArray
@@ -67,12 +67,12 @@ class Arm(NamedTuple):
 
 
 class Special(NamedTuple):
-    """An exactly special arm that replaces one which is special up to a small deviation.
+    """An exactly special arm that replaces one of nearly special geometry.
 
     Attributes:
-        arm: The one, with all its solutions of some target.
-        by: What a target of the other times this is a target of it; shape (4, 4).
-        off: How far beside it at most, wherever the joints are: angle [rad], and distance [sizes of the arm].
+        arm: The special arm, with all its solutions of some target.
+        by: Transform that converts targets: (target of the other arm) · by = target of this one; shape (4, 4).
+        off: Largest deviation of that over all joint values: angle [rad], and distance [sizes of the arm].
     """
 
     arm: Arm
@@ -82,16 +82,16 @@ class Special(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Continuation:
-    """How the solutions of an arm are found.
+    """A solver for all solutions of an arm with six joints.
 
     Attributes:
-        chain: Of six joints.
-        zero: T_0⁻¹ at zero; shape (12,).
-        centre: What is taken as the origin; shape (3,), [m].
-        size: Of the arm, [m].
-        arm: In these terms, with solutions of some target.
-        is_counted: Whether these are as many as arms have that are special in the same way, or the most that any has.
-        special: Where they are not, an arm next to it with as many.
+        chain: Chain of six joints.
+        zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
+        centre: Origin of the scaled coordinates in the base; shape (3,), [m].
+        size: Size of the arm, [m].
+        arm: The arm in scaled coordinates, with solutions of some target.
+        is_counted: Whether these are as many as an arm with the same special geometry has.
+        special: An exactly special arm with the full count, used if `is_counted` is False; may be None.
     """
 
     chain: Chain
@@ -103,9 +103,9 @@ class Continuation:
     special: Special | None
 
     def solve(self, target: Poses) -> tuple[Array, str]:
-        """Solutions of one target, and why there may be others; no words where these are proved to be all.
+        """Solve one target; return configurations (k, 6) and why there may be others, or "" if proved complete.
 
-        Without a proof, they may be no solutions either, but places near some.
+        Without that proof, the configurations may be only near solutions.
         """
         goal = self._goal(target)
         if self.special is not None:
@@ -127,7 +127,7 @@ class Continuation:
         )
 
     def _ends(self, arm: Arm, goal: ComplexArray, tries: tuple[float, ...]) -> tuple[ComplexArray, ComplexArray]:
-        """The solutions that stand alone, and where all paths have come to."""
+        """Follow an arm's solutions to a target; return the isolated ends, and all ends of all tries."""
         found, places = _Ends.none(), []
         for longest in tries:
             ends, steps = follow(
@@ -140,10 +140,10 @@ class Continuation:
         return found.qs[found.alone], np.concatenate(places)
 
     def _carried(self, special: Special, start: ComplexArray, goal: ComplexArray, qs: ComplexArray) -> Array | None:
-        """The real ones of all solutions of the special arm, carried over to the arm; None if others may come of them.
+        """Carry the real solutions of the special arm over to the arm; None if that may miss or add solutions.
 
-        To a configuration that solves the target the special arm gives a target next to it. Where none of its
-        solutions meets another one up to there, each has one solution of the arm around it, and there is no other.
+        In a solution of the arm, the special arm reaches a pose next to its own target. If no two of its solutions
+        meet as its target moves that far, each has exactly one solution of the arm near it, and there is no other.
         """
         is_whole = len(qs) == len(special.arm.starts)
         boxes = reaches(special.arm.screws, special.off, qs) if is_whole else None
@@ -158,7 +158,7 @@ class Continuation:
         return ends.real if is_near and (steps <= _ALONE).all() else None
 
     def _variables(self, values: Array) -> Array:
-        """What the chain's variables are where the joints have such values, of slides in sizes of the arm."""
+        """Convert joint values, with prismatic ones in sizes of the arm, to variables of the chain [rad or m]."""
         drives, units = self.chain.flat.drives, np.where(self.arm.slides == 1, self.size, 1.0)
         return np.asarray((values * units - drives[:, 1]) * drives[:, 0])
 
@@ -170,7 +170,7 @@ class Continuation:
 
 
 class _Ends(NamedTuple):
-    """Where paths have come to, the lengths of Newton's last steps [rad or sizes of the arm], and which stand alone."""
+    """Ends of paths, the lengths of their last Newton steps [rad or sizes of the arm], and flags of isolated ends."""
 
     qs: ComplexArray
     steps: Array
@@ -181,7 +181,7 @@ class _Ends(NamedTuple):
         return _Ends(np.empty((0, JOINTS), dtype=complex), np.empty(0), np.zeros(0, dtype=bool))
 
     def joined(self, qs: ComplexArray, steps: Array, slides: Indices) -> "_Ends":
-        """Two sets of solutions without duplicates; at a real target with their conjugates."""
+        """Merge further ends and their conjugates, which also solve a real target, without duplicates."""
         good = np.isfinite(steps)
         qs, steps = qs[good], steps[good]
         order = np.argsort(np.concatenate((self.steps, steps, steps)), kind="stable")
@@ -194,13 +194,13 @@ class _Ends(NamedTuple):
 
 
 def counted(question: Question, i: int, system: Continuation, search: Callable[[], Branches] | None) -> Branches:
-    """All solutions of one target within the limits, nearest to the seed first; see `Continuation.solve`.
+    """Find all solutions of one target within the limits, nearest to the seed first, see `Continuation.solve`.
 
     Args:
-        question: The targets.
-        i: Which of them.
-        system: Of the chain.
-        search: Another way to solutions, where the proof fails; None where that is not wanted.
+        question: The problem.
+        i: Index of the target.
+        system: Continuation of the chain.
+        search: Search to call if the proof fails; None for no search.
     """
     qs, doubt = system.solve(question.target(i))
     if doubt:
@@ -215,7 +215,7 @@ def counted(question: Question, i: int, system: Continuation, search: Callable[[
 
 
 def within_limits(question: Question, i: int, qs: Array) -> Array:
-    """The solutions that full turns bring within the limits; shape (k, n)."""
+    """Turn solutions by full turns into the limits, and keep those that fit; shape (k, n), [rad or m]."""
     lower, upper = limits_of(question.chain, question.respect_limits)
     qs = wound_near(question.chain, qs, question.seed(i), lower, upper)
     return np.asarray(qs[((qs >= lower) & (qs <= upper)).all(axis=1)])
@@ -223,7 +223,7 @@ def within_limits(question: Question, i: int, qs: Array) -> Array:
 
 @lru_cache(maxsize=256)
 def continuation(chain: Chain) -> Continuation | None:
-    """How all solutions of six joints are found and counted; None where a target has infinitely many, or is none."""
+    """Return the continuation of six independent joints; None for other chains or without isolated solutions."""
     screws = screws_of_six(chain)
     if screws is None:
         return None
@@ -242,7 +242,7 @@ def continuation(chain: Chain) -> Continuation | None:
 
 
 def _special(axes: Array, points: Array) -> Special | None:
-    """The arm nearest to one of turning joints that has as many solutions as it should."""
+    """Find the nearest exactly special arm with a full count of solutions, for an arm of revolute joints."""
     slides, before = (False,) * JOINTS, geometry(axes, points, _EXACTLY)
     for tolerance in _NEARLY:
         near = geometry(axes, points, tolerance)
@@ -257,12 +257,12 @@ def _special(axes: Array, points: Array) -> Special | None:
 
 @lru_cache(maxsize=256)
 def _count(kind: tuple[tuple[float, ...], ...], slides: tuple[bool, ...]) -> int:
-    """How many solutions arms have that are special in some way: of one that is so in no other."""
+    """Number of solutions of an arm of a special kind, counted on a random arm without other special properties."""
     return len(_arm(slides, *drawn(kind, slides, np.random.default_rng(3)), _general_count(slides)).starts)
 
 
 def _arm(slides: tuple[bool, ...], axes: Array, points: Array, most: int) -> Arm:
-    """Solutions of an arm at some target, from those of an arm of general geometry; those at infinity are lost."""
+    """Solve an arm at some target from an arm of general geometry, without solutions at infinity."""
     general, lines = _general(slides), np.concatenate((axes, points)).astype(complex)
     found: list[Arm] = []
     for seed in _SEEDS:
@@ -279,7 +279,7 @@ def _arm(slides: tuple[bool, ...], axes: Array, points: Array, most: int) -> Arm
 
 @lru_cache(maxsize=64)
 def _general(slides: tuple[bool, ...]) -> Arm:
-    """An arm of general geometry, and all its solutions of some target."""
+    """Build an arm of general geometry, with all its solutions of some target."""
     rng = np.random.default_rng(5)
     flags = np.array(slides, dtype=np.int64)
     axes, points = _drawn(rng, (JOINTS, 3), 0.5), _drawn(rng, (JOINTS, 3), 0.5)
@@ -300,7 +300,7 @@ def _general_count(slides: tuple[bool, ...]) -> int:
 
 
 def _with_loops(arm: Arm, rng: np.random.Generator, most: int) -> Arm:
-    """The arm with the solutions to which loops of the target lead from those that it has."""
+    """Add the solutions of an arm that its known ones reach along loops of the target."""
     starts, barren, screws = arm.starts, 0, np.stack((arm.screws, arm.screws))
     for _ in range(_LOOPS):
         if len(starts) in {0, most} or barren == _BARREN:
@@ -317,7 +317,7 @@ def _with_loops(arm: Arm, rng: np.random.Generator, most: int) -> Arm:
 
 
 def _distinct(qs: ComplexArray, steps: Array, slides: Indices) -> list[int]:
-    """Which solutions are the first of their kind; none whose last step was infinite."""
+    """Indices of distinct solutions, without those whose last step is infinite."""
     chosen: list[int] = []
     for i in np.flatnonzero(np.isfinite(steps)).tolist():
         apart = qs[chosen] - qs[i]
@@ -337,7 +337,7 @@ def _drawn_target(rng: np.random.Generator) -> ComplexArray:
 
 
 def _quaternion(R: ComplexArray) -> ComplexArray:
-    """Components w x y z, of a rotation in real or complex numbers, up to a factor: the longest row of its products."""
+    """Quaternion w x y z of a real or complex rotation, up to a factor: the longest row of its products."""
     w = np.array([1.0 + np.trace(R), R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
     products = np.empty((4, 4), dtype=complex)
     products[0], products[:, 0] = w, w

@@ -1,13 +1,13 @@
-"""Six turning joints of any geometry, by eliminating all joints but the third [Raghavan1993].
+"""Six revolute joints of any geometry, solved by eliminating all joints but the third [Raghavan1993].
 
-E_3 E_4 E_5 brings the line of joint 6 to where E_2⁻¹ E_1⁻¹ M has it. Of a point p and the direction l of a line there
-are fourteen numbers (p, l, p·p, p·l, p × l, (p·p) l - 2 (p·l) p) that are linear in the cosine and sine of every joint
-on either side. The eight products of joints 1 and 2 go out of fourteen equations; six are left. Written in the tangents
-of half the angles of joints 4 and 5, and taken times the first of these once more, they are twelve equations in twelve
-products, whose determinant vanishes at a solution. As a function of joint 3 it is a trigonometric polynomial of
-degree eight: a few samples tell it, and its roots tell everything else.
+E_3 E_4 E_5 moves the line of joint 6 to where E_2⁻¹ E_1⁻¹ M has it. For a point p and the direction l of that line,
+the fourteen numbers (p, l, p·p, p·l, p × l, (p·p) l - 2 (p·l) p) are linear in the cosine and sine of each joint on
+either side. Eliminating the eight products of joints 1 and 2 from these fourteen equations leaves six. Written in the
+tangents of half of q_4 and q_5, and also multiplied by the tangent for q_4, they are twelve equations in twelve
+products, whose determinant vanishes at a solution. As a function of joint 3 it is a trigonometric polynomial of degree
+eight. A few samples determine it, and its roots determine all other joints.
 
-Where two solutions meet the polynomial touches zero; such places are taken as roots too, and judged like the others.
+Where two solutions meet, the polynomial touches zero; such places count as roots too, and are checked like the others.
 """
 
 import math
@@ -20,24 +20,24 @@ from gelenk.model.arrays import Array, Indices
 from gelenk.model.compilation import compiled, inlined, unmanaged
 
 EQUATIONS, PRODUCTS, ORDER = 14, 27, 12
-"""Equations; products of (1, cos q_3, sin q_3) with powers 0 to 2 of two tangents; size of the determinant."""
+"""Number of equations, of products of (1, cos q_3, sin q_3) with powers 0 to 2 of two tangents, and matrix size."""
 _DEGREE, _SAMPLES = 8, 32
 _ARCS, _TERMS, _NARROW = 64, 15, 1e-7
-"""Arcs on which the slope of the determinant counts as a polynomial, its terms, and the narrowest arc."""
+"""Arcs on which a polynomial replaces the slope of the determinant, its terms, and the narrowest arc [rad]."""
 _HALF_ARC = math.pi / _ARCS
 _TOUCHES = 1e-5
 """Share of the largest determinant below which an extremum counts as a root."""
 _ROUNDS = 40
 _DEFICIENT = 1e-3
-"""Share of the largest pivot below which a second one shows that two solutions share joint 3, or nearly do."""
+"""Share of the largest pivot below which a second small one means that two solutions (nearly) share joint 3."""
 
 
 def _to_bernstein() -> Array:
-    """The map from powers of t on [-1, 1] to Bernstein polynomials; shape (_TERMS, _TERMS)."""
+    """Matrix from powers of t on [-1, 1] to Bernstein polynomials; shape (_TERMS, _TERMS)."""
     degree = _TERMS - 1
     table = np.zeros((_TERMS, _TERMS))
     for m in range(_TERMS):
-        # t^m = (2 s - 1)^m, and of s^j the coefficient k is C(k, j) / C(degree, j).
+        # t^m = (2 s - 1)^m, and coefficient k of s^j is C(k, j) / C(degree, j).
         for j in range(m + 1):
             share = math.comb(m, j) * 2.0**j * (-1.0) ** (m - j)
             for k in range(j, _TERMS):
@@ -49,24 +49,24 @@ _TO_BERNSTEIN = _to_bernstein()
 
 
 class Space(NamedTuple):
-    """Room for one target.
+    """Working space for one target.
 
     Attributes:
-        left: The equations' left sides, by products; shape (EQUATIONS, PRODUCTS).
-        right: The right sides without their constants; shape (EQUATIONS, 8).
-        values: The right sides at nine pairs of angles; shape (9, EQUATIONS).
-        matrix: Of which the determinant is taken; shape (ORDER, ORDER).
+        left: Left sides of the equations, one column per product; shape (EQUATIONS, PRODUCTS).
+        right: Right sides without their constants; shape (EQUATIONS, 8).
+        values: Right sides at nine pairs of angles; shape (9, EQUATIONS).
+        matrix: Matrix of the determinant; shape (ORDER, ORDER).
         series: Cosine and sine coefficients of the determinant; shape (2, _DEGREE + 1).
-        samples: Its values; shape (_SAMPLES,).
-        turns: Where its slope vanishes; shape (48,).
-        stack: Coefficients of the slope on arcs that are to be examined; shape (64, _TERMS).
-        edges: Where they begin and how wide they are; shape (2, 64).
-        powers: Coefficients of the slope on an arc; shape (_TERMS,).
-        roots: Of the determinant; shape (32,).
-        vectors: Vectors that the matrix takes to next to nothing; shape (3, ORDER).
-        combined: A sum of two of them; shape (ORDER,).
-        order: Where pivoting has put each column; shape (ORDER,).
-        pairs: Joints 4 and 5 of each root; shape (3, 2).
+        samples: Samples of the determinant; shape (_SAMPLES,).
+        turns: Zeros of its slope, [rad]; shape (48,).
+        stack: Bernstein coefficients of the slope on arcs still to examine; shape (64, _TERMS).
+        edges: Beginnings and widths of these arcs, [rad]; shape (2, 64).
+        powers: Power coefficients of the slope on an arc; shape (_TERMS,).
+        roots: Roots of the determinant, [rad]; shape (32,).
+        vectors: Null vectors of the matrix; shape (3, ORDER).
+        combined: Combination of two null vectors; shape (ORDER,).
+        order: Column order after pivoting; shape (ORDER,).
+        pairs: Joints 4 and 5 of a root, [rad]; shape (3, 2).
     """
 
     left: Array
@@ -88,7 +88,7 @@ class Space(NamedTuple):
 
 @compiled
 def make_space() -> Space:
-    """Room for one target at a time."""
+    """Allocate the working space for one target at a time."""
     return Space(
         np.empty((EQUATIONS, PRODUCTS)),
         np.empty((EQUATIONS, 8)),
@@ -110,7 +110,7 @@ def make_space() -> Space:
 
 @inlined
 def invariants(p: Vector, d: Vector, out: Array) -> None:
-    """The fourteen numbers of a line through p along d."""
+    """Fill `out` with the fourteen numbers of a line through p along d, linear in each joint; shape (14,)."""
     square, mixed = dot(p, p), dot(p, d)
     moment = cross(p, d)
     for k in range(3):
@@ -121,15 +121,15 @@ def invariants(p: Vector, d: Vector, out: Array) -> None:
 
 @unmanaged
 def eliminated(terms: Array, axes: Array, points: Array, p: Vector, d: Vector, space: Space) -> None:
-    """Fill the last six rows of `left` with the equations that joints 1 and 2 have gone out of.
+    """Fill the last six rows of `left` with the equations from which joints 1 and 2 are eliminated.
 
     Args:
-        terms: The left sides, which no target changes; shape (EQUATIONS, PRODUCTS).
-        axes: Directions of the joints at zero; shape (6, 3).
-        points: A point on each, from that on joint 3, in units of the arm's size; shape (6, 3).
-        p: Where the target has a point of the last line.
-        d: And its direction.
-        space: Filled.
+        terms: Left sides, the same for all targets; shape (EQUATIONS, PRODUCTS).
+        axes: Joint axes at zero; shape (6, 3).
+        points: A point on each axis, relative to that of joint 3, in units of the arm's size; shape (6, 3).
+        p: Point of the last line at the target, in the same units.
+        d: Direction of the last line at the target.
+        space: Working space; `left` and `right` are filled.
     """
     left, right = space.left, space.right
     for k in range(EQUATIONS):
@@ -151,7 +151,7 @@ def eliminated(terms: Array, axes: Array, points: Array, p: Vector, d: Vector, s
 
 @unmanaged
 def _interpolate(values: Array, k: int, right: Array, left: Array) -> None:
-    """From values at thirds of a turn of two joints to the coefficients of 1, cosine and sine of each."""
+    """Interpolate values at thirds of a turn of two joints by products of 1, cosine and sine of each."""
     half = 1.0 / math.sqrt(3.0)
     for j in range(3):
         a, b, c = values[j, k], values[3 + j, k], values[6 + j, k]
@@ -162,7 +162,7 @@ def _interpolate(values: Array, k: int, right: Array, left: Array) -> None:
         a, b, c = values[3 * i, k], values[3 * i + 1, k], values[3 * i + 2, k]
         constant, cosine, sine = (a + b + c) / 3.0, (2.0 * a - b - c) / 3.0, (b - c) * half
         if i == 0:
-            # The constant goes to the other side: 1 is (1 + x²)(1 + y²) over what is multiplied out.
+            # The constant moves to the left side, which is multiplied by (1 + x²)(1 + y²).
             left[k, 0] -= constant
             left[k, 2] -= constant
             left[k, 6] -= constant
@@ -174,7 +174,7 @@ def _interpolate(values: Array, k: int, right: Array, left: Array) -> None:
 
 @unmanaged
 def _triangulate(left: Array, right: Array) -> None:
-    """Householder's reflections that make the right sides triangular, done to both; then the last rows are free."""
+    """Make the right sides triangular by Householder reflections of both sides, so that their last six rows vanish."""
     for j in range(8):
         norm = 0.0
         for k in range(j, EQUATIONS):
@@ -204,7 +204,7 @@ def _triangulate(left: Array, right: Array) -> None:
 
 @inlined
 def _fill(space: Space, q3: float) -> None:
-    """The matrix at a value of joint 3."""
+    """Fill the matrix for a value of joint 3 [rad]."""
     c, s = math.cos(q3), math.sin(q3)
     M, left = space.matrix, space.left
     for r in range(6):
@@ -217,7 +217,7 @@ def _fill(space: Space, q3: float) -> None:
 
 @unmanaged
 def _determinant(space: Space, q3: float) -> float:
-    """The determinant at a value of joint 3, by elimination with partial pivoting."""
+    """Compute the determinant for a value of joint 3 [rad] by elimination with partial pivoting."""
     _fill(space, q3)
     M = space.matrix
     product = 1.0
@@ -245,7 +245,7 @@ def _determinant(space: Space, q3: float) -> float:
 
 @unmanaged
 def third_joint(space: Space) -> int:
-    """The values of joint 3 at which the determinant vanishes or touches zero, into `roots`; how many there are."""
+    """Put the values of joint 3 where the determinant vanishes or touches zero into `roots`; return their number."""
     series, samples = space.series, space.samples
     largest = 0.0
     for k in range(_SAMPLES):
@@ -266,7 +266,7 @@ def third_joint(space: Space) -> int:
 
 @unmanaged
 def _series_at(series: Array, q: float) -> tuple[float, float, float]:
-    """A trigonometric polynomial and its first two derivatives."""
+    """Evaluate a trigonometric polynomial and its first two derivatives."""
     c, s = math.cos(q), math.sin(q)
     value, slope, bend = series[0, 0], 0.0, 0.0
     cm, sm = 1.0, 0.0
@@ -282,7 +282,7 @@ def _series_at(series: Array, q: float) -> tuple[float, float, float]:
 
 @unmanaged
 def _roots_on_circle(space: Space) -> int:
-    """Its roots: one between neighbouring extrema of opposite signs, and one where it turns back close to zero."""
+    """Find one root between neighbouring extrema of opposite signs, and one at each extremum close to zero."""
     series, roots, turns = space.series, space.roots, space.turns
     count = _turning_points(space)
     found = 0
@@ -306,8 +306,8 @@ def _roots_on_circle(space: Space) -> int:
 def _turning_points(space: Space) -> int:
     """Write the zeros of the slope, ascending, into `turns`; return their number.
 
-    On each of a few arcs the slope is a polynomial up to rounding. Written by Bernstein's, its coefficients change
-    their sign as often as it vanishes, or oftener by an even number, which halving the arc brings down [Lane1981].
+    On each arc the slope is a polynomial up to rounding. Its Bernstein coefficients change sign as often as it has
+    zeros, or more often by an even number, which halving the arc reduces [Lane1981].
     """
     series, stack, turns = space.series, space.stack, space.turns
     count = 0
@@ -341,9 +341,9 @@ def _turning_points(space: Space) -> int:
 
 @unmanaged
 def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> bool:
-    """The slope on an arc, by the coefficients of Bernstein's polynomials; False where its constant outweighs the rest.
+    """Compute the Bernstein coefficients of the slope on an arc into `out`.
 
-    Then it does not vanish on the arc.
+    Return False, without them, if the constant outweighs the rest, so that the slope has no zero on the arc.
     """
     for k in range(_TERMS):
         powers[k] = 0.0
@@ -371,7 +371,7 @@ def _bernstein(series: Array, centre: float, powers: Array, out: Array) -> bool:
 
 @inlined
 def _sign_changes(coefficients: Array) -> int:
-    """How often their sign changes from one to the next, zeros left out."""
+    """Count the sign changes in a sequence of coefficients, ignoring zeros."""
     changes, sign = 0, 0.0
     for k in range(_TERMS):
         value = coefficients[k]
@@ -384,7 +384,7 @@ def _sign_changes(coefficients: Array) -> int:
 
 @unmanaged
 def _halve(coefficients: Array, left: Array) -> None:
-    """De Casteljau's division: the coefficients become those of the right half, `left` those of the left one."""
+    """Divide by de Casteljau: `coefficients` become those of the right half, `left` those of the left half."""
     for k in range(_TERMS):
         left[k] = coefficients[0]
         for m in range(_TERMS - 1 - k):
@@ -393,7 +393,7 @@ def _halve(coefficients: Array, left: Array) -> None:
 
 @unmanaged
 def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slope: bool) -> float:
-    """The root of the polynomial, or of its slope, between two points, by Newton's method in a bracket."""
+    """Find the root of the polynomial, or of its slope, between two points by bracketed Newton iteration."""
     x = 0.5 * (lower + upper)
     for _ in range(_ROUNDS):
         value, slope, bend = _series_at(series, x)
@@ -414,14 +414,14 @@ def _bisected(series: Array, lower: float, upper: float, at_lower: float, of_slo
 
 @unmanaged
 def next_two(space: Space, q3: float) -> int:
-    """Joints 4 and 5 of a root: from the null vector of the matrix, products of powers of two tangents.
+    """Compute joints 4 and 5 of a root from the null vector of the matrix, products of powers of two tangents.
 
     Args:
-        space: The target's.
+        space: Working space; `pairs` are filled.
         q3: Joint 3, [rad].
 
     Returns:
-        How many `pairs` there are, three where two solutions seem to share joint 3.
+        Number of `pairs`: 1, or 3 if two solutions seem to share joint 3.
     """
     _fill(space, q3)
     nullity = _null_vectors(space)
@@ -429,7 +429,7 @@ def next_two(space: Space, q3: float) -> int:
     _angles_of(v[2], pairs[0])
     if nullity == 1:
         return 1
-    # Of the combinations those are powers in which the upper three quarters are x times the lower.
+    # A combination consists of powers if its entries 3 to 11 are x times its entries 0 to 8.
     a00, a01, a10, a11, b00, b01, b11 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for m in range(9):
         a00 += v[0, m] * v[0, m + 3]
@@ -459,7 +459,7 @@ def next_two(space: Space, q3: float) -> int:
 
 @unmanaged
 def _angles_of(v: Array, pair: Array) -> None:
-    """Two angles from the products of powers of the tangents of their halves; the first goes up to the third."""
+    """Compute two angles from products of their half-angle tangents' powers, up to 3 of the first, 2 of the second."""
     top, bottom = 0.0, 0.0
     for m in range(9):
         top += v[m] * v[m + 3]
@@ -475,13 +475,13 @@ def _angles_of(v: Array, pair: Array) -> None:
 
 @unmanaged
 def _null_vectors(space: Space) -> int:
-    """Unit vectors that the matrix takes to next to nothing, by elimination with full pivoting.
+    """Compute unit null vectors of the matrix by elimination with full pivoting.
 
-    The third of `vectors` is the one there should be; where the matrix nearly loses another rank, the first two span
-    what it takes to little.
+    The third of `vectors` is the regular null vector; if the matrix nearly loses another rank, the first two span its
+    approximate null space.
 
     Returns:
-        How many ranks it has lost, 1 or 2.
+        Rank deficiency, 1 or 2.
     """
     M, order = space.matrix, space.order
     for j in range(ORDER):
@@ -515,7 +515,7 @@ def _null_vectors(space: Space) -> int:
 
 @unmanaged
 def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
-    """The place and size of the largest entry of the lower right block of a square matrix."""
+    """Return row, column and absolute value of the largest entry in the lower right block of a square matrix."""
     at, best = first * order + first, 0.0
     for k in range(first, order):
         for m in range(first, order):
@@ -526,9 +526,9 @@ def largest_below(M: Array, first: int, order: int) -> tuple[int, int, float]:
 
 @unmanaged
 def _back_substituted(space: Space, rank: int, free: int, x: Array) -> None:
-    """A vector whose entries beyond the rank are 0 but one, which is 1; then of unit length, in the matrix's order."""
+    """Back-substitute for a null vector with one free entry; scale it to unit length and restore the column order."""
     M, order = space.matrix, space.order
-    # Entries wait in elimination order in the last row, which is not needed any more.
+    # Store the entries, in elimination order, in the last row, which is no longer needed.
     for j in range(rank, ORDER):
         M[ORDER - 1, j] = 1.0 if j == free else 0.0
     length = 1.0
@@ -546,13 +546,13 @@ def _back_substituted(space: Space, rank: int, free: int, x: Array) -> None:
 
 @unmanaged
 def first_two(axes: Array, points: Array, u: Vector, m: Vector, p: Vector, d: Vector) -> tuple[float, float]:
-    """Joints 1 and 2 from E_1 E_2 (u, m) = (p, d), a point and a direction, by least squares; [rad]."""
+    """Solve E_1 E_2 (u, m) = (p, d), a point and a direction each, for joints 1 and 2 by least squares; [rad]."""
     h1, h2, o1, o2 = row(axes, 0), row(axes, 1), row(points, 0), row(points, 1)
     arm, offset = minus(u, o2), minus(o2, o1)
     reach = minus(p, o1)
     along = dot(h2, arm)
     lean = dot(h1, h2)
-    # Linear in (cos q_2, sin q_2): what joint 1 keeps of the direction and the point, and the point's distance.
+    # Joint 1 preserves these, linear in (cos q_2, sin q_2): height of direction and point, and the point's distance.
     a0, a1 = dot(h1, m) - lean * dot(h2, m), dot(h1, cross(h2, m))
     a2 = dot(h1, d) - lean * dot(h2, m)
     b0, b1 = dot(h1, arm) - lean * along, dot(h1, cross(h2, arm))
@@ -563,22 +563,22 @@ def first_two(axes: Array, points: Array, u: Vector, m: Vector, p: Vector, d: Ve
     r0, r1 = a0 * a2 + b0 * b2 + c0 * c2, a1 * a2 + b1 * b2 + c1 * c2
     q2 = math.atan2(n00 * r1 - n01 * r0, n11 * r0 - n01 * r1)
     w, v = turned(h2, q2, m), plus(offset, 1.0, turned(h2, q2, arm))
-    # Joint 1 by the direction and the point together, each as far as it is off the axis.
+    # Joint 1 from the direction and the point together, weighted by their distances from the axis.
     x, y = cross(h1, w), cross(h1, v)
     s, t = cross(h1, d), cross(h1, reach)
     return math.atan2(dot(h1, cross(x, s)) + dot(h1, cross(y, t)), dot(x, s) + dot(y, t)), q2
 
 
 def left_sides(axes: Array, points: Array) -> Array:
-    """The left sides of the equations, which no target changes.
+    """Compute the left sides of the equations, which are the same for all targets.
 
     Args:
-        axes: Directions of the joints at zero; shape (6, 3).
-        points: A point on each, from that on joint 3, in units of the arm's size; shape (6, 3).
+        axes: Joint axes at zero; shape (6, 3).
+        points: A point on each axis, relative to that of joint 3, in units of the arm's size; shape (6, 3).
 
     Returns:
-        Coefficients of (1, cos q_3, sin q_3) times powers 0 to 2 of the tangents of half of joints 4 and 5, taken
-        times (1 + x²)(1 + y²); shape (EQUATIONS, PRODUCTS).
+        Coefficients of (1, cos q_3, sin q_3) times powers 0 to 2 of x and y, the tangents of half of q_4 and q_5, of
+        the equations multiplied by (1 + x²)(1 + y²); shape (EQUATIONS, PRODUCTS).
     """
     angles = 2.0 * np.pi / 3.0 * np.arange(3)
     basis = np.column_stack((np.ones(3), np.cos(angles), np.sin(angles)))

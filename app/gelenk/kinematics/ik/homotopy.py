@@ -1,8 +1,8 @@
-"""Solutions of a moving target, followed in complex joint values while the arm and its target change.
+"""Tracking of solutions in complex joint values while the arm and its target change.
 
-The loop E_1 E_2 E_3 = M E_6⁻¹ E_5⁻¹ E_4⁻¹ is examined from its middle, between joints 3 and 4: there the fewest joints
-multiply what rounding has done. Everything is linear in a parameter t from 0 to 1, directions and quaternions up to
-their length. Cubic extrapolation predicts, Newton's method corrects, and the step is as long as the correction allows.
+The loop E_1 E_2 E_3 = M E_6⁻¹ E_5⁻¹ E_4⁻¹ is closed in its middle, between joints 3 and 4, where the fewest joints
+amplify rounding. Arm and target are linear in a parameter t from 0 to 1, directions and quaternions up to their
+length. Cubic extrapolation predicts, Newton's method corrects, and the corrections control the step size.
 """
 
 import cmath
@@ -21,28 +21,28 @@ _Vector: TypeAlias = tuple[Any, Any, Any]
 JOINTS = 6
 _HALF = JOINTS // 2
 _ROTATION, _POSITION = 12, 15
-"""Rows of `Room.place` that hold the target; before these stand the axes, then the points."""
+"""Rows of `Room.place` where the target's rotation and position begin, after the axes and the points."""
 _STEPS, _SHORTEST, _LAST = 3000, 1e-14, 1e-10
-"""Of a path: steps at most, the shortest one, and how near to its end it is finished by Newton's method alone."""
+"""Most steps of a path, the shortest step, and the distance to its end that Newton's method alone may cover."""
 _FIRST = 0.02
 _CORRECTIONS, _CORRECTED = 4, 1e-6
 _POLISHING, _POLISHED = 60, 1e-15
 _BEYOND = 1e6
-"""A slide this long, in sizes of the arm, is on its way to infinity."""
+"""Value of a prismatic joint that counts as infinite, in sizes of the arm."""
 
 
 class Room(NamedTuple):
-    """Room for one path.
+    """Working space for one path.
 
     Attributes:
         q: Joint values; shape (6,).
-        slope: Their rates in t; shape (6,).
-        before: The values a step before; shape (6,).
-        slope_before: And the rates there; shape (6,).
-        trial: What is predicted, then corrected; shape (6,).
-        turns: Cosine and sine of each; shape (6, 2).
-        place: Where axes, points and target are at some t; shape (16, 3).
-        system: Jacobian of the loop, and its error; shape (6, 7).
+        slope: Derivatives of the joint values by t; shape (6,).
+        before: Joint values one step before; shape (6,).
+        slope_before: Their derivatives by t; shape (6,).
+        trial: Predicted, then corrected joint values; shape (6,).
+        turns: Cosine and sine of each joint value; shape (6, 2).
+        place: Axes, points and target at some t; shape (16, 3).
+        system: Jacobian and error of the loop; shape (6, 7).
     """
 
     q: ComplexArray
@@ -59,19 +59,19 @@ class Room(NamedTuple):
 def follow(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, starts: ComplexArray, longest: float, far: float
 ) -> tuple[ComplexArray, Array]:
-    """Follow the solutions of one arm and target while both change into others.
+    """Follow the solutions of an arm and a target while both change into others.
 
     Args:
         screws: Axes, then points, of the arm at either end; shape (2, 12, 3).
         targets: Quaternion w x y z, then position, at either end; shape (2, 7).
-        slides: 1 where a joint slides; shape (6,).
+        slides: 1 for a prismatic joint; shape (6,).
         starts: Solutions at t = 0; shape (k, 6).
-        longest: The largest first correction [rad or size]: a longer one makes the step shorter.
+        longest: Largest first correction [rad or sizes of the arm]; a larger one shortens the step.
         far: Imaginary part [rad] beyond which a path counts as lost to infinity.
 
     Returns:
-        Solutions at t = 1, shape (k, 6), and the length of Newton's last step there, shape (k,), infinite of a path
-        that was lost: as small as rounding where the solution stands alone.
+        Solutions at t = 1, shape (k, 6), and the lengths of the last Newton steps there, shape (k,): as small as
+        rounding at an isolated solution, infinite for a lost path.
     """
     ends, lengths = np.empty_like(starts), np.empty(len(starts))
     rows = np.empty((5, JOINTS), np.complex128)
@@ -98,7 +98,7 @@ def follow(
 def _followed(
     screws: ComplexArray, targets: ComplexArray, slides: Indices, longest: float, far: float, room: Room
 ) -> float:
-    """Follow one path in place, from `q`; return the length of Newton's last step, infinite if the path was lost."""
+    """Follow one path from `q`, in place; return the length of the last Newton step, infinite if the path is lost."""
     t, h, t_before = 0.0, _FIRST, -1.0
     _rates(screws, targets, slides, t, room)
     for _ in range(_STEPS):
@@ -130,7 +130,7 @@ def _followed(
 
 @inlined
 def _predict(t_before: float, t: float, following: float, room: Room) -> None:
-    """Extrapolate by the cubic through the last two points with their rates; along the rate from the first point."""
+    """Extrapolate by the cubic through the last two points and their derivatives; linearly from the first point."""
     step, back = following - t, t - t_before
     if t_before < 0.0:
         for j in range(JOINTS):
@@ -145,7 +145,7 @@ def _predict(t_before: float, t: float, following: float, room: Room) -> None:
 
 @unmanaged
 def _corrected(slides: Indices, longest: float, room: Room) -> float:
-    """Bring the trial to a solution; how long the first step was, -1 where that was too long or no end is in sight."""
+    """Correct `trial` to a solution; return the length of the first step, or -1 if too long or without convergence."""
     first = 0.0
     for k in range(_CORRECTIONS):
         length = _newton(slides, room.trial, room)
@@ -160,7 +160,7 @@ def _corrected(slides: Indices, longest: float, room: Room) -> float:
 
 @unmanaged
 def _polished(slides: Indices, room: Room) -> float:
-    """Bring `q` to rounding; how long the last step was."""
+    """Refine `q` to rounding; return the length of the last step."""
     least = np.inf
     for _ in range(_POLISHING):
         length = _newton(slides, room.q, room)
@@ -195,7 +195,7 @@ def _newton(slides: Indices, q: ComplexArray, room: Room) -> float:
 
 @unmanaged
 def _rates(screws: ComplexArray, targets: ComplexArray, slides: Indices, t: float, room: Room) -> None:
-    """Rates of the joint values, by the difference of the loop's error between two places; leaves it in that of t."""
+    """Compute the derivatives of the joint values by t from a difference of the loop's error; leave `place` at t."""
     step = 1e-7
     _put_in_place(screws, targets, t + step, room.place)
     _close(slides, room.q, False, room)
@@ -222,7 +222,7 @@ def _put(rows: ComplexArray, i: int, a: _Vector) -> None:
 
 @unmanaged
 def _put_in_place(screws: ComplexArray, targets: ComplexArray, t: float, place: ComplexArray) -> None:
-    """Axes, points and target at t."""
+    """Fill `place` with axes, points and target at t."""
     for i in range(2 * JOINTS):
         p = plus(scaled(1.0 - t, _row(screws[0], i)), t, _row(screws[1], i))
         length: Any = cmath.sqrt(dot(p, p))
@@ -244,7 +244,7 @@ def _turned(h: _Vector, c: Any, s: Any, a: _Vector) -> _Vector:
 
 @inlined
 def _moved(place: ComplexArray, slides: Indices, i: int, q: Any, turn: tuple[Any, Any], p: _Vector) -> _Vector:
-    """A point turned about the line of joint i, or slid along it."""
+    """Turn a point about the line of joint i, or slide it along."""
     h, o = _row(place, i), _row(place, JOINTS + i)
     return plus(p, q, h) if slides[i] else plus(o, 1.0, _turned(h, *turn, minus(p, o)))
 
@@ -256,7 +256,7 @@ def _by_target(place: ComplexArray, a: _Vector) -> _Vector:
 
 @unmanaged
 def _close(slides: Indices, q: ComplexArray, with_jacobian: bool, room: Room) -> None:
-    """The error of the loop, and its Jacobian where that is wanted, into `system`."""
+    """Fill `system` with the error of the loop and, if requested, its Jacobian."""
     turns, place, system = room.turns, room.place, room.system
     for i in range(JOINTS):
         ahead, back = cmath.exp(1j * q[i]), cmath.exp(-1j * q[i])
@@ -265,7 +265,7 @@ def _close(slides: Indices, q: ComplexArray, with_jacobian: bool, room: Room) ->
     p: _Vector = zero, zero, zero
     x: _Vector = one, zero, zero
     y: _Vector = zero, one, zero
-    # What goes the whole way round from the middle comes back to it.
+    # At a solution, moving once around the loop from its middle is the identity.
     for k in range(JOINTS):
         i = (_HALF + k) % JOINTS
         if k == _HALF:
@@ -286,7 +286,7 @@ def _close(slides: Indices, q: ComplexArray, with_jacobian: bool, room: Room) ->
 
 @unmanaged
 def _fill_jacobian(slides: Indices, q: ComplexArray, room: Room) -> None:
-    """The joints' lines, carried to the middle by those between, as twists."""
+    """Fill the Jacobian with the joints' twists, moved to the middle of the loop by the joints in between."""
     turns, place, system = room.turns, room.place, room.system
     for i in range(JOINTS):
         h, o = _row(place, i), _row(place, JOINTS + i)
@@ -310,7 +310,7 @@ def _size(a: Any) -> float:
 
 @unmanaged
 def _solve(A: ComplexArray) -> float:
-    """Solve by elimination with partial pivoting, into the last column; the largest entry of the solution."""
+    """Solve by elimination with partial pivoting into the last column; return the largest entry of the solution."""
     for j in range(JOINTS):
         best = j
         for k in range(j + 1, JOINTS):

@@ -1,7 +1,7 @@
-"""What is special about an arm: which neighbouring axes are parallel or meet, found as zeros of DH parameters.
+"""Special geometry of an arm: neighbouring axes that are parallel or intersect, found as zeros of DH parameters.
 
-An arm that is special up to a small deviation has solutions near infinity that rounding loses. It is replaced by the
-exactly special arm, which lacks them; a target of one is a target of the other up to as small a deviation.
+A nearly special arm has solutions near infinity that rounding loses. The exactly special arm, which lacks them,
+replaces it; a target of one arm is a target of the other up to an equally small deviation.
 """
 
 from typing import NamedTuple
@@ -14,18 +14,18 @@ from gelenk.model.arrays import Array
 _QUARTER = 0.5 * np.pi
 _ROUNDING = 1e-12
 _BEND = 0.15
-"""How much the loop may bend where a solution goes."""
+"""Largest relative bend of the loop over the motion of a solution."""
 
 
 class Geometry(NamedTuple):
-    """The lines of joints, by Denavit and Hartenberg's numbers.
+    """The joint lines of an arm, by Denavit-Hartenberg parameters.
 
     Attributes:
-        links: θ, d, a and α from each line to the next, θ and d 0 of the first; shape (n - 1, 4).
+        links: θ, d, a and α from each line to the next, with θ = d = 0 for the first; shape (n - 1, 4).
         first: Frame on the first line; shape (4, 4).
-        last: Frame on the last one, as the arm has it; shape (4, 4).
-        off: How far at most the last line is from where these numbers have it, wherever the joints are: angle [rad],
-            and distance at the origin.
+        last: Frame on the last line of the actual arm; shape (4, 4).
+        off: Largest deviation of the last line from these parameters over all joint values: angle [rad], and distance
+            at the origin.
     """
 
     links: Array
@@ -34,7 +34,7 @@ class Geometry(NamedTuple):
     off: tuple[float, float]
 
     def lines(self) -> tuple[Array, Array, Array]:
-        """Axes and points that have exactly these numbers, shape (n, 3), and the last line's frame, shape (4, 4)."""
+        """Return axes and points with exactly these parameters, shape (n, 3), and the last frame, shape (4, 4)."""
         T, frames = self.first, [self.first]
         for theta, d, a, alpha in self.links:
             T = T @ _step(theta, d, 2) @ _step(alpha, a, 0)
@@ -42,7 +42,7 @@ class Geometry(NamedTuple):
         return np.array([T[:3, 2] for T in frames]), np.array([T[:3, 3] for T in frames]), T
 
     def kind(self) -> tuple[tuple[float, ...], ...]:
-        """Which angles are quarter turns, -1 where they are none; which lengths are 0, which others they equal."""
+        """Classify links: angles as quarter turns or -1; lengths as 0 or signed index of the first equal one."""
         quarters = self.links[:, [0, 3]] / _QUARTER
         special = np.where(np.abs(quarters - np.rint(quarters)) < _ROUNDING, np.rint(quarters) % 4, -1.0)
         lengths = self.links[:, 1:3].ravel()
@@ -52,11 +52,11 @@ class Geometry(NamedTuple):
 
 
 def geometry(axes: Array, points: Array, tolerance: float) -> Geometry:
-    """The numbers of an arm, lengths and sines of α up to a tolerance taken as 0.
+    """Compute the parameters of an arm, with lengths and sines of α up to a tolerance set to 0.
 
     Args:
         axes: Unit vectors; shape (n, 3).
-        points: A point on each; shape (n, 3).
+        points: A point on each axis; shape (n, 3).
         tolerance: Sine of an angle, or length in the unit of the points.
     """
     links, angle, distance, reach = [], 0.0, 0.0, 0.0
@@ -92,11 +92,11 @@ def geometry(axes: Array, points: Array, tolerance: float) -> Geometry:
 def drawn(
     kind: tuple[tuple[float, ...], ...], slides: tuple[bool, ...], rng: np.random.Generator
 ) -> tuple[Array, Array]:
-    """Axes and points of some arm that is special in the same way and in no other; shape (n, 3)."""
+    """Draw axes and points of a random arm of a special kind without other special properties; shape (n, 3) each."""
     links = np.array(kind)
     lengths, angles = rng.uniform(0.2, 1.0, 1 + 2 * len(links)), rng.uniform(0.3, 1.2, (len(links), 2))
     special = links[:, [0, 3]]
-    # Where a joint turns, θ is its own.
+    # A revolute joint has an arbitrary θ.
     special[~np.array(slides[:-1]), 0] = -1.0
     links[:, [0, 3]] = np.where(special < 0.0, angles, special * _QUARTER)
     links[:, 1:3] = np.sign(links[:, 1:3]) * lengths[np.abs(links[:, 1:3]).astype(int)]
@@ -104,19 +104,19 @@ def drawn(
 
 
 def reaches(screws: ComplexArray, off: tuple[float, float], qs: ComplexArray) -> Array | None:
-    """How far each solution goes at most as the target moves by so much; None if some may meet on the way.
+    """Bound the motion of each solution as the target moves; None if solutions may meet on the way.
 
-    Beside a solution the loop is exp(J_1 x_1) ⋯ exp(J_n x_n). In the basis of the twists J_k, each in units of how far
-    x_k goes to first order, the sum of their brackets' sizes tells how much the loop bends. While it bends but little,
-    Newton's theorem holds: the solution stays, alone up to twice as far as it goes.
+    Near a solution the loop is exp(J_1 x_1) ⋯ exp(J_n x_n). In the basis of the twists J_k, each in units of the
+    first-order motion of x_k, the summed sizes of their brackets measure how much the loop bends. If that is small, a
+    theorem on Newton's method applies: the solution persists, and is the only one within twice its motion.
 
     Args:
-        screws: Axes, then points, of turning joints; shape (2 n, 3).
-        off: Angle [rad] and distance that the target moves, at the origin.
-        qs: All solutions of the target, which stand alone; shape (N, n), [rad].
+        screws: Axes, then points, of revolute joints; shape (2 n, 3).
+        off: Motion of the target: angle [rad], and distance at the origin.
+        qs: All solutions of the target, each isolated; shape (N, n), [rad].
 
     Returns:
-        Shape (N, n), [rad].
+        Bounds on the joint motions; shape (N, n), [rad].
     """
     Js = _twists(screws, qs)
     inverses = np.linalg.inv(Js)
@@ -145,7 +145,7 @@ def _twists(screws: ComplexArray, qs: ComplexArray) -> ComplexArray:
 
 
 def _brackets(Js: ComplexArray) -> ComplexArray:
-    """The matrix of [J_k, ·] for each twist; shape (N, n, 6, 6)."""
+    """Matrix of the bracket [J_k, ·] for each twist; shape (N, n, 6, 6)."""
     table = np.zeros((len(Js), Js.shape[2], 6, 6), dtype=complex)
     for part, blocks in ((Js[:, :3], ((0, 0), (3, 3))), (Js[:, 3:], ((3, 0),))):
         cross = np.cross(part.transpose(0, 2, 1)[:, :, None], np.eye(3)).transpose(0, 1, 3, 2)
@@ -155,7 +155,7 @@ def _brackets(Js: ComplexArray) -> ComplexArray:
 
 
 def _step(angle: float, length: float, axis: int) -> Array:
-    """A turn about one of a frame's axes and a shift along it; shape (4, 4)."""
+    """Transform that turns about an axis of a frame and shifts along it; shape (4, 4)."""
     T, j, k = np.eye(4), (axis + 1) % 3, (axis + 2) % 3
     c, s = np.cos(angle), np.sin(angle)
     T[j, j], T[j, k], T[k, j], T[k, k], T[axis, 3] = c, -s, s, c, length
@@ -163,7 +163,7 @@ def _step(angle: float, length: float, axis: int) -> Array:
 
 
 def _frame(x: Array, z: Array, p: Array) -> Array:
-    """The frame at p with its z axis along one vector and x as near to the other as possible; shape (4, 4)."""
+    """Frame at p with its z axis along a vector and its x axis as near to another as possible; shape (4, 4)."""
     T = np.eye(4)
     x = x - z * (z @ x)
     x = x / np.linalg.norm(x)

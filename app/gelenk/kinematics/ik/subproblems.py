@@ -1,9 +1,9 @@
-"""The geometric subproblems of inverse kinematics, each answered by least squares where it has no solution.
+"""Geometric subproblems of inverse kinematics, each answered by least squares if it has no solution.
 
-A closed form is a composition of these: one vector turned onto another [Paden1986], a point on a circle at a given
-height or distance (both linear in cosine and sine), and a circle that meets a quadric, which is a quartic [Elias2022].
-A target at the rim of what can be reached is beyond it by rounding, and then two solutions are one: where an equation
-has none, its answers are those that come nearest, and what is worth anything is found out by recomputing the pose.
+A closed form is a composition of these: turning one vector onto another [Paden1986], a point on a circle at a given
+height or distance (both linear in cosine and sine), and the intersection of a circle with a quadric, a quartic
+[Elias2022]. Rounding may put a target at the boundary of the workspace, where two solutions meet, out of reach. An
+equation without solutions therefore returns the nearest values, and recomputing the pose shows whether they are good.
 """
 
 import math
@@ -16,31 +16,31 @@ from gelenk.model.arrays import Array
 from gelenk.model.compilation import inlined, unmanaged
 
 Coefficients: TypeAlias = tuple[float, float, float]
-"""A function of a joint: its share of 1, cos q and sin q where the joint turns, of 1, q and q² where it slides."""
+"""A function of a joint: coefficients of 1, cos q, sin q for a revolute joint, of 1, q, q² for a prismatic one."""
 Quadratic: TypeAlias = tuple[float, float, float, float, float, float]
-"""A product of two such: 00, 01, 02, 11, 12, 22."""
+"""A product of two such functions: coefficients 00, 01, 02, 11, 12, 22."""
 
 BEYOND = 1e-4
-"""How far an equation may miss its nearest answer, relative to its largest term, and the answer still be tried."""
+"""Largest residual, relative to the largest term, with which the nearest answer is still tried."""
 ROUNDING = 2e-15
-"""What rounding leaves of a difference of squares, as a share of them."""
+"""Rounding error of a difference of squares, as a share of them."""
 _ROUNDS = 60
-"""Of a bracketed Newton iteration; it takes about six."""
+"""Most rounds of a bracketed Newton iteration, which usually takes about six."""
 
 
 @inlined
 def angle_onto(axis: Vector, a: Vector, b: Vector) -> float:
-    """The angle about a unit axis that turns a as close to b as it comes, [rad]."""
-    # What is along the axis goes first: of vectors nearly along it nothing would be left of the digits after.
+    """Angle about a unit axis that turns a as close to b as possible, [rad]."""
+    # Remove the parts along the axis first: doing it later would cost all digits of vectors nearly along it.
     u, w = cross(axis, a), cross(axis, b)
     return math.atan2(dot(axis, cross(u, w)), dot(u, w))
 
 
 @inlined
 def rest_of(length: float, part: float) -> float:
-    """The other side of a right triangle, √(length² - part²), with the digits that the difference has.
+    """Other side of a right triangle, √(length² - part²), to the accuracy of length - part.
 
-    Where that is none but rounding the two solutions that differ in its sign are one.
+    It is 0 if the difference is mere rounding: then the two solutions that differ in its sign coincide.
     """
     square = (length - part) * (length + part)
     return math.sqrt(square) if square > ROUNDING * length * length else 0.0
@@ -48,7 +48,7 @@ def rest_of(length: float, part: float) -> float:
 
 @inlined
 def turns_at(g: Coefficients) -> tuple[float, float, bool]:
-    """The angles at which g₀ + g₁ cos q + g₂ sin q = 0: middle and half the distance; and whether they are any good."""
+    """Solve g₀ + g₁ cos q + g₂ sin q = 0; return midpoint and half-distance of the angles, and whether to try them."""
     length = math.hypot(g[1], g[2])
     if length <= 1e-12 * abs(g[0]) or length < 1e-14:
         return 0.0, 0.0, False
@@ -59,7 +59,7 @@ def turns_at(g: Coefficients) -> tuple[float, float, bool]:
 
 @inlined
 def slides_at(a: float, b: float, c: float) -> tuple[float, float, bool]:
-    """The roots of a x² + b x + c: middle and half the distance; and whether they are any good."""
+    """Solve a x² + b x + c = 0; return midpoint and half-distance of the roots, and whether to try them."""
     if abs(a) <= 1e-12 * abs(b):
         return (-c / b, 0.0, True) if b != 0.0 else (0.0, 0.0, False)
     if a == 0.0:
@@ -72,7 +72,7 @@ def slides_at(a: float, b: float, c: float) -> tuple[float, float, bool]:
 
 @inlined
 def product(a: Coefficients, b: Coefficients) -> Quadratic:
-    """The product of two functions of a joint."""
+    """Multiply two functions of a joint."""
     return (
         a[0] * b[0],
         a[0] * b[1] + a[1] * b[0],
@@ -85,22 +85,22 @@ def product(a: Coefficients, b: Coefficients) -> Quadratic:
 
 @inlined
 def value(a: Coefficients, basis: Coefficients) -> float:
-    """A function of a joint at a value of it, given by 1, cos q and sin q or 1, q and q²."""
+    """Evaluate a function of a joint at a value, given as 1, cos q, sin q or 1, q, q²."""
     return a[0] * basis[0] + a[1] * basis[1] + a[2] * basis[2]
 
 
 @unmanaged
 def turns_of_quadratic(f: Quadratic, roots: Array) -> int:
-    """The angles at which a quadratic function of cosine and sine vanishes, or nearly does and turns back.
+    """Find the angles at which a quadratic function of cosine and sine vanishes, or nearly touches zero.
 
-    By the tangent of half the angle, measured from where the function is largest, so that no root is near infinity.
+    The unknown is the tangent of the half-angle, infinite where the function is largest, away from all roots.
 
     Args:
-        f: Its coefficients.
-        roots: Filled in ascending order; room for 8.
+        f: Coefficients of the function.
+        roots: Output in ascending order, [rad]; shape (8,).
 
     Returns:
-        How many there are.
+        Number of roots.
     """
     largest, far = -1.0, 0.0
     for k in range(8):
@@ -128,28 +128,28 @@ def _quadratic_at(f: Quadratic, c: float, s: float) -> float:
 
 @unmanaged
 def slides_of_quadratic(f: Quadratic, reach: float, roots: Array) -> int:
-    """The same for a prismatic joint, for values within ±reach [m]."""
+    """Find such roots for a prismatic joint, within ±reach [m]; return their number."""
     return roots_of_quartic(f[5], f[4], f[2] + f[3], f[1], f[0], reach, roots)
 
 
 @unmanaged
 def roots_of_quartic(a: float, b: float, c: float, d: float, e: float, reach: float, roots: Array) -> int:
-    """The real roots of a x⁴ + b x³ + c x² + d x + e within ±reach, and where it nearly touches zero.
+    """Find the real roots of a x⁴ + b x³ + c x² + d x + e within ±reach, and the points where it nearly touches zero.
 
-    Between two neighbouring roots of its derivative a polynomial has one root or none: so from the second derivative,
-    which is quadratic, to the first, and from there to the quartic itself, each time by Newton's method in a bracket.
+    Between neighbouring roots of its derivative a polynomial has at most one root. So the roots of the second
+    derivative, a quadratic, bracket those of the first, and these bracket those of the quartic, for Newton's method.
 
     Args:
-        a: Of the fourth power.
-        b: Of the third.
-        c: Of the square.
-        d: Of x.
-        e: Of 1.
-        reach: Bound of what is looked for; where it is infinite, that of Cauchy, which asks for a to be large.
-        roots: Filled in ascending order; room for 8.
+        a: Coefficient of x⁴.
+        b: Coefficient of x³.
+        c: Coefficient of x².
+        d: Coefficient of x.
+        e: Constant coefficient.
+        reach: Bound on the roots; if infinite, Cauchy's bound, which needs a large a.
+        roots: Output in ascending order; shape (8,).
 
     Returns:
-        How many there are.
+        Number of roots.
     """
     if reach == np.inf:
         reach = 1.0 + max(abs(b), abs(c), abs(d), abs(e)) / abs(a)
@@ -174,7 +174,7 @@ def roots_of_quartic(a: float, b: float, c: float, d: float, e: float, reach: fl
             roots[found] = x
             found += 1
         elif k < count and _nearly_zero(quartic, upper):
-            # Unless the next bracket has a root, two roots have met here, or would have but for rounding.
+            # Unless the next bracket has a root, two roots meet here, perhaps but for rounding.
             following = reach if k + 1 == count else turning[k + 1]
             if not _root_between(quartic, upper, following)[1]:
                 roots[found] = upper
@@ -197,7 +197,7 @@ def _nearly_zero(p: tuple[float, float, float, float, float], x: float) -> bool:
 
 @unmanaged
 def _root_between(p: tuple[float, float, float, float, float], lower: float, upper: float) -> tuple[float, bool]:
-    """The root between two points at which a polynomial has opposite signs, or none."""
+    """Find the root of a polynomial between two points; the flag is False if its signs there are equal."""
     at_lower, at_upper = _polynomial(p, lower), _polynomial(p, upper)
     if at_lower == 0.0:
         return lower, upper > lower
