@@ -1,4 +1,4 @@
-"""The strict base of all payloads, and what many of them share."""
+"""The strict base of all payloads, and types that many of them share."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from gelenk.model.arrays import Array
 
 
 def as_lists(value: Any) -> Any:
-    """Arrays, and other sequences and mappings, as lists and dicts, whatever they hold."""
+    """Convert arrays, and other sequences and mappings, to lists and dicts, at any depth."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Mapping):
@@ -24,20 +24,20 @@ def as_lists(value: Any) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class OnTheWire:
-    """What JSON has for a field; its annotation says what Python may give for it, and the core takes.
+    """Gives a field a JSON type of its own; its annotation says what Python code may pass, and the core accepts.
 
-    So a checker of types lets arrays and tuples pass, and the schema of the API knows nothing of them.
+    So type checkers accept arrays and tuples, and the schema of the API does not mention them.
 
     Attributes:
-        kind: Of JSON.
-        of_python: What turns a value that Python gives into one.
+        kind: Type in JSON.
+        of_python: Converts a value from Python code to this type.
     """
 
     kind: Any
     of_python: Callable[[Any], Any] = as_lists
 
     def __get_pydantic_core_schema__(self, _: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """JSON is read as before, and no slower."""
+        """Build a schema that reads JSON as before, no slower, and converts values from Python code first."""
         wire = handler.generate_schema(self.kind)
         return core_schema.json_or_python_schema(
             wire, core_schema.no_info_before_validator_function(self.of_python, wire)
@@ -45,14 +45,14 @@ class OnTheWire:
 
 
 Vectors: TypeAlias = Sequence[Sequence[float] | Array] | Array
-"""What Python may give for rows of numbers; shape (N, m)."""
+"""Rows of numbers as Python code may pass them; shape (N, m)."""
 
 
 class Shown(BaseModel):
-    """A model that is shown at a prompt in a few lines, however much it holds."""
+    """A model whose `repr` takes a few lines, however much it holds."""
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        """What is there, long lists by their first entries."""
+        """Yield the fields that are not None; lists are shortened to their first entries."""
         for name, value in super().__repr_args__():
             if value is not None:
                 yield name, _Brief(value)
@@ -78,7 +78,7 @@ class _Brief:
 
 
 _MOST_SHOWN, _FIRST_SHOWN = 12, 3
-"""Entries of a list that are all shown, and of a longer one its first."""
+"""Longest list that is shown whole, and number of entries shown of a longer one."""
 _LONGEST_SHOWN = 300
 
 
@@ -90,9 +90,9 @@ class Payload(Shown):
     list_fields: ClassVar[frozenset[str]] = frozenset()
     """Fields that a query string gives by repeating their name."""
     vector_fields: ClassVar[frozenset[str]] = frozenset()
-    """Fields that it gives so, or once where they are one word."""
+    """Fields that a query string gives by repeating their name, or once if they are one word."""
     object_fields: ClassVar[frozenset[str]] = frozenset()
-    """Fields that it gives as JSON."""
+    """Fields that a query string gives as JSON."""
 
 
 class Answer(Shown):

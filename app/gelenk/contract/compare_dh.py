@@ -1,4 +1,4 @@
-"""Comparisons of DH tables with chains on the wire."""
+"""Comparison of a DH table with a robot's chain: request, answer, operation."""
 
 from typing import Any, Literal, TypeAlias
 
@@ -146,7 +146,7 @@ EXAMPLE_COMPARISON: dict[str, Any] = {
         ],
     },
 }
-"""A table in circulation, 0.3 mm too high at the shoulder: found because the base is held."""
+"""A published table, 0.3 mm too high at the shoulder: the error shows because the base is held."""
 
 
 ENDPOINT = Endpoint(

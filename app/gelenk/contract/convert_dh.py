@@ -1,4 +1,4 @@
-"""A table in the other convention: request, answer, operation."""
+"""Conversion of a DH table to the other convention: request, answer, operation."""
 
 from pydantic import Field
 
@@ -8,14 +8,14 @@ from gelenk.contract.endpoint import Endpoint
 
 
 class ConvertRequest(Payload):
-    """A table to be written in a convention."""
+    """A table, and the convention to write it in."""
 
     dh: DhTablePayload
     convention: Convention
 
 
 class ConvertAnswer(Answer):
-    """The same chain by a table of the convention."""
+    """A table of the same chain in this convention."""
 
     dh: DhTablePayload = Field(description="A valid request's `dh`; base and tool left out where the identity.")
     joint_names: list[str] = Field(description="The variables, base to tip: the order of a configuration.")

@@ -1,4 +1,4 @@
-"""What all calculators of motions in time share on the wire."""
+"""Payloads that all calculators of motions in time share."""
 
 from typing import Annotated, Any
 
@@ -10,19 +10,19 @@ MAX_JOINTS = 32
 MAX_KNOTS = 1000
 MAX_SAMPLES = 10_000
 MAX_SAMPLED_NUMBERS = 100_000
-"""Samples times joints, at most."""
+"""Maximum of samples times joints."""
 
 _LARGEST = 1e6
 _NEXT_TO_NOTHING = 1e-30
 
 
 def one_joint(value: Any) -> Any:
-    """A number alone is a list of one."""
+    """Turn a number alone into a list of one."""
     return [value] if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
 def _no_underflow(value: float) -> float:
-    """Numbers whose squares would vanish count as 0."""
+    """Replace numbers whose squares would vanish by 0."""
     return value if abs(value) > _NEXT_TO_NOTHING else 0.0
 
 
@@ -54,7 +54,7 @@ class MotionLimits(Payload):
 
 
 class SampledRequest(Payload):
-    """Where a motion is to be sampled, and what it is compared with."""
+    """Sample times of a motion, and limits to compare it with."""
 
     samples: SampleCount = Field(
         default=101, description="Number of samples, evenly spaced from start to end, both included; no unit."
@@ -79,7 +79,7 @@ class SegmentInfo(Answer):
 
 
 class PeakInfo(Answer):
-    """Peak of a joint, furthest from zero."""
+    """Peak of a joint: the value furthest from zero."""
 
     value: float = Field(description="Signed peak, [rad or m per s, s² or s³].")
     time: float = Field(description="The first time at which it is so large, [s].")

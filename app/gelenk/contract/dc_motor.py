@@ -57,7 +57,7 @@ class DcMotorRequest(Payload):
     initial_angular_velocity: AngularVelocity = Field(default=0.0, description="ω(0), [rad/s].")
 
     def motor(self) -> Motor:
-        """The core's motor."""
+        """Return the core's motor."""
         return Motor(
             self.resistance,
             self.inductance,

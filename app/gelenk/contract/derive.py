@@ -1,4 +1,4 @@
-"""The worked solution of a table on the wire."""
+"""The worked solution of a DH table: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -145,7 +145,7 @@ class StepInfo(Answer):
 
 
 class DeriveCertificate(Answer):
-    """Formulas against numbers from the table's own product of transforms, at random configurations."""
+    """Comparison of the formulas with numbers from the table's own product of transforms, at random configurations."""
 
     samples: int = Field(description="Configurations at which every formula was evaluated.")
     max_error: float = Field(description="Largest difference of an entry; [m] or no unit.")
@@ -153,7 +153,7 @@ class DeriveCertificate(Answer):
 
 
 class NumericCertificate(Answer):
-    """Numbers at the given configurations against Pinocchio's."""
+    """Comparison of the numbers at the given configurations with Pinocchio's."""
 
     samples: int = Field(description="Configurations that were recomputed.")
     max_position_error: float = Field(description="Largest distance, [m].")

@@ -1,4 +1,4 @@
-"""Denavit-Hartenberg tables on the wire."""
+"""Denavit-Hartenberg tables as payloads, and types that their conversions share."""
 
 from typing import Annotated, Any, Literal
 
@@ -53,7 +53,7 @@ class DhJointRow(Payload):
     )
 
     def row(self, number: int) -> DhJoint:
-        """The core's row, the `number`-th from 1."""
+        """Return the core's row, the `number`-th from 1."""
         fields = {**dict(self), "name": self.name or f"joint_{number}"}
         return DhJoint(**{**fields, "mimic": None if self.mimic is None else Mimic(**dict(self.mimic))})
 
@@ -71,10 +71,10 @@ class DhTablePayload(Payload):
     tool: Pose | None = Field(default=None, description="T_n_tool; the identity if left out.")
 
     def table(self) -> DhTable:
-        """The core's table.
+        """Return the core's table.
 
         Raises:
-            InvalidPose: Base or tool is no rotation.
+            InvalidPose: The orientation of base or tool is not a rotation.
             InvalidDhTable: The table is not a robot.
         """
         joints = tuple(row.row(number) for number, row in enumerate(self.joints, start=1))
@@ -91,9 +91,9 @@ def _placed(place: str, pose: Pose | None) -> Array:
 
 
 def table_content(table: DhTable) -> dict[str, Any]:
-    """A table as it travels: a valid `DhTablePayload` that gives the same numbers again.
+    """Return a table as JSON content: a valid `DhTablePayload` that gives the same numbers again.
 
-    Base and tool are matrices, which keep quarter turns exact, and are left out where they are the identity.
+    Base and tool are matrices, which keep quarter turns exact, and are left out if they are the identity.
     """
     joints = []
     for row in table.joints:
@@ -131,8 +131,8 @@ class TableCertificate(Answer):
     """Difference between the two sides of a conversion, measured through Pinocchio at random configurations.
 
     These are `lower + r (upper - lower)` with `r = numpy.random.default_rng(seed).random((samples, n))`. In the first
-    half of the rows the bounds are the joints' limits (one further than 10 rad or m from the position next to zero
-    counts as that far), in the second half revolute joints turn within ±π.
+    half of the rows the bounds are the joints' limits (at most 10 rad or m from the position nearest to zero), in the
+    second half revolute joints turn within ±π.
     """
 
     samples: int = Field(description="Number of configurations.")

@@ -1,4 +1,4 @@
-"""A URDF as table: request, answer, operation."""
+"""Conversion of a URDF to a DH table: request, answer, operation."""
 
 from pydantic import Field
 
@@ -8,7 +8,7 @@ from gelenk.contract.endpoint import Endpoint
 
 
 class FromUrdfOptions(ChainOptions):
-    """Which chain of a robot, and what its table should be like."""
+    """The chain of a robot, and options of its table."""
 
     convention: Convention = "standard"
     snap_tolerance: SnapTolerance = 0.0

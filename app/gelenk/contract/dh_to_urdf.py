@@ -1,4 +1,4 @@
-"""A table as URDF: request, answer, operation."""
+"""Conversion of a DH table to URDF: request, answer, operation."""
 
 from pydantic import Field
 

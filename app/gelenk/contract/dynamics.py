@@ -1,4 +1,4 @@
-"""Requests and answers of dynamics."""
+"""Dynamics: request, answer, operation."""
 
 from typing import Annotated, Literal
 
@@ -52,7 +52,7 @@ class DynamicsRequest(DynamicsOptions, WrenchRequest):
 
 
 class DynamicsCertificateInfo(Answer):
-    """How far sums over the bodies, by our own Jacobians, are from these numbers; null if not requested."""
+    """Differences of these numbers from sums over the bodies by our own Jacobians; null if not requested."""
 
     samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
     max_mass_error: float | None = Field(description="Of M = Σ m J_vᵀJ_v + J_ωᵀIJ_ω, [kg m², kg m or kg].")

@@ -1,4 +1,4 @@
-"""Shaft encoders on the wire."""
+"""Shaft encoders: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -18,7 +18,7 @@ Reading = Annotated[str, Field(max_length=MAX_BITS)]
 
 
 class EncoderRequest(Payload):
-    """An encoder on the motor's shaft; `wanted_resolution` requests the unknown part of it."""
+    """An encoder on the motor's shaft, or the resolution for which one is wanted."""
 
     type: Literal["incremental", "absolute"] = Field(description="Two channels and a counter, or a code disc.")
     gear_ratio: Ratio = Field(default=1.0, description="N = ω_motor / ω_load, no unit.")

@@ -1,4 +1,4 @@
-"""An operation of the API, declared once: server, client, command line, key scopes and reference are made of this."""
+"""An operation of the API, declared once: server, client, command line, scopes and reference are built from it."""
 
 import inspect
 from collections.abc import Callable
@@ -17,20 +17,21 @@ Tag: TypeAlias = Literal["DH tables", "Course", "Kinematics"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Endpoint(Generic[P, A]):
-    """A request in, an answer out, both JSON; nothing is stored.
+    """An operation with a request and an answer in JSON; it stores nothing.
 
     Attributes:
-        name: Of the client's method, of the operation at the command line, and of the module in `gelenk.operations`.
-        path: Below the address of the service, without a leading slash.
-        tag: The group that it is documented in.
+        name: Name of the client's method, of the operation at the command line, and of the module in
+            `gelenk.operations`.
+        path: Path below the address of the service, without a leading slash.
+        tag: Group that it is documented in.
         request: Model of the request.
         answer: Model of the answer.
-        summary: In a few words.
-        description: What it does, in Markdown.
-        example: A request that runs as it stands, on the Panda where it is about a robot.
-        operation_id: In the OpenAPI document; the name if left out.
-        robot_field: The field of the request that names a robot; "" where there is none.
-        picture: What an image of the answer shows; "" where it has none.
+        summary: Summary in a few words.
+        description: Description in Markdown.
+        example: Request that works unchanged, on the Panda if it is about a robot.
+        operation_id: Id in the OpenAPI document; the name if left out.
+        robot_field: Field of the request that names a robot; "" if there is none.
+        picture: What an image of the answer shows; "" if it has none.
     """
 
     name: str
@@ -56,13 +57,13 @@ class RobotEndpoint(Endpoint[P, A]):
     """POST /v1/robots/{robot}/{name}: an operation on a robot, which can also answer with an array.
 
     Attributes:
-        npy_answer: What the npy answer holds.
-        batch: The field that an npy body stands for; "" where there is no such body.
-        options: Model of the fields in the query beside an npy body.
-        npy_body: What an npy body holds.
-        npy_holds_more: Whether that is more than the batch.
-        table: What the answer holds as CSV; "" where it has none.
-        job: What a job may do beyond a direct answer; "" where there is no job.
+        npy_answer: Content of the npy answer.
+        batch: Field that an npy body stands for; "" if there is no such body.
+        options: Model of the query fields beside an npy body.
+        npy_body: Content of an npy body.
+        npy_holds_more: Whether an npy body holds more than the batch.
+        table: Content of the CSV answer; "" if it has none.
+        job: What a job may do beyond a direct answer; "" if it cannot run as a job.
     """
 
     path: str = ""

@@ -1,6 +1,6 @@
-"""The table of all operations: what server, client, command line, workers and reference know of them.
+"""The table of all operations, which server, client, command line, workers and reference use.
 
-It is made of the modules of this package that have an `ENDPOINT`.
+It has the `ENDPOINT` of each module of this package that declares one.
 """
 
 import pkgutil
@@ -22,7 +22,7 @@ _TAGS = get_args(Tag)
 ENDPOINTS: tuple[Endpoint[Any, Any], ...] = tuple(
     sorted(_declared(), key=lambda endpoint: (_TAGS.index(endpoint.tag), endpoint.name))
 )
-"""By tag and name."""
+"""All operations, sorted by tag and name."""
 ROBOT_ENDPOINTS: tuple[RobotEndpoint[Any, Any], ...] = tuple(
     endpoint for endpoint in ENDPOINTS if isinstance(endpoint, RobotEndpoint)
 )

@@ -1,4 +1,4 @@
-"""Passing a corner without stopping, on the wire."""
+"""Fly-over of a corner without a stop: request, answer, operation."""
 
 from typing import Annotated, Any
 
@@ -82,7 +82,7 @@ class PhaseInfo(Answer):
 
 
 class RestToRestInfo(Answer):
-    """From rest in A to rest in C."""
+    """The whole motion, from rest in A to rest in C."""
 
     phases: list[PhaseInfo]
     duration: float = Field(description="Of all phases, [s].")

@@ -1,4 +1,4 @@
-"""Formulas on the wire, in LaTeX and in plain text."""
+"""Formulas as payloads, in LaTeX and in plain text."""
 
 from pydantic import Field
 

@@ -1,4 +1,4 @@
-"""What a monitor gets."""
+"""The answer that a monitor gets."""
 
 from pydantic import Field
 

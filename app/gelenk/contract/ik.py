@@ -1,4 +1,4 @@
-"""Requests and answers of inverse kinematics."""
+"""Inverse kinematics: request, answer, operation."""
 
 from collections.abc import Sequence
 from typing import Annotated, Literal
@@ -14,14 +14,14 @@ from gelenk.model.arrays import Array
 
 MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000
-"""Targets of a call that follows a method step by step, in Python."""
+"""Maximum number of targets of a call that follows a method step by step, in Python."""
 
 MAX_TRACE = 1000
-"""Most configurations of a trace that are reported; a longer one is thinned evenly."""
+"""Maximum number of configurations of a trace in the answer; a longer one is thinned evenly."""
 
 MAX_JOB_TARGETS = 4_000_000
 MAX_JOB_STEPWISE = 100_000
-"""The same of a call that is answered by a job."""
+"""The same limits for a call that a job answers."""
 
 Targets = Annotated[
     Sequence[Pose] | Array,
@@ -218,7 +218,7 @@ class BlockingJointInfo(Answer):
 
 
 class IterationInfo(Answer):
-    """One configuration on the way of a method."""
+    """One configuration in the course of an iteration."""
 
     error: float = Field(description="‖e‖ of the directions that count: distance [m] and rotation vector [rad] mixed.")
     min_singular_value: float = Field(description="Smallest singular value of J in these directions, mixed likewise.")

@@ -1,4 +1,4 @@
-"""What travels about jobs."""
+"""Payloads about jobs."""
 
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -16,7 +16,7 @@ JobName = Annotated[
 ]
 
 Finished: TypeAlias = Literal["keep", "remove"]
-"""What becomes of a job that is to be cancelled and has come to its end."""
+"""What a request to cancel does with a job that has finished already."""
 
 
 class JobError(Answer):

@@ -1,4 +1,4 @@
-"""What many operations on a robot share: configurations, matrices, certificates."""
+"""Payloads that many operations on a robot share: configurations, matrices, certificates."""
 
 from collections.abc import Sequence
 from typing import Annotated, Any, TypeAlias
@@ -29,7 +29,7 @@ _Configuration = Annotated[
 """Tags in angle brackets never show in a pointer."""
 
 Configuration = Annotated[GivenConfiguration, OnTheWire(_Configuration)]
-"""One number per joint, base to tip, or a value by joint name."""
+"""One number per joint, base to tip, or values by joint name."""
 
 Configurations = Annotated[
     Sequence[GivenConfiguration] | Array,

@@ -1,4 +1,4 @@
-"""The equations of motion of a planar arm on the wire."""
+"""The equations of motion of a planar arm, as payloads."""
 
 import math
 from typing import Annotated, Any
@@ -49,14 +49,14 @@ class LinkPayload(Payload):
     )
 
     def body(self) -> Body:
-        """The core's body."""
+        """Return the core's body."""
         center = self.center_of_mass
         point = (center[0], center[1], center[2]) if isinstance(center, list) else center
         return Body(self.mass, point, self.inertia)
 
 
 class GravityPayload(Payload):
-    """Free fall by its size and direction."""
+    """Acceleration of free fall by its magnitude and direction."""
 
     magnitude: float = Field(default=STANDARD_GRAVITY, ge=0, le=MAX_GRAVITY, description="g_0, [m/s²].")
     direction: Triple = Field(description="Direction of free fall in the base; of any length, no unit.")
@@ -95,7 +95,7 @@ class DynamicsPayload(Payload):
     )
 
     def dynamics(self) -> Dynamics:
-        """The core's."""
+        """Return the core's masses, gravity and velocities."""
         given = self.gravity
         vector, size = (given, math.hypot(*given)) if isinstance(given, list) else (given.direction, given.magnitude)
         length = math.hypot(*vector) or 1.0
@@ -104,7 +104,7 @@ class DynamicsPayload(Payload):
 
 
 class BodyInfo(Answer):
-    """A link, as the Lagrangian sees it; vectors in the axes of frame 0."""
+    """A link in the Lagrangian; vectors in the axes of frame 0."""
 
     joint: str = Field(description="The joint that moves the body.")
     center_of_mass: MatrixInfo = Field(description="p_ci from the origin of frame 0.")
@@ -134,7 +134,7 @@ class MotionNumbers(Answer):
 
 
 class EquationsCertificate(Answer):
-    """Equations of motion against Pinocchio, which builds the arm from the table with these masses."""
+    """Comparison of the equations of motion with Pinocchio, which builds the arm from the table with these masses."""
 
     samples: int = Field(
         description="States that were compared; in symbols, also with random values for what has none."

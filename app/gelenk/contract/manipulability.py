@@ -1,4 +1,4 @@
-"""Request and answer of manipulability."""
+"""Manipulability: request, answer, operation."""
 
 from typing import Annotated, Literal
 
@@ -10,9 +10,9 @@ from gelenk.contract.kinematics import Configuration, Configurations, JacobianCe
 from gelenk.kinematics.ik.words import DIRECTIONS, Direction
 
 MAX_DETAILED = 10_000
-"""Configurations of an answer in JSON; as npy there may be more."""
+"""Maximum number of configurations of an answer in JSON; as npy there may be more."""
 MAX_WITH_POLYTOPES = 1000
-"""Configurations of a call that asks for polytopes."""
+"""Maximum number of configurations of a call that asks for polytopes."""
 MAX_DIRECTIONS = 64
 
 Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
@@ -184,7 +184,7 @@ class ForcePolytope(Answer):
 
 
 class PartInfo(Answer):
-    """Translation or rotation at one configuration, or both by a characteristic length."""
+    """Translation or rotation at one configuration, or both combined by a characteristic length."""
 
     rank: int = Field(description="Number of axes of the velocity ellipsoid that do not vanish.")
     singular: bool = Field(description="Whether one vanishes that the chain has elsewhere.")
@@ -227,7 +227,7 @@ class ManipulabilityInfo(Answer):
 
 
 class EllipsoidCertificateInfo(JacobianCertificateInfo):
-    """How far the Jacobians behind the ellipsoids are from Pinocchio's, and the ellipsoids from the Jacobians."""
+    """Differences of the Jacobians from Pinocchio's, and of the ellipsoids from the Jacobians."""
 
     max_ellipsoid_error: float = Field(
         description="Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to the largest σ² or the "

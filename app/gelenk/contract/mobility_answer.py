@@ -1,4 +1,4 @@
-"""Answers of the count of a mobility."""
+"""The answer of the mobility calculator."""
 
 from typing import Literal
 

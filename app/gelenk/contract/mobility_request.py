@@ -1,4 +1,4 @@
-"""Requests of the count of a mobility: a mechanism by its links and pairs, or a robot by name."""
+"""The request of the mobility calculator: a mechanism by its links and pairs, or a robot by name."""
 
 from typing import Annotated, Any, Literal, TypeAlias, cast, get_args
 
@@ -74,16 +74,16 @@ class PairPayload(Payload):
     )
 
     def given(self, number: int) -> GivenPair:
-        """The core's pair, the `number`-th from 0.
+        """Return the core's pair, the `number`-th from 0.
 
         Raises:
-            InvalidField: An axis without direction.
+            InvalidField: An axis has no direction.
         """
         name = self.name or f"pair_{number + 1}"
         return GivenPair(name, self.link_a, self.link_b, _kind(self.type), self.joint, self._geometry(number))
 
     def has_geometry(self) -> bool:
-        """Whether it says anything of where it is."""
+        """Check whether it gives anything about its location."""
         return any(field is not None for field in (self.point, self.axis, self.second_axis, self.pitch))
 
     def _geometry(self, number: int) -> Geometry | None:
@@ -166,7 +166,7 @@ class MobilityRequest(Payload):
 
     @model_validator(mode="after")
     def _one_source(self) -> "MobilityRequest":
-        """Raised as errors of a field: a `ValueError` here would be one of the whole request."""
+        """Check that one source is given; errors name a field, where a `ValueError` would be of the whole request."""
         if self.robot is not None:
             given = [
                 name for name in _OF_A_MECHANISM if name in self.model_fields_set and getattr(self, name) is not None
@@ -190,7 +190,7 @@ class MobilityRequest(Payload):
         return self
 
     def _check_counts(self) -> None:
-        """Refuse a kind that is counted under its name and under its letter."""
+        """Refuse a kind that is counted both under its name and under its letter."""
         counted: dict[str, str] = {}
         for name in self.pairs if isinstance(self.pairs, dict) else ():
             if (other := counted.setdefault(_kind(name), name)) != name:
@@ -198,15 +198,15 @@ class MobilityRequest(Payload):
                 raise InvalidField(f"pairs/{name}", reason)
 
     def has_geometry(self) -> bool:
-        """Whether the pairs say where they are."""
+        """Check whether any pair gives its location."""
         pairs = self.pairs if isinstance(self.pairs, list) else []
         return any(pair.has_geometry() for pair in pairs)
 
     def output_link(self, names: tuple[str, ...]) -> int | None:
-        """The link whose freedoms are wanted, by index.
+        """Return the index of the link whose freedoms are requested, if any.
 
         Raises:
-            InvalidField: There is none of this name.
+            InvalidField: There is no link of this name.
         """
         if self.output is None:
             return None
@@ -215,10 +215,10 @@ class MobilityRequest(Payload):
         return names.index(self.output)
 
     def link_names(self) -> tuple[tuple[str, ...], int]:
-        """The links, and which of them is the ground.
+        """Return the names of the links, and the index of the ground.
 
         Raises:
-            InvalidField: More than one is.
+            InvalidField: More than one link is the ground.
         """
         links = cast(list[str | MechanismLinkPayload], self.links)
         grounds = [i for i, link in enumerate(links) if isinstance(link, MechanismLinkPayload) and link.ground]
@@ -228,22 +228,22 @@ class MobilityRequest(Payload):
         return names, (grounds or [0])[0]
 
     def link_count(self) -> int:
-        """The number n of links, the ground included."""
+        """Return the number n of links, the ground included."""
         return self.links if isinstance(self.links, int) else len(self.link_names()[0])
 
     def given_pairs(self) -> list[GivenPair]:
-        """The pairs, where they name their links."""
+        """Return the pairs, if they name their links."""
         return [pair.given(i) for i, pair in enumerate(cast(list[PairPayload], self.pairs))]
 
     def counts(self) -> dict[str, int]:
-        """The pairs by kind, where they are counts."""
+        """Return the number of pairs by kind, if they are given as counts."""
         return {_kind(name): count for name, count in cast(dict[str, int], self.pairs).items()}
 
     def nodes(self) -> list[Node]:
-        """The joints of many links, by the names of the links.
+        """Return the joints of more than two links, with the names of the links.
 
         Raises:
-            InvalidField: One of them gives a number.
+            InvalidField: A joint gives only a number of links.
         """
         nodes = []
         for i, node in enumerate(self.coincident or ()):
@@ -253,7 +253,7 @@ class MobilityRequest(Payload):
         return nodes
 
     def node_counts(self) -> list[NodeCount]:
-        """The joints of many links, by the number of these."""
+        """Return the joints of more than two links, with the number of links."""
         return [
             NodeCount(
                 node.joint or f"node_{i}",

@@ -1,4 +1,4 @@
-"""Requests and answers of the calculator of orientations."""
+"""The calculator of orientations: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -66,14 +66,14 @@ class MotionPayload(Payload):
         return self
 
     def read(self, place: str = "") -> tuple[Array, Validation | None]:
-        """T_a_b, shape (4, 4), and how far a `rotation` was from one.
+        """Return T_a_b, shape (4, 4), and how far a given `rotation` was from a rotation matrix.
 
         Args:
-            place: Where in the request it stands, with a slash behind.
+            place: Prefix of its place in the request, with a slash at the end.
 
         Raises:
-            InvalidPose: It is no rotation.
-            InvalidField: An axis without direction.
+            InvalidPose: It is not a rotation.
+            InvalidField: An axis has no direction.
         """
         validation = None
         if self.rotation is not None:
@@ -135,7 +135,7 @@ class OrientationRequest(MotionPayload):
     )
 
     def motions(self) -> tuple[Array, list[Motion], list[Validation | None]]:
-        """The first transform, the further ones, and how far each matrix was from a rotation."""
+        """Return the first transform, the further motions, and how far each matrix was from a rotation."""
         first, validation = self.read()
         further, validations = [], [validation]
         for i, motion in enumerate(self.then):

@@ -1,4 +1,4 @@
-"""Workspaces of planar arms on the wire."""
+"""Workspaces of planar arms: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -60,7 +60,7 @@ class PointInfo(Answer):
 
 
 class PlanarWorkspaceCertificate(Answer):
-    """Both workspaces against moving the joints, before anything is sent."""
+    """Comparison of both workspaces with moving the joints, before anything is sent."""
 
     radii: int = Field(description="Distances at which they were compared.")
     orientations: int = Field(description="Orientations tried at each.")

@@ -1,4 +1,4 @@
-"""Poses on the wire: one position, one orientation, in the notation that the caller likes."""
+"""Poses as payloads: one position and one orientation, in the notation that the caller chooses."""
 
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -29,7 +29,7 @@ Matrix4 = Annotated[list[Vector4], Field(min_length=4, max_length=4)]
 class Pose(Payload):
     """A pose: `position` with exactly one orientation, or `matrix` alone.
 
-    An orientation further than 1e-6 from a rotation is refused, within that it is projected.
+    An orientation further than 1e-6 from a rotation is refused; a nearer one is projected onto a rotation.
     """
 
     model_config = ConfigDict(
@@ -65,28 +65,28 @@ class Pose(Payload):
         return {name: value for name, value in handler(self).items() if value is not None}
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
-        """As `transform`, so that `np.array(answer.poses)` is a batch of shape (N, 4, 4)."""
+        """Return `transform`, so that `np.array(answer.poses)` is a batch of shape (N, 4, 4)."""
         return self.transform().astype(dtype or np.float64)
 
     def transform(self) -> Array:
-        """T_a_b; shape (4, 4).
+        """Return T_a_b; shape (4, 4).
 
         Raises:
-            InvalidPose: The orientation is no rotation, or the last row of the matrix is not 0 0 0 1.
+            InvalidPose: The orientation is not a rotation, or the last row of the matrix is not 0 0 0 1.
         """
         return transform(np.array(self.origin()), self.orientation())
 
     def origin(self) -> list[float]:
-        """The position, [m]."""
+        """Return the position, [m]."""
         if self.matrix is not None:
             return [row[3] for row in self.matrix[:3]]
         return self.position or []
 
     def orientation(self) -> Array:
-        """The rotation; shape (3, 3).
+        """Return the rotation matrix; shape (3, 3).
 
         Raises:
-            InvalidPose: It is no rotation, or the last row of the matrix is not 0 0 0 1.
+            InvalidPose: It is not a rotation, or the last row of the matrix is not 0 0 0 1.
         """
         if self.matrix is not None:
             if self.matrix[3] != [0.0, 0.0, 0.0, 1.0]:
@@ -94,7 +94,7 @@ class Pose(Payload):
             return nearest_rotation(np.array(self.matrix)[:3, :3])
         if self.rotation is not None:
             return nearest_rotation(np.array(self.rotation))
-        # Compiled: a client, which carries poses and reads none, need not load it.
+        # Compiled code: a client, which passes poses on without reading them, need not load it.
         from gelenk.model.notations import (  # noqa: PLC0415
             rotations_from_quaternions_xyzw,
             rotations_from_rpy,
@@ -119,7 +119,7 @@ class Pose(Payload):
 
 
 def pose_fields(given: Any, field: str = "targets") -> Any:
-    """A batch of poses as JSON has it; arrays are of the shapes (N, 7), position and quaternion x y z w, or (N, 4, 4).
+    """Return poses in JSON's form; an array has shape (N, 7), position and quaternion x y z w, or (N, 4, 4).
 
     Raises:
         InvalidArray: The array has another shape.
@@ -133,6 +133,6 @@ def pose_fields(given: Any, field: str = "targets") -> Any:
 
 
 def check_pose_shape(array: Array, field: str) -> None:
-    """Refuse what cannot be poses; raises as `pose_fields` does."""
+    """Refuse an array that cannot hold poses; raises as `pose_fields` does."""
     if array.shape[1:] not in {(7,), (4, 4)}:
         raise InvalidArray(f"{field} form an array of shape (N, 7) or (N, 4, 4); this one has the shape {array.shape}")

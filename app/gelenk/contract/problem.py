@@ -1,4 +1,4 @@
-"""An error on the wire (RFC 9457)."""
+"""An error as JSON (RFC 9457)."""
 
 from pydantic import BaseModel, ConfigDict, Field
 

@@ -20,7 +20,7 @@ from gelenk.contract.quantities import (
 
 
 class PwmRequest(Payload):
-    """A supply, switched; exactly one of `duty`, `average_voltage` and `angular_velocity`."""
+    """A switched supply; give exactly one of `duty`, `average_voltage` and `angular_velocity`."""
 
     supply_voltage: Annotated[float, Field(ge=1e-6, le=1e6)] = Field(description="V_s, [V].")
     frequency: Annotated[float, Field(ge=1e-6, le=1e12)] = Field(description="f of the pulses, [Hz].")
@@ -61,7 +61,7 @@ class RippleInfo(Answer):
 
 
 class PwmAnswer(Answer):
-    """What a switched supply gives."""
+    """Voltages, times and current of a switched supply."""
 
     duty: float = Field(description="D in [0, 1], no unit.")
     direction: int = Field(description="1, or -1 if the supply is reversed; no unit.")

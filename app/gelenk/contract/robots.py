@@ -1,4 +1,4 @@
-"""Robots on the wire: listed, described, uploaded; and the `robot.json` of a folder."""
+"""Robots as listed, described and uploaded; and the `robot.json` of a folder."""
 
 from typing import Annotated, Any, Literal
 
@@ -81,7 +81,7 @@ class ArchiveReplacement(Payload):
         return self
 
     def ends(self) -> ChainEnds | None:
-        """The default chain, where one is given."""
+        """Return the default chain, if one is given."""
         if self.base_frame is None or self.tip_frame is None:
             return None
         return ChainEnds(base_frame=self.base_frame, tip_frame=self.tip_frame)

@@ -1,4 +1,4 @@
-"""Shapes to be drawn, on the wire."""
+"""Shapes to draw, as payloads."""
 
 from typing import Literal
 

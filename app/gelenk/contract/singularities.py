@@ -1,4 +1,4 @@
-"""Requests and answers of the singularity report."""
+"""Singularities: request, answer, operation."""
 
 import math
 from typing import Literal
@@ -12,13 +12,13 @@ from gelenk.kinematics.ik.words import Direction
 from gelenk.kinematics.words import SingularityKind
 
 MAX_REPORTS = 2000
-"""Most configurations of a call with whole reports, as JSON."""
+"""Maximum number of configurations of a call with whole reports, as JSON."""
 MAX_PATH = 1000
-"""Configurations of a path."""
+"""Maximum number of configurations of a path."""
 MAX_PLACES = 500
-"""Most places of a path that are reported."""
+"""Maximum number of places of a path that are reported."""
 MAX_NEAREST = 100
-"""Configurations of at most seven joints whose nearest singularity is looked for; of n joints (7/n)² as many."""
+"""Maximum number of configurations of up to seven joints for the nearest singularity; of n joints (7/n)² as many."""
 
 
 class SingularityOptions(ChainOptions):
@@ -198,7 +198,7 @@ class SingularPathInfo(Answer):
 
 
 class SingularityCertificateInfo(JacobianCertificateInfo):
-    """How far the Jacobians are from Pinocchio's, and what those make of the reported motions and directions."""
+    """Differences of the Jacobians from Pinocchio's, and products of those with the reported motions and directions."""
 
     max_internal_motion: float = Field(
         description="Largest ‖J v‖ over the internal motions v of the same configurations, J the rows that count of "

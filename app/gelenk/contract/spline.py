@@ -1,4 +1,4 @@
-"""Cubic splines on the wire."""
+"""Cubic splines: request, answer, operation."""
 
 from math import pi
 from typing import Annotated, Any
@@ -13,7 +13,7 @@ from gelenk.trajectory.splines import Boundary
 
 
 class SplineRequest(SampledRequest):
-    """Knots and what happens at both ends."""
+    """Knots of a spline, and conditions at both ends."""
 
     times: Times = Field(description="Of the knots, increasing, [s].")
     waypoints: Waypoints = Field(

@@ -1,4 +1,4 @@
-"""Requests and answers of statics, and what dynamics share with them: wrenches, gravity, payload."""
+"""Statics: request, answer, operation; and what dynamics shares with them: wrenches, gravity, payload."""
 
 from typing import Annotated, Any, Literal
 

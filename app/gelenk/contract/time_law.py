@@ -1,4 +1,4 @@
-"""Time laws on the wire."""
+"""Time laws: request, answer, operation."""
 
 from typing import Annotated, Any, Literal, TypeAlias
 

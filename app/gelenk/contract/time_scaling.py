@@ -1,4 +1,4 @@
-"""Uniform time scaling on the wire."""
+"""Uniform time scaling: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -52,7 +52,7 @@ class TimeScalingRequest(SampledRequest):
 
 
 class BindingInfo(Answer):
-    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the motion as given."""
+    """The joint that is nearest to its limit of a quantity, or furthest beyond it, in the given motion."""
 
     quantity: Quantity = Field(description="Whose limit sets the duration.")
     ratio: float = Field(description="Peak over limit, no unit.")

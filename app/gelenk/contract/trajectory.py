@@ -1,4 +1,4 @@
-"""The operation `trajectory`."""
+"""Trajectories: the operation."""
 
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.trajectory_answer import TrajectoryAnswer

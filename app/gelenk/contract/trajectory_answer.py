@@ -1,4 +1,4 @@
-"""Answers of trajectories: the samples, what came of each segment, and the judgement of the whole."""
+"""Trajectories: the answer, with samples, segments and audit."""
 
 from typing import Literal
 
@@ -85,7 +85,7 @@ class TrajectorySegmentInfo(Answer):
 
 
 class FailureInfo(Answer):
-    """Why a trajectory ends before its time."""
+    """Why a trajectory ends early."""
 
     reason: StopReason = Field(description="Why the motion ends before its goal.")
     segment: int = Field(description="Index of the segment that could not be completed, from 0.")

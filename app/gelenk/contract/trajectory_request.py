@@ -1,4 +1,4 @@
-"""Requests of trajectories."""
+"""Trajectories: the request."""
 
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal
@@ -16,18 +16,18 @@ from gelenk.trajectory.splines import Boundary
 from gelenk.trajectory.words import Law, NearSingularity, OrientationLaw
 
 MAX_SAMPLES = 100_000
-"""Of a motion."""
+"""Maximum number of samples of a motion."""
 MAX_JOB_SAMPLES = 500_000
-"""Likewise in a job."""
+"""Maximum number of samples of a motion that a job computes."""
 MAX_SEGMENTS = 100
 MAX_WAYPOINTS = 1000
-"""Of all segments together."""
+"""Maximum number of waypoints of all segments together."""
 
 _POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
 
 
 def _target_kind(value: Any) -> str:
-    """A joint may be called `position`: of a configuration by name, each value is a number."""
+    """Tell a pose from a configuration by name: a joint may be called `position`, but its value is a number."""
     if isinstance(value, Pose):  # on the way out
         return "<pose>"
     if not isinstance(value, dict):
@@ -64,14 +64,14 @@ JointValues = Annotated[
     | Annotated[dict[str, _Bound], Field(max_length=128), Tag("<object>")],
     Discriminator(_limit_kind),
 ]
-"""A number for all joints, one each, or by name for some: the others keep what they have."""
+"""One number for all joints, one per joint, or numbers by joint name: joints left out keep their limits."""
 
 
 class TrajectoryLimits(Payload):
     """Limits of the joints and the tip; from 1e-6 to 1e6 each.
 
-    Of the joints one number for all, one number each, base to tip, or an object of numbers by joint name: joints that
-    it leaves out keep their limits.
+    For the joints, give one number for all, one number each, base to tip, or an object of numbers by joint name:
+    joints that it leaves out keep their limits.
     """
 
     joint_velocity: JointValues | None = Field(
@@ -101,7 +101,7 @@ class TrajectoryLimits(Payload):
 
 
 class MotionOptions(Payload):
-    """How fast, by which law; of a segment what is left out is the trajectory's."""
+    """Limits and scales of a motion; a segment takes those that it leaves out from the trajectory."""
 
     limits: TrajectoryLimits | None = Field(
         default=None,
@@ -117,7 +117,7 @@ class MotionOptions(Payload):
 
 
 class SegmentOptions(MotionOptions):
-    """What every segment may say for itself."""
+    """Options that every segment has."""
 
     law: Law | None = Field(default=None, description="Time law; the trajectory's if left out.")
     duration: Duration | None = Field(
@@ -126,7 +126,7 @@ class SegmentOptions(MotionOptions):
 
 
 class JointSegment(SegmentOptions):
-    """All joints together to a configuration, the tip wherever that leads it."""
+    """Moves all joints together to a configuration, wherever that leads the tip."""
 
     type: Literal["joint"] = Field(description="All joints together.")
     target: Target = Field(
@@ -136,7 +136,7 @@ class JointSegment(SegmentOptions):
 
 
 class LineSegment(SegmentOptions):
-    """The tip straight to a pose, from rest to rest unless it is blended."""
+    """Moves the tip straight to a pose, from rest to rest unless it is blended."""
 
     type: Literal["line"] = Field(description="Straight on.")
     target: Pose = Field(description="Pose of `tip_frame` in `base_frame` at its end.")
@@ -169,7 +169,7 @@ class LineSegment(SegmentOptions):
 
 
 class CircleSegment(SegmentOptions):
-    """The tip along the arc through a pose to another, less than once round."""
+    """Moves the tip along the arc through one pose to another, less than a full circle."""
 
     type: Literal["circle"] = Field(description="Along a circle.")
     via: Pose = Field(

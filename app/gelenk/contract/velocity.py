@@ -1,4 +1,4 @@
-"""Requests and answers of velocity kinematics: the tip's motion of the joints', and the joints' of the tip's."""
+"""Velocity kinematics, forward and inverse: request, answer, operation."""
 
 from typing import Annotated, Any, Literal
 
@@ -14,11 +14,11 @@ from gelenk.kinematics.words import InverseName, InverseStatus
 MAX_MAGNITUDE = 1e6
 """Largest entry of a twist, or of a derivative of one."""
 MAX_REPORTS = 1000
-"""Whole singularity reports in an answer."""
+"""Maximum number of whole singularity reports in an answer."""
 
 
 def _kind(value: Any) -> str:
-    """A query has words alone, some of them numbers."""
+    """Tell a word from a number: a query has words alone, some of them numbers."""
     return "<word>" if isinstance(value, str) and not value.strip("-+").startswith(tuple("0123456789.")) else "<number>"
 
 

@@ -1,4 +1,4 @@
-"""Requests and answers of the numeric workspace."""
+"""The numeric workspace: request and answer."""
 
 from typing import Annotated, Literal
 
@@ -187,7 +187,7 @@ class ArrayInfo(Answer):
 
 
 class WorkspaceCertificateInfo(Answer):
-    """Differences of a sample of the configurations from Pinocchio."""
+    """Differences of the results at a sample of the configurations from Pinocchio's."""
 
     samples: int = Field(description="Configurations that were recomputed, spread over all of them.")
     max_position_error: float = Field(description="Largest distance, [m].")
