@@ -1,19 +1,19 @@
 """Gelenk: robot kinematics over HTTP, every answer recomputed before it is sent.
 
-- `main`: wires the parts into the application; `serve` runs it; `settings` is read once, there. `keys`: makes API keys.
+- `main`: builds the application from its parts; `serve` runs it; `settings` is read once, there. `keys`: creates keys.
 - `reload`: restarts it when a source file changes. `supervisor`: starts the worker processes, and replaces them.
 - `connections`: HTTP connections with bounds on time, size and number.
-- `preload`: what is loaded before any other process is started; `processes`: copies of the one that has loaded it.
+- `preload`: loads what all processes share; `processes`: copies of the process that has loaded it.
 - `robot`: the core as a library, `gelenk.Robot`.
 - `logs`: the log, as lines of JSON.
 - `prune`: removes from a container image what the service never opens.
-- `api`: HTTP only. `contract`: the operations, and what travels. `store`: robots on disk.
+- `api`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
 - `jobs`: long work in processes of its own.
-- `operations`: the answer to each of them. `pool`: processes for requests that may take long or crash.
+- `operations`: the computation of each operation. `pool`: processes for requests that may take long or crash.
 - `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
-- `kinematics`: what a robot does. `model`: what a robot is. Both know neither HTTP nor settings.
+- `kinematics`: what a robot does. `model`: what a robot is. Neither knows HTTP or settings.
 
-Arrows point down only; `./dev lint` checks it.
+Imports lead only downwards; `./dev lint` checks it.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """`gelenk.__version__` and `gelenk.Robot`, loaded when they are first used."""
+    """Return `gelenk.__version__` or `gelenk.Robot`, loaded on first use."""
     if name == "__version__":
         from importlib.metadata import version  # noqa: PLC0415  (half of what an import of this package would take)
 

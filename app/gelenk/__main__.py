@@ -1,4 +1,4 @@
-"""`python -m gelenk`: the same as `gelenk`."""
+"""`python -m gelenk`: the same as the command `gelenk`."""
 
 from gelenk.cli.main import main
 

@@ -1,4 +1,4 @@
-"""The service in Python: `Client` waits for its answers, `AsyncClient` awaits them.
+"""The client of the service in Python: `Client` waits for answers, those of `AsyncClient` are awaited.
 
     >>> with Client("http://127.0.0.1:8000") as gelenk:
     ...     answer = gelenk.fk("planar_2r", joint_positions=[[0.3, 0.8]])
@@ -47,7 +47,7 @@ _BETWEEN_STREAMS = 1.0
 
 
 class _Settings:
-    """Where the service is, and what every request carries."""
+    """Address of the service, and headers of every request."""
 
     def __init__(self, url: str | None, key: str | None) -> None:
         self.url = _PAGES.sub("", (url or os.environ.get(URL_VARIABLE) or DEFAULT_URL).strip())
@@ -58,7 +58,7 @@ class _Settings:
         self.headers = {"Authorization": f"Bearer {key}"} if key else {}
 
     def options(self, transport: Any) -> dict[str, Any]:
-        """Arguments of an httpx client; proxies that a laptop is set up with do not apply to a lab's service."""
+        """Return the arguments of an httpx client; proxies set up on a laptop do not apply to a lab's service."""
         return {
             "base_url": f"{self.url}/",
             "headers": self.headers,
@@ -92,7 +92,7 @@ class _Track:
         self._last: JobInfo | None = None
 
     def is_new(self, info: JobInfo) -> bool:
-        """Whether it has advanced: a reopened stream begins with the known state."""
+        """Check whether the job has advanced: a reopened stream begins with the known state."""
         last, self._last = self._last, info
         return info != last
 
@@ -101,8 +101,9 @@ class Client(Operations):
     """The service, called synchronously; safe to use from several threads.
 
     Args:
-        url: Of the service, its path prefix included; else `GELENK_SERVER`, else this machine's port 8000.
-        key: Where the service wants one; else `GELENK_KEY`.
+        url: Address of the service, path prefix included; `GELENK_SERVER` or else this machine's port 8000 if left
+            out.
+        key: Key, if the service wants one; `GELENK_KEY` if left out.
         transport: How to reach the service, if not over the network.
     """
 
@@ -129,10 +130,10 @@ class Client(Operations):
         self._http.close()
 
     def send(self, call: Call[T]) -> T:
-        """The answer to a call.
+        """Send a call and return its answer.
 
         Raises:
-            Refused: The service refuses it; an instance of the core's own exception where there is one.
+            Refused: The service refuses the call; the error is also of the core's own class if there is one.
             NotAnswering: The service cannot be reached, or the connection breaks.
         """
         patience = Patience(call, self.url)
@@ -149,11 +150,11 @@ class Client(Operations):
             time.sleep(pause)
 
     def watch(self, job: str) -> Iterator[JobInfo]:
-        """The state of a job whenever it has advanced, until it has ended.
+        """Yield the state of a job whenever it has advanced, until it has ended.
 
         Raises:
             Refused: There is no such job.
-            NotAnswering: The service is gone for good.
+            NotAnswering: The service cannot be reached any more.
         """
         track = _Track()
         while True:
@@ -165,7 +166,7 @@ class Client(Operations):
                         yield info
                     if event.event == "finished":
                         return
-            # The stream was refused or broken off, or something on the way lets none through.
+            # The stream was refused or interrupted, or a proxy lets none through.
             info = self.job(job)
             if track.is_new(info):
                 yield info
@@ -174,10 +175,10 @@ class Client(Operations):
             time.sleep(_BETWEEN_STREAMS)
 
     def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
-        """A job that has ended.
+        """Wait until a job has ended, and return it.
 
         Args:
-            job: Its id.
+            job: Id of the job.
             progress: Called whenever it has advanced.
         """
         for info in self.watch(job):
@@ -187,7 +188,7 @@ class Client(Operations):
 
 
 class AsyncClient(Operations):
-    """The same for `async` code: many calls may run at once. For its arguments see `Client`."""
+    """The service for `async` code: many calls may run at once. For its arguments see `Client`."""
 
     def __init__(
         self, url: str | None = None, key: str | None = None, transport: httpx2.AsyncBaseTransport | None = None
@@ -214,7 +215,7 @@ class AsyncClient(Operations):
         await self._http.aclose()
 
     async def send(self, call: Call[T]) -> T:
-        """The answer to a call; raises as `Client.send` does."""
+        """Send a call and return its answer; raises as `Client.send` does."""
         patience = Patience(call, self.url)
         while True:
             try:
@@ -229,7 +230,7 @@ class AsyncClient(Operations):
             await asyncio.sleep(pause)
 
     async def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
-        """The state of a job whenever it has advanced, until it has ended."""
+        """Yield the state of a job whenever it has advanced, until it has ended."""
         track = _Track()
         while True:
             stream = self._http.stream("GET", _events_path(job), timeout=_EVENTS)
@@ -241,7 +242,7 @@ class AsyncClient(Operations):
                             yield info
                         if event.event == "finished":
                             return
-            # The stream was refused or broken off, or something on the way lets none through.
+            # The stream was refused or interrupted, or a proxy lets none through.
             info = await self.job(job)
             if track.is_new(info):
                 yield info
@@ -250,7 +251,7 @@ class AsyncClient(Operations):
             await asyncio.sleep(_BETWEEN_STREAMS)
 
     async def wait(self, job: str, progress: Callable[[JobInfo], None] | None = None) -> JobInfo:
-        """A job that has ended; for its arguments see `Client.wait`."""
+        """Wait until a job has ended, and return it; for its arguments see `Client.wait`."""
         async with contextlib.aclosing(self.watch(job)) as told:
             async for info in told:
                 if progress is not None:
@@ -259,7 +260,7 @@ class AsyncClient(Operations):
 
 
 _EVENTS = httpx2.Timeout(5.0, read=60.0)
-"""[s]; a comment comes every few seconds."""
+"""Timeouts, [s]; the service sends a comment every few seconds."""
 
 
 def _events_path(job: str) -> str:

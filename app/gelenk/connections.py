@@ -1,7 +1,7 @@
 """HTTP connections with bounds: on time, on the size of a head, on their number, and on the requests started at once.
 
-The server that this builds on waits for a slow client forever, takes a head of any size, and starts every request as
-it comes in, so the last one of a thousand waits for all others, even if it is a health check.
+The underlying server waits for a slow client forever, accepts a head of any size, and starts every request as it
+arrives, so the last one of a thousand waits for all others, even if it is a health check.
 """
 
 import asyncio
@@ -19,31 +19,31 @@ import orjson
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol, RequestResponseCycle
 
 AT_ONCE = ("/healthz", "/readyz", "/metrics")
-"""Never wait and are never refused: monitoring must see the service when it is busy."""
+"""Paths that never wait and are never refused: monitoring must see the service when it is busy."""
 
 _AT_A_TIME = 8
 """Requests started in one turn of the event loop: most take a fifth of a millisecond."""
 _SWEEP_SECONDS = 0.5
 _SLOWEST_BYTES = 32 * 1024
-"""A body that takes longer than its time must come at this rate, [bytes/s]."""
+"""Minimum rate of a body that takes longer than its time, [bytes/s]."""
 _GRACE_SECONDS = 2.0
-"""How long the service waits for the rest of a body when it shuts down."""
+"""How long the service waits for the rest of a body at shutdown, [s]."""
 _ARRIVAL_SECONDS = 0.5
-"""How long a new connection has to send its request when the service shuts down."""
+"""How long a new connection has to send its request at shutdown, [s]."""
 _RETRY_SECONDS = 1.0
-"""`Retry-After` of a request that was refused before it started."""
+"""`Retry-After` of a request that was refused before it started, [s]."""
 _SHORTEST_PAUSE = 0.75
-"""The share of `Retry-After` for which the service reads nothing from a refused client's connection, at least.
+"""Smallest share of `Retry-After` for which the service reads nothing from a refused client's connection.
 
-Otherwise refusing would take all its time. The connection of a client that obeys is read again by then. Others wait,
-each until a different moment: together they would block the event loop.
+Otherwise refusing would take all its time. The connection of a client that obeys is read again by then. The others are
+read again at different moments: together they would block the event loop.
 """
 _LONGEST_PAUSE = 8.0
-"""No connection is ignored for longer, [s]: it would be taken for an idle one."""
+"""Longest time for which a connection is not read, [s]: after a longer one it would be taken for idle."""
 _EVICTED = 16
-"""Connections closed together where there are too many; at most an eighth of all, or new ones would be among them."""
+"""Connections closed together if there are too many; at most an eighth of all, or new ones would be among them."""
 _CHUNK_BYTES = 20
-"""The most bytes that frame a chunk of a body: sixteen hexadecimal digits and two line ends."""
+"""Maximum number of bytes that frame a chunk of a body: sixteen hexadecimal digits and two line ends."""
 _ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re.DOTALL)
 
 
@@ -52,13 +52,14 @@ class Bounds:
     """Bounds of connections.
 
     Attributes:
-        connections: Open ones of this process; beyond that, those that have waited longest for their client are closed.
+        connections: Open connections of this process; beyond that, those that wait longest for their client are
+            closed.
         waiting: Requests that may wait to be started; more are refused.
-        head_seconds: From the beginning of a connection, the end of an answer or the first byte of a request to the
-            end of its head.
-        body_seconds: For a body; a longer one must keep coming.
-        stalled_seconds: How long a client may take nothing of its answer.
-        head_bytes: Of request line and header fields; also of a body's chunk extensions and trailer fields.
+        head_seconds: Time from the start of a connection, the end of a response or the first byte of a request to the
+            end of the request's head, [s].
+        body_seconds: Time for a body, [s]; a longer one must keep coming.
+        stalled_seconds: How long a client may read nothing of its response, [s].
+        head_bytes: Size of request line and header fields; also of a body's chunk extensions and trailer fields.
     """
 
     connections: int = 2000
@@ -70,14 +71,14 @@ class Bounds:
 
 
 class Gate:
-    """What the connections of a process share: the queue of requests, and the watch over slow clients.
+    """State that the connections of a process share: the queue of requests, and the check for slow clients.
 
     Attributes:
         bounds: Bounds of connections.
-        connections: Open ones in the order of their arrival: many arrive within one tick of the loop's clock.
-        refused: Requests for which there was no room.
-        closed: Connections that were closed because their client was slow, or because there were too many.
-        is_stopping: Whether each answer is the last one of its connection.
+        connections: Open connections in the order of their arrival: many arrive within one tick of the loop's clock.
+        refused: Number of requests for which there was no room.
+        closed: Number of connections closed because their client was slow, or because there were too many.
+        is_stopping: Whether each response is the last one of its connection.
     """
 
     def __init__(self, bounds: Bounds) -> None:
@@ -90,17 +91,17 @@ class Gate:
 
     @property
     def queue_length(self) -> int:
-        """Requests that wait to be started."""
+        """Number of requests that wait to be started."""
         return len(self._waiting)
 
     def stop(self) -> None:
-        """Announce in each answer from now on that its connection closes: no client is cut off without notice."""
+        """Announce in each response from now on that its connection closes: no client is cut off without notice."""
         self.is_stopping = True
         for connection in self.connections:
             connection.end_with_answer()
 
     def enter(self, begin: Callable[[], None]) -> bool:
-        """Start a request now or after those before it; False where too many wait."""
+        """Start a request now or after those before it; return False if too many wait."""
         if self._begun < _AT_A_TIME:
             if not self._begun:
                 asyncio.get_running_loop().call_soon(self._turn)
@@ -114,7 +115,7 @@ class Gate:
         return True
 
     def _turn(self) -> None:
-        """Start the next few; between two turns the event loop serves all connections."""
+        """Start the next few requests; between two turns the event loop serves all connections."""
         self._begun = min(len(self._waiting), _AT_A_TIME)
         for _ in range(self._begun):
             self._waiting.popleft()()
@@ -122,7 +123,7 @@ class Gate:
             asyncio.get_running_loop().call_soon(self._turn)
 
     def admit(self, connection: "BoundedProtocol") -> bool:
-        """Accept a new connection; False where all others are busy and there is no room for it."""
+        """Accept a new connection; return False if all others are busy and there is no room for it."""
         if not self.connections:
             asyncio.get_running_loop().call_later(_SWEEP_SECONDS, self._sweep)
         self.connections[connection] = None
@@ -150,7 +151,7 @@ class BoundedProtocol(HttpToolsProtocol):
     """A connection within bounds.
 
     Attributes:
-        since: Since when the current wait lasts, on the loop's clock, [s].
+        since: Start of the current wait, on the loop's clock, [s].
     """
 
     def __init__(self, *arguments: Any, gate: Gate, **options: Any) -> None:
@@ -164,7 +165,7 @@ class BoundedProtocol(HttpToolsProtocol):
 
     @property
     def waits_for_client(self) -> bool:
-        """Whether no request is in progress."""
+        """Whether the service waits for the client: no request is in progress, or its body is incomplete."""
         return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
 
     @property
@@ -173,7 +174,7 @@ class BoundedProtocol(HttpToolsProtocol):
         return self.transport.is_closing() and not self.transport.get_write_buffer_size()
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Begin."""
+        """Register the connection; refuse it if there are too many."""
         super().connection_made(transport)
         if not self._gate.admit(self):
             self._refuse(HTTPStatus.SERVICE_UNAVAILABLE, "service-busy", "there are too many connections")
@@ -181,12 +182,12 @@ class BoundedProtocol(HttpToolsProtocol):
             self.loop.call_later(_ARRIVAL_SECONDS, self.shutdown)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """End."""
+        """Forget the connection."""
         self._gate.connections.pop(self, None)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Bytes have arrived: those outside a body are counted, except in the read that ends its stage."""
+        """Parse bytes that have arrived; those outside a body are counted, except in the read that ends its stage."""
         stage, body_bytes = self._stage + (not self._in_message), self._body_bytes
         super().data_received(data)
         if stage == self._stage:
@@ -198,23 +199,23 @@ class BoundedProtocol(HttpToolsProtocol):
                 self._refuse(status, "head-too-large", f"{what} may have {most} bytes in all")
 
     def _begin_stage(self, *, in_head: bool = False, in_body: bool = False) -> None:
-        """A head, a body or a pause begins."""
+        """Note that a head, a body or a pause begins."""
         self._stage, self._in_head, self._in_message = self._stage + 1, in_head, in_head or in_body
         self._other_bytes = self._chunks = 0
 
     def on_message_begin(self) -> None:
-        """The first byte of a request has arrived."""
+        """Note that the first byte of a request has arrived."""
         super().on_message_begin()
         self.since = self.loop.time()
         self._begin_stage(in_head=True)
 
     def on_header(self, name: bytes, value: bytes) -> None:
-        """A header field has arrived, or a trailer field: it is dropped, since the headers have been acted upon."""
+        """Store a header field; a trailer field is dropped, since the headers have been acted upon."""
         if self._in_head:
             super().on_header(name, value)
 
     def on_headers_complete(self) -> None:
-        """The head is complete; where its target names a host, that one counts (RFC 9112, 3.2.2)."""
+        """Process the complete head; if its target names a host, that one counts (RFC 9112, 3.2.2)."""
         self.since, self._body_bytes = self.loop.time(), 0
         self._begin_stage(in_body=True)
         if target := _ABSOLUTE.fullmatch(self.url):
@@ -224,21 +225,21 @@ class BoundedProtocol(HttpToolsProtocol):
         super().on_headers_complete()
 
     def on_chunk_header(self) -> None:
-        """A chunk of the body begins."""
+        """Count a chunk of the body."""
         self._chunks += 1
 
     def on_body(self, body: bytes) -> None:
-        """Part of the body has arrived."""
+        """Count and pass on a part of the body."""
         self._body_bytes += len(body)
         super().on_body(body)
 
     def on_message_complete(self) -> None:
-        """The request is complete."""
+        """Note that the request is complete."""
         self._begin_stage()
         super().on_message_complete()
 
     def on_response_complete(self) -> None:
-        """The answer is on its way."""
+        """Note that the response is sent; after a refusal, do not read for a while."""
         self.since = self.loop.time()
         super().on_response_complete()
         told = self.cycle.scope["state"].get("retry_after")
@@ -268,7 +269,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self.on_response_complete()
 
     def _pause(self, told: float) -> None:
-        """Read nothing for nearly as long as the client was told to wait, [s]."""
+        """Read nothing for nearly as long as the client shall wait, [s]."""
         if not self.transport.is_closing():
             self.flow.pause_reading()
             pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret
@@ -279,11 +280,11 @@ class BoundedProtocol(HttpToolsProtocol):
             self.flow.resume_reading()
 
     def send_400_response(self, msg: str) -> None:
-        """What came is not HTTP."""
+        """Refuse bytes that are not HTTP."""
         self._refuse(HTTPStatus.BAD_REQUEST, "malformed-request", msg.rstrip("."))
 
     def end_with_answer(self) -> None:
-        """Let the answer to the current request be the last one, unless it has started; streams end."""
+        """Make the response to the current request the last one, unless it has started; streams end."""
         if self.cycle is not None and not self.cycle.response_complete:
             self.cycle.keep_alive &= self.cycle.response_started
             self.cycle.scope["state"]["stopping"] = True
@@ -301,7 +302,7 @@ class BoundedProtocol(HttpToolsProtocol):
             super().shutdown()
 
     def is_late(self, now: float) -> bool:
-        """Whether the client has taken too long, so that the connection is closed."""
+        """Close the connection if its client has taken too long; return whether that is so."""
         bounds = self._gate.bounds
         if self.transport.is_closing() or self.flow.write_paused:
             return self._is_stalled(now)
@@ -324,7 +325,7 @@ class BoundedProtocol(HttpToolsProtocol):
         return True
 
     def _is_stalled(self, now: float) -> bool:
-        """Whether the client has read nothing for too long."""
+        """Abort the connection if its client has read nothing for too long; return whether that is so."""
         unsent = self.transport.get_write_buffer_size()
         if unsent != self._unsent:
             self._unsent, self.since = unsent, now
@@ -334,7 +335,7 @@ class BoundedProtocol(HttpToolsProtocol):
         return True
 
     def leave(self) -> None:
-        """Make room for another connection."""
+        """Close this connection to make room for another."""
         detail = "too many connections are open, and this one has been idle the longest"
         if self.transport.is_closing():
             self.transport.abort()
@@ -344,7 +345,7 @@ class BoundedProtocol(HttpToolsProtocol):
             self.transport.close()
 
     def _refuse(self, status: HTTPStatus, kind: str, detail: str) -> None:
-        """Close the connection with a problem; code that waits for the rest of the request learns that it is gone."""
+        """Close the connection with a problem; code that waits for the rest of the request sees a disconnect."""
         cycle = self.cycle
         if cycle is not None and not cycle.response_complete:
             cycle.disconnected = True
@@ -355,7 +356,7 @@ class BoundedProtocol(HttpToolsProtocol):
 
 
 def _answer(status: HTTPStatus, kind: str, detail: str, path: str, *, stays: bool) -> bytes:
-    """A problem as the bytes of an HTTP answer."""
+    """Return a problem as the bytes of an HTTP response."""
     content = {"type": f"urn:gelenk:{kind}", "title": kind.replace("-", " ").capitalize(), "status": status.value}
     body = orjson.dumps({**content, "detail": detail, "instance": path[:256]})
     head = f"HTTP/1.1 {status.value} {status.phrase}\r\ncontent-type: application/problem+json\r\n"

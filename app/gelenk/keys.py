@@ -13,7 +13,7 @@ from gelenk.api.access.scopes import Scope
 
 
 def main() -> None:
-    """Parse the arguments, and make the key."""
+    """Parse the arguments, and create the key."""
     parser = argparse.ArgumentParser(
         prog=sys.argv[0] if sys.argv[0] == "gelenk keys" else "./dev keys", description=__doc__
     )
@@ -37,11 +37,11 @@ def main() -> None:
 
 
 def add(key: Key, file: Path) -> None:
-    """Add a key to a file, which only its owner may read if it is new.
+    """Add a key to a file; a new file can only be read by its owner.
 
     Raises:
         InvalidKeys: The file holds something else, or a key of this name.
-        OSError: It cannot be written.
+        OSError: The file cannot be written.
     """
     descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
     with open(descriptor, "r+", encoding="utf-8") as stream:  # noqa: PTH123 - a descriptor

@@ -1,7 +1,7 @@
-"""The log: one JSON object a line on the standard error stream, printable ASCII alone, written by a thread of its own.
+"""The log: one JSON object per line on standard error, only printable ASCII, written by a separate thread.
 
-Logging only queues the record, so a slow reader of the log blocks nothing. If lines come faster than they are read,
-some are left out, and the log says how many.
+Logging only queues a record, so a slow reader of the log blocks nothing. If lines come faster than they are read, some
+are left out, and the log says how many.
 """
 
 import json
@@ -15,17 +15,17 @@ from typing import Any, TextIO
 
 LEVELS = ("debug", "info", "warning", "error")
 REQUEST_ID: ContextVar[str] = ContextVar("request_id", default="")
-"""The request that is being answered: what is logged meanwhile carries its id."""
+"""Id of the request that is being answered; records logged meanwhile carry it."""
 
 _MOST_WAITING = 10_000
 _GATHER_SECONDS = 0.1
-"""How long lines are collected before they are written together."""
+"""How long lines are collected before they are written together, [s]."""
 _LONGEST = 16_384
-"""Characters of one text in a line; a traceback may be long."""
+"""Maximum number of characters of one text in a line; a traceback may be long."""
 
 
 def configuration(level: str, at_once: bool = False) -> dict[str, Any]:
-    """What `logging.config` and the server take: all loggers, one handler.
+    """Return the configuration for `logging.config` and the server: all loggers, one handler.
 
     Args:
         level: The lowest level that is logged, one of `LEVELS`.
@@ -41,20 +41,20 @@ def configuration(level: str, at_once: bool = False) -> dict[str, Any]:
 
 
 def line(content: dict[str, Any]) -> str:
-    """A JSON object on a line, printable ASCII alone."""
+    """Return a JSON object as one line of printable ASCII."""
     return json.dumps({key: _bounded(value) for key, value in content.items()}, default=str).replace("\x7f", "\\u007f")
 
 
 def moment(seconds: float) -> str:
-    """A moment as it stands in the logs: UTC, milliseconds."""
+    """Return a time as the logs write it: UTC, milliseconds."""
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 class LineHandler(logging.Handler):
-    """Writes records as lines, soon and all at once.
+    """Writes records as lines, soon and several together.
 
     Args:
-        stream: Where to; the standard error stream of the moment if left out.
+        stream: Stream to write to; the current standard error stream if left out.
         at_once: Whether the caller writes the line, without a thread: for a process that is copied or may be killed.
     """
 
@@ -111,7 +111,7 @@ class LineHandler(logging.Handler):
         try:
             self.flush()
         except (OSError, ValueError):
-            self._waiting.clear()  # nobody takes the log any more
+            self._waiting.clear()  # the log has no reader any more
 
 
 def _line_of(record: logging.LogRecord) -> str:

@@ -1,4 +1,4 @@
-"""The only place where the parts are wired together."""
+"""Builds the application from its parts; the only place that knows them all."""
 
 import asyncio
 import os
@@ -58,15 +58,15 @@ chain's joints from base to tip. Errors are `application/problem+json`.
 """
 
 _SWITCH_SECONDS = 5e-4
-"""The longest that a computing thread may keep the event loop waiting for the interpreter."""
+"""Longest time that a computing thread may keep the event loop waiting for the interpreter, [s]."""
 
 
 def create_app(settings: Settings, pool: WorkerPool | None = None) -> Application:
-    """The application.
+    """Build the application.
 
     Args:
-        settings: What the operator has set.
-        pool: The processes for long work; started by the application if left out.
+        settings: Settings of the operator.
+        pool: Worker pool for long requests; created if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
@@ -145,7 +145,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
 
 
 def _runner(settings: Settings, limits: Limits) -> Runner:
-    """What does the jobs."""
+    """Build the runner of the jobs."""
     kept = JobLimits(
         kept=settings.kept_jobs,
         kept_bytes=settings.kept_job_bytes,
@@ -163,7 +163,7 @@ def _runner(settings: Settings, limits: Limits) -> Runner:
 
 
 def _middleware(app: Application, settings: Settings, metrics: Metrics, audit: AuditLog) -> Middleware:
-    """The checks that a request must pass before the application answers it."""
+    """Wrap the application in the checks that a request must pass."""
     checks: list[AccessRule] = [repeated, TrustedHosts(settings.trusted_hosts), Origins(settings.allowed_origins)]
     if settings.api_keys:
         checks.append(KeyCheck(Keyring(settings.api_keys)))
@@ -172,13 +172,13 @@ def _middleware(app: Application, settings: Settings, metrics: Metrics, audit: A
 
 
 async def _start(readiness: Readiness, pool: WorkerPool) -> None:
-    """Get ready, the pool first: the process it is copied from compiles the kernels into the cache."""
+    """Start the pool, then prepare: the process that the pool is copied from compiles the kernels into the cache."""
     await pool.start()
     readiness.begin()
 
 
 def from_environment() -> FastAPI:
-    """The application configured by the environment; each worker process starts from it."""
+    """Build the application as the environment configures it; each worker process starts from it."""
     sys.setswitchinterval(_SWITCH_SECONDS)
     settings = Settings.from_environment(os.environ)
     if settings.otlp_endpoint:

@@ -1,4 +1,4 @@
-"""Where the package's files are."""
+"""Locations of the package's files."""
 
 from pathlib import Path
 
@@ -6,11 +6,11 @@ _PACKAGE = Path(__file__).resolve().parent
 
 
 def catalogue() -> Path:
-    """The robots of the catalogue: in the package where it is installed, at the top of a checkout otherwise."""
+    """Return the folder of the catalogue's robots: in the installed package, or at the top of a checkout."""
     installed = _PACKAGE / "robots"
     return installed if installed.is_dir() else _PACKAGE.parents[1] / "robots"
 
 
 def studio() -> Path:
-    """The bundle of the studio."""
+    """Return the folder of the studio's bundle."""
     return _PACKAGE / "studio"

@@ -1,4 +1,4 @@
-"""Imports of the process that all others of the service are copied from."""
+"""Imports of the process that all other processes of the service are copied from."""
 
 import gc
 import importlib
@@ -13,7 +13,7 @@ from functools import partial
 def kept() -> Iterator[None]:
     """Exempt everything loaded so far from garbage collection.
 
-    Scanning it again and again would take a fifth of the time; and the copies share only memory that is never written.
+    Scanning it repeatedly would take a fifth of the time, and copies share only memory that is never written.
     """
     gc.disable()
     try:
@@ -36,7 +36,7 @@ with kept():
 
 
 def is_compiled() -> bool:
-    """Whether `warm_up` finds the kernels compiled, or must compile them in this process."""
+    """Check whether nothing is left to other processes: the kernels are stored, or there is no store for them."""
     return compilation.STORE is None or compilation.is_stored()
 
 
@@ -46,27 +46,27 @@ def _part(compute: Callable[[], None]) -> None:
 
 
 PARTS = tuple(partial(_part, compute) for compute in warm.PARTS)
-"""Kernels that separate processes may compile in parallel, after `basics`."""
+"""Functions that compile kernels; separate processes may run them in parallel, after `basics`."""
 
 
 @kept()
 def basics() -> None:
-    """Compute what most requests need; other processes compile the rest meanwhile."""
+    """Compute once what most requests need, to compile it; other processes compile the rest meanwhile."""
     warm.basics()
 
 
 @kept()
 def warm_up() -> None:
-    """Compute one of everything, so that the kernels are in memory."""
+    """Compute everything once, so that the kernels are in memory."""
     compilation.expect_others(False)
     warm.warm_up()
 
 
 @kept()
 def load(module: str) -> None:
-    """Import it."""
+    """Import a module."""
     importlib.import_module(module)
 
 
-# All copies of this process leave it to the compilers, those too that are made before anything is compiled.
+# All copies of this process leave compiling to the compilers, even those made before anything is compiled.
 compilation.expect_others(not is_compiled())

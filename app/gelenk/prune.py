@@ -1,8 +1,8 @@
 """Remove from an environment what the service never opens: `python -m gelenk.prune PREFIX`, for the container image.
 
-Wheels carry headers, static libraries, three copies of one library, tests, and all of example-robot-data. Use
-shows what is needed: this process loads all robots of the catalogue and everything for pictures and formulas; the
-libraries that it has mapped then stay. Meshes are compressed, as the service sends them.
+Wheels carry headers, static libraries, three copies of one library, tests, and all of example-robot-data. To find out
+what is needed, this process loads all robots of the catalogue and everything for pictures and formulas; the libraries
+that it has mapped by then stay. Meshes are compressed, as the service sends them.
 """
 
 import gzip
@@ -28,7 +28,7 @@ _LICENCES = ("LICENSE", "LICENCE", "COPYING", "NOTICE")
 
 
 def main() -> None:
-    """Prune the environment that runs this; it must be named, to prevent mistakes."""
+    """Prune the environment of this interpreter; it must be named, to prevent mistakes."""
     if len(sys.argv) != 2 or Path(sys.argv[1]).resolve() != Path(sys.prefix).resolve():
         sys.exit(f"usage: python -m gelenk.prune {sys.prefix}")
     robots = set(catalogue_files())
@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def catalogue_files() -> Iterator[Path]:
-    """The description of each robot of the catalogue, and the meshes that it names."""
+    """Yield the description of each robot of the catalogue, and the meshes that it names."""
     library = Library(catalogue(), catalogue() / "none")
     for robot in map(library.get, library.catalogue_names):
         record, meshes = robot.record, robot.meshes.values()
@@ -55,7 +55,7 @@ def catalogue_files() -> Iterator[Path]:
 
 
 def mapped_files() -> set[Path]:
-    """The files that this process has mapped into its memory: its libraries."""
+    """Return the files that this process has mapped into its memory: its libraries."""
     lines = Path("/proc/self/maps").read_text().splitlines()
     return {Path(columns[5]) for columns in (line.split(maxsplit=5) for line in lines) if len(columns) == 6}
 
@@ -67,10 +67,10 @@ def compress(mesh: Path) -> None:
 
 
 def unneeded(needed: set[Path]) -> Iterator[Path]:
-    """The files of this environment that neither the service nor a licence needs.
+    """Yield the files of this environment that neither the service nor a licence needs.
 
     Args:
-        needed: Libraries and robots; materials and pictures of the same folder stay with a robot's meshes.
+        needed: Libraries and robots; materials and pictures in the folder of a robot's meshes stay too.
     """
     data = package_data().resolve()
     prefix = data.parents[1]
@@ -85,7 +85,7 @@ def unneeded(needed: set[Path]) -> Iterator[Path]:
             is_unneeded = True
         else:
             parts = file.relative_to(site_packages).parts
-            is_library = parts[0].endswith(".libs")  # of a wheel's own; those that are needed are mapped
+            is_library = parts[0].endswith(".libs")  # a wheel's own libraries; those that are needed are mapped
             is_unneeded = is_library or file.suffix in _FOR_DEVELOPERS or not _UNOPENED.isdisjoint(parts)
         if is_unneeded:
             yield file

@@ -17,7 +17,7 @@ States = dict[Path, int]
 
 
 def serve_again(arguments: Sequence[str]) -> None:
-    """Keep a service running with these arguments until SIGINT or SIGTERM; one that fails waits for the next change."""
+    """Run the service until SIGINT or SIGTERM, and restart it on each change; after a failure, wait for a change."""
     signal.signal(signal.SIGTERM, _interrupt)
     command = [sys.executable, "-m", "gelenk.serve", *arguments]
     service = None
@@ -35,14 +35,14 @@ def serve_again(arguments: Sequence[str]) -> None:
 
 
 def states() -> States:
-    """When each file of the package and of the catalogue was last changed, [ns]."""
+    """Return when each file of the package and of the catalogue was last changed, [ns]."""
     found = {}
     for folder in (Path(__file__).parent, catalogue()):
         for path in folder.rglob("*"):
             if path.suffix in _WATCHED:
                 try:
                     found[path] = path.stat().st_mtime_ns
-                except FileNotFoundError:  # an editor replaces it in this very moment
+                except FileNotFoundError:  # an editor is just replacing it
                     continue
     return found
 

@@ -53,9 +53,9 @@ class Robot:
 
     Attributes:
         joint_names: The variables, base to tip: the order of a configuration.
-        chain: The chain as the functions of `gelenk.kinematics` take it, with its `base_frame`, its `tip_frame` and the
+        chain: Chain as the functions of `gelenk.kinematics` take it, with its `base_frame`, its `tip_frame` and the
             limits `lower` and `upper`.
-        core: The whole robot likewise.
+        core: The whole robot, as these functions take it.
     """
 
     def __init__(self, robot: core.Robot, base_frame: str | None = None, tip_frame: str | None = None) -> None:
@@ -68,15 +68,15 @@ class Robot:
 
     @staticmethod
     def names() -> list[str]:
-        """The robots of the catalogue."""
+        """Return the names of the catalogue's robots."""
         return sorted(folder.name for folder in catalogue().iterdir() if folder.is_dir())
 
     @classmethod
     def load(cls, name: str, base_frame: str | None = None, tip_frame: str | None = None) -> Self:
-        """A robot of the catalogue; frames default to those of its default chain.
+        """Load a robot of the catalogue; frames default to those of its default chain.
 
         Raises:
-            UnknownRobot: There is none of this name.
+            UnknownRobot: The catalogue has no robot of this name.
             UnknownFrame: The robot has no such frame.
         """
         record = read_record(catalogue() / name, "catalogue") if name in cls.names() else None
@@ -93,13 +93,13 @@ class Robot:
         *,
         strict: bool = False,
     ) -> Self:
-        """The robot that a URDF describes; frames default to those of the longest chain.
+        """Read the robot that a URDF describes; frames default to those of the longest chain.
 
         Args:
-            urdf: A file, or the text itself.
-            base_frame: Where the chain begins.
-            tip_frame: Where it ends.
-            strict: Whether faults that do not affect kinematics are refused too.
+            urdf: Path of a file, or the text itself.
+            base_frame: Base of the chain.
+            tip_frame: Tip of the chain.
+            strict: Whether to refuse faults that do not affect kinematics too.
 
         Raises:
             InvalidUrdf: It is not a valid URDF; the message names the element and the line.
@@ -121,19 +121,19 @@ class Robot:
         base: Array | None = None,
         tool: Array | None = None,
     ) -> Self:
-        """The chain of a Denavit-Hartenberg table, from `base` to `tool`.
+        """Build the chain of a Denavit-Hartenberg table, from `base` to `tool`.
 
         Args:
-            joints: Its rows, with the fields of the API: `type`, `a`, `alpha`, `d`, `theta`, and where known `name`,
-                `lower`, `upper`, `velocity`, `effort`, `mimic`; [m], [rad].
+            joints: Rows of the table, with the fields of the API: `type`, `a`, `alpha`, `d`, `theta`, and where known
+                `name`, `lower`, `upper`, `velocity`, `effort`, `mimic`; [m], [rad].
             convention: `standard` or `modified`.
             base: T_base_0 as a matrix, shape (4, 4); the identity if left out.
-            tool: T_n_tool likewise.
+            tool: T_n_tool as a matrix, shape (4, 4); the identity if left out.
 
         Raises:
-            InvalidField: A row has a field that is unknown, missing or no number.
-            InvalidDhTable: The table is no robot.
-            InvalidPose: Base or tool is no transform.
+            InvalidField: A row has a field that is unknown, missing or not a number.
+            InvalidDhTable: The table does not describe a robot.
+            InvalidPose: Base or tool is not a transform.
         """
         places = {name: {"matrix": T} for name, T in (("base", base), ("tool", tool)) if T is not None}
         table = _checked(DhTablePayload, {"convention": convention, "joints": joints, **places}).table()
@@ -144,14 +144,15 @@ class Robot:
         return cls(core.Robot(description), base_frame, tip_frame)
 
     def fk(self, q: Configurations, frames: Sequence[str] = ()) -> ForwardKinematics:
-        """Poses of the tip, `poses`, and of other frames on the chain, `frames`, at each configuration.
+        """Compute poses of the tip, `poses`, and of other frames on the chain, `frames`, at each configuration.
 
         Args:
-            q: One number a joint, base to tip, or a value by joint name; or several such, as an array of shape (N, n).
+            q: One number per joint, base to tip, or values by joint name, [rad or m]; or several such, or an array (N,
+                n).
             frames: Names of the other frames.
 
         Raises:
-            WrongJointCount: A configuration has not one number a joint; other classes say what else is wrong with it.
+            WrongJointCount: A configuration does not have one number per joint; other classes report other faults.
             UnknownFrame: The robot has no such frame.
             CertificationFailed: Pinocchio's poses differ.
         """
@@ -165,9 +166,9 @@ class Robot:
         representation: Representation = "geometric",
         derivatives: bool = False,
     ) -> Jacobians:
-        """Jacobians, `values` of shape (N, 6, n), and with `derivatives` their `hessians`.
+        """Compute Jacobians, `values` of shape (N, 6, n), and with `derivatives` their `hessians`.
 
-        For the other arguments, and what is raised, see `gelenk.kinematics.jacobian.jacobians`; for `q` see `fk`.
+        For the other arguments and the errors, see `gelenk.kinematics.jacobian.jacobians`; for `q` see `fk`.
         """
         options: dict[str, Any] = {"representation": representation, "derivatives": derivatives}
         return jacobians(self.core, self.chain, self._rows(q), reference=reference, **options)
@@ -181,10 +182,10 @@ class Robot:
         characteristic_length: float | None = None,
         gradient: bool = False,
     ) -> Manipulability:
-        """Ellipsoids of velocity and force with Yoshikawa's measure: `parts["translation"].measures`, shape (N,).
+        """Compute velocity and force ellipsoids; Yoshikawa's measure is `parts["translation"].measures`, shape (N,).
 
-        For the other arguments, and what is raised, see `gelenk.kinematics.manipulability.manipulability`; for `q`
-        see `fk`.
+        For the other arguments and the errors, see `gelenk.kinematics.manipulability.manipulability`; for `q` see
+        `fk`.
         """
         options: dict[str, Any] = {"characteristic_length": characteristic_length, "gradient": gradient}
         return manipulability(self.core, self.chain, self._rows(q), task=task, reference=reference, **options)
@@ -195,19 +196,20 @@ class Robot:
         seed: Configurations | None = None,
         **options: Any,
     ) -> InverseKinematics:
-        """Configurations that bring the tip to each target: those of target i are `qs[firsts[i]:firsts[i + 1]]`.
+        """Compute configurations that bring the tip to each target: `qs[firsts[i]:firsts[i + 1]]` for target i.
 
-        Where there is none, `statuses[i]` is not `solved`, and `failures[i]` says why, and what comes nearest.
+        If there is none, `statuses[i]` is not `solved`, and `failures[i]` has the reason and the nearest
+        configuration.
 
         Args:
             targets: One pose or several: matrices of shape (4, 4), rows `x y z qx qy qz qw`, or the API's poses such
                 as `{"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}`.
-            seed: Where to start, and what solutions are to be near to: one configuration, or one for each target.
-            options: Those of the API, such as `solutions="all"`, `task`, `method`, `respect_limits`, `fixed_joints`.
+            seed: Where to start, and what solutions should be near to: one configuration, or one per target.
+            options: Options of the API, such as `solutions="all"`, `task`, `method`, `respect_limits`, `fixed_joints`.
 
         Raises:
             InvalidField: An option is unknown, or excluded by another one.
-            InvalidPose: A target is no pose.
+            InvalidPose: A target is not a pose.
             InvalidArray: The targets are an array of another shape.
         """
         call = _checked(InverseRequest, {"targets": [], **self._ends(), **options})
@@ -223,15 +225,17 @@ class Robot:
         return inverse_kinematics(self.core, chain, poses, seeds, options_of(chain, call, call.time_limit))
 
     def trajectory(self, start: Configuration, segments: Sequence[Mapping[str, object]], **options: Any) -> Trajectory:
-        """A motion from rest to rest: its polynomials as `motion`, and the `audit` that it passed.
+        """Plan a motion from rest to rest: its polynomials are `motion`, and `audit` is the check that it passed.
 
         `motion.at(times)` are positions at times of shape (N,) up to `motion.duration`; `motion.rates_at(times)` are
         positions, velocities and accelerations; each of shape (N, n).
 
         Args:
-            start: The configuration that it starts from.
-            segments: Those of the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target": pose}`.
-            options: Those of the API that choose the motion, such as `law`, `limits`, `duration`, `near_singularity`.
+            start: Configuration at the start.
+            segments: Segments of the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target":
+                pose}`.
+            options: Options of the API that choose the motion, such as `law`, `limits`, `duration`,
+                `near_singularity`.
 
         Raises:
             InvalidField: A segment or an option is unknown or contradicts another one, or its duration is too short.
@@ -245,12 +249,12 @@ class Robot:
         return {"base_frame": self.chain.base_frame, "tip_frame": self.chain.tip_frame}
 
     def _rows(self, q: Configurations) -> Array:
-        """In the chain's order; shape (N, n)."""
+        """Return configurations in the chain's order; shape (N, n), [rad or m]."""
         return configurations(self.chain, _several(q))
 
 
 def _several(q: Configurations) -> Sequence[Configuration] | Array:
-    """A single configuration as one row."""
+    """Return one or several configurations as rows."""
     if isinstance(q, np.ndarray):
         return np.ascontiguousarray(np.atleast_2d(q), dtype=float)
     is_one = isinstance(q, Mapping) or not any(isinstance(entry, Sequence | Mapping | np.ndarray) for entry in q)

@@ -29,10 +29,10 @@ from gelenk.store.folders import why_not
 from gelenk.supervisor import Supervisor
 
 SHUTDOWN_SECONDS = 3
-"""How long requests in flight may go on after Ctrl-C or SIGTERM; with its own end a process is gone within 5."""
+"""How long requests in progress may go on after Ctrl-C or SIGTERM, [s]; a process is gone within 5 s in all."""
 
 _OWN_FILES, _FILES_A_PROCESS, _FEWEST_CONNECTIONS = 32, 4, 16
-"""What a process of the service has open beside its connections, and how many of these it is not worth less than."""
+"""Files open besides connections, in a process and for each of its workers; and the fewest connections worth having."""
 _METRICS, _LOCK = "gelenk-metrics-", "lock"
 
 OPEN_TO_ALL = (
@@ -42,7 +42,7 @@ OPEN_TO_ALL = (
 
 
 def main() -> None:
-    """Parse the arguments and serve until told to stop."""
+    """Parse the arguments, and serve until stopped."""
     program = sys.argv[0] if sys.argv[0] == "gelenk serve" else "./dev serve"
     parser = argparse.ArgumentParser(prog=program, description="Run the service.", allow_abbrev=False)
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
@@ -103,7 +103,7 @@ def main() -> None:
 
 
 def _listening(host: str, port: int) -> socket.socket:
-    """A listening socket: of two services started at once, one fails now and not when it serves.
+    """Return a listening socket; of two services started at once, one fails now and not when it serves.
 
     Raises:
         SystemExit: Another program listens there, or listening is impossible.
@@ -120,9 +120,9 @@ def _listening(host: str, port: int) -> socket.socket:
 
 @contextlib.contextmanager
 def metrics_folder(workers: int) -> Iterator[None]:
-    """Where several worker processes keep what each has counted, as long as the service runs.
+    """Provide a folder for the counts of several worker processes, as long as the service runs.
 
-    Leftovers of killed services are removed first: their locks are free.
+    Folders left by killed services are removed first: their locks are free.
     """
     if workers == 1:
         yield
@@ -141,7 +141,7 @@ def metrics_folder(workers: int) -> Iterator[None]:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether an address leads to this machine alone; of names only `localhost` is known to."""
+    """Check whether an address leads only to this machine; of names, only `localhost` does so for sure."""
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:
@@ -149,16 +149,16 @@ def is_loopback(host: str) -> bool:
 
 
 def _room_for_connections(processes: int) -> int:
-    """How many connections each process of the service may have open, which are files to the system.
+    """Return how many connections each process of the service may have open; each is a file to the system.
 
     Args:
-        processes: That each of them has for its work.
+        processes: Number of processes that each of them has for its work.
 
     Raises:
-        SystemExit: Hardly any.
+        SystemExit: There is room for hardly any.
     """
     hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
-    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))  # the usual limit is for programs that count otherwise
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))  # the usual limit is for programs that use `select`
     own = _OWN_FILES + _FILES_A_PROCESS * processes
     if 0 <= hard < own + _FEWEST_CONNECTIONS:
         sys.exit(f"only {hard} files may be open (`ulimit -n`): the service needs {own + _FEWEST_CONNECTIONS} or more")

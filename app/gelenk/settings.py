@@ -23,7 +23,7 @@ class InvalidSetting(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Defaults are safe on a laptop.
+    """Settings of the service; defaults are safe on a laptop.
 
     Attributes:
         data_dir: Folder for uploaded robots and jobs (`GELENK_DATA_DIR`).
@@ -119,7 +119,7 @@ class Settings:
         """Read the `GELENK_*` variables.
 
         Raises:
-            InvalidSetting: A variable is unknown (a misspelt limit must not go unnoticed) or not what it should be.
+            InvalidSetting: A variable is unknown (a misspelt limit must not go unnoticed), or its value is invalid.
         """
         known = {_PREFIX + item.name.upper(): item.name for item in fields(cls)}
         values: dict[str, _Value] = {}
