@@ -1,11 +1,11 @@
-"""Ways from one orientation to another, planned apart from the position: x from 0 to 1 leads along the whole of it.
+"""Paths from one orientation to another, planned separately from the position; x runs from 0 to 1 along a path.
 
-- Axis and angle, the default: R(x) = R_i Rot(r, x θ) with R_iᵀ R_f = Rot(r, θ), one axis throughout and the shortest
-  way. At θ = 0 there is no axis; at θ = π there are two, and both paths are equally short.
+- Axis and angle, the default: R(x) = R_i Rot(r, x θ) with R_iᵀ R_f = Rot(r, θ), the shortest path, about one fixed
+  axis. For θ = 0 the axis is undefined; for θ = π there are two axes, and both paths are equally short.
 - ZYZ angles, the course's alternative: `zyz_paths`.
-- Through several orientations: by axis and angle from each to the next, or as a smooth spline (`rotation_splines`).
+- Through several orientations: about one axis from each to the next, or as a smooth spline (`rotation_splines`).
 
-Angular rates are those of ω along the base's axes for dx/dt = 1; with a time law x(t), ω = ω_x ẋ.
+The angular rate ω_x is the angular velocity in the base frame for dx/dt = 1; with a time law x(t), ω = ω_x ẋ.
 """
 
 import math
@@ -22,11 +22,11 @@ from gelenk.model.notations import rotations_from_vectors, vectors_from_rotation
 Turning: TypeAlias = Literal["none", "regular", "half_turn"]
 
 NO_TURN = 1e-14
-"""Angle below which two orientations are the same: it has no axis, and rounding leaves as much, [rad]."""
+"""Angle below which two orientations count as equal, [rad]: rounding alone can cause it, and its axis is undefined."""
 HALF_TURN = 1e-9
-"""How close to π an angle has two axes, [rad]."""
+"""Distance from π within which an angle counts as a half turn, which has two axes, [rad]."""
 _INTERVALS = 64
-"""Of the integral of the angle travelled."""
+"""Default number of integration intervals of `travelled`."""
 
 
 class OrientationPath(Protocol):
@@ -34,32 +34,32 @@ class OrientationPath(Protocol):
 
     @property
     def angle(self) -> float:
-        """The angle travelled, ∫ ‖ω_x‖ dx, [rad]."""
+        """Angle travelled, ∫ ‖ω_x‖ dx, [rad]."""
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where inside of (0, 1) the angular rate jumps."""
+        """Values of x inside (0, 1) at which the angular rate jumps."""
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
-        """R, ω_x and dω_x/dx, [rad]; shape (N,) → (N, 3, 3), (N, 3), (N, 3)."""
+        """Return R, ω_x and dω_x/dx at N values of x; shapes (N, 3, 3), (N, 3), (N, 3), [rad]."""
 
 
 class Turn(OrientationPath, Protocol):
-    """A path from one orientation to another at a constant rate."""
+    """A path from one orientation to another at a constant rate of its angle or of its Euler angles."""
 
     def part(self, begin: float, finish: float) -> "Turn":
-        """What is between two values of x."""
+        """Return the part between two values of x as a turn of its own."""
 
 
 @dataclass(frozen=True, slots=True)
 class AxisAngle:
-    """R(x) = R_i Rot(r, x θ).
+    """A turn about one axis, R(x) = R_i Rot(r, x θ).
 
     Attributes:
         start: R_i; shape (3, 3).
-        axis: r, a unit vector in the frame R_i; zero where there is no turn; shape (3,).
+        axis: r, a unit vector in the frame R_i; zero if the orientation does not change; shape (3,).
         angle: θ, in [0, 2π], [rad].
-        turning: Whether the axis is determined.
+        turning: Whether the axis is unique; it is not for `none` (θ = 0) and `half_turn` (θ = π).
     """
 
     start: Array
@@ -69,12 +69,12 @@ class AxisAngle:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None."""
+        """Always empty: the angular rate is constant."""
         return ()
 
     @property
     def base_axis(self) -> Array:
-        """The axis along the base's axes, the same at both ends; shape (3,)."""
+        """Axis in the base frame, the same throughout the turn; shape (3,)."""
         axis: Array = self.start @ self.axis
         return axis
 
@@ -91,15 +91,15 @@ class AxisAngle:
 
 
 def axis_angle(start: Array, end: Array) -> AxisAngle:
-    """The shortest path about one axis; of two that are equally short, the one of `both_ways` that comes first."""
+    """Return the shortest path about one axis; of two equally short ones, the first of `both_ways`."""
     return both_ways(start, end)[0]
 
 
 def both_ways(start: Array, end: Array) -> tuple[AxisAngle, ...]:
-    """Both paths about one axis, the shorter first: about r by θ, and about -r by 2π - θ; one alone where θ = 0.
+    """Return both paths about one axis, the shorter first: about r by θ, and about -r by 2π - θ; only one if θ = 0.
 
-    At θ = π, within `HALF_TURN`, they are equally short; first comes the one whose axis has a first component that is
-    positive (that is not zero), whatever rounding makes of the angle.
+    At θ = π, within `HALF_TURN`, both are equally short. The first is then the one whose axis has a positive first
+    nonzero component, so that the order does not depend on rounding.
 
     Args:
         start: R_i; shape (3, 3).
@@ -119,11 +119,11 @@ def both_ways(start: Array, end: Array) -> tuple[AxisAngle, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Through:
-    """From each orientation to the next about one axis; the angular rate jumps at those between.
+    """Turns about one axis from each orientation to the next; the angular rate jumps at the inner orientations.
 
     Attributes:
-        knots: Values of x, from 0 to 1; shape (M + 1,).
-        ways: M of them.
+        knots: Values of x at the orientations, from 0 to 1; shape (M + 1,).
+        ways: The M turns.
     """
 
     knots: Array
@@ -131,16 +131,16 @@ class Through:
 
     @property
     def angle(self) -> float:
-        """The sum of all, [rad]."""
+        """Sum of the angles of all turns, [rad]."""
         return sum(way.angle for way in self.ways)
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """All knots between the ends."""
+        """The inner knots."""
         return tuple(self.knots[1:-1].tolist())
 
     def at(self, x: Array) -> tuple[Array, Array, Array]:
-        """See `OrientationPath`; at a knot the later path counts."""
+        """See `OrientationPath`; at a knot, the later turn counts."""
         rotations, rates = np.empty((len(x), 3, 3)), np.empty((len(x), 3))
         part = np.clip(np.searchsorted(self.knots, x, side="right") - 1, 0, len(self.ways) - 1)
         for i, way in enumerate(self.ways):
@@ -152,18 +152,18 @@ class Through:
 
 
 def through(rotations: Array, knots: Sequence[float] | Array) -> Through:
-    """The shortest paths from each orientation to the next.
+    """Join the shortest turns about one axis from each orientation to the next.
 
     Args:
-        rotations: Shape (M + 1, 3, 3).
-        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
+        rotations: Orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
     """
     ends = pairwise(rotations)
     return Through(np.asarray(knots, dtype=float), tuple(axis_angle(first, last) for first, last in ends))
 
 
 def travelled(path: OrientationPath, intervals: int = _INTERVALS) -> float:
-    """∫ ‖ω_x‖ dx, [rad]."""
+    """Compute the angle travelled, ∫ ‖ω_x‖ dx, by Gauss quadrature, [rad]."""
     nodes, weights = np.polynomial.legendre.leggauss(8)
     edges = np.arange(intervals)[:, None]
     x = ((edges + 0.5 * (nodes + 1.0)) / intervals).ravel()

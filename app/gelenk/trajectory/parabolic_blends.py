@@ -1,8 +1,8 @@
-"""Straight segments through via points with parabolic blends: the trapezoid of velocity with more than one coast.
+"""Straight segments past via points, joined by parabolic blends: a trapezoidal velocity profile with several coasts.
 
-Each inner point's blend is centred on the time of the point, half of it in either segment, so that the motion passes
-beside the point by |Δv| t_b / 8. The first and the last blend lie wholly within their segment, so that the motion
-starts and ends in its end points and on time [Craig, 7.3].
+The blend at an inner point is centred on the point's time, with one half in each adjacent segment, so the motion
+misses the point by |Δv| t_b / 8. The first and the last blend lie wholly within their segments, so the motion starts
+and ends exactly at its end points and on time [Craig, 7.3].
 """
 
 from dataclasses import dataclass
@@ -23,11 +23,11 @@ class Blends:
     """A motion of straight segments and parabolic blends.
 
     Attributes:
-        motion: Positions in time.
-        velocities: On the straight segments; shape (N - 1, n), [rad/s or m/s].
-        accelerations: In the blends, with their signs; shape (N, n), [rad/s² or m/s²].
-        durations: Of the blends; shape (N, n), [s].
-        deviations: Distance by which a point is passed, at its time; shape (N, n), [rad or m].
+        motion: Joint positions over time.
+        velocities: Velocities on the straight segments; shape (N - 1, n), [rad/s or m/s].
+        accelerations: Signed accelerations in the blends; shape (N, n), [rad/s² or m/s²].
+        durations: Durations of the blends; shape (N, n), [s].
+        deviations: Distance by which the motion misses each point at its time; shape (N, n), [rad or m].
     """
 
     motion: PiecewisePolynomial
@@ -38,20 +38,20 @@ class Blends:
 
 
 def with_blend_times(times: Array, points: Array, blend_times: Array) -> Blends:
-    """Blends of given durations; the accelerations follow.
+    """Plan blends of given durations; the accelerations follow from them.
 
     Args:
-        times: Of the points, increasing; shape (N,), [s].
+        times: Times of the points, increasing; shape (N,), [s].
         points: Via points; shape (N, n), [rad or m].
         blend_times: t_b > 0 of each point; shape (N,), [s].
 
     Raises:
-        InvalidField: A segment too short for its blends.
+        InvalidField: A segment is too short for its blends.
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     _check_room(lengths, np.repeat(blend_times[:, None], points.shape[1], axis=1), "blend_time")
     travel = lengths.copy()
-    # The straight line of an end segment leads through the middle of its end blend, and so gains half of that.
+    # The line of an end segment passes through the middle of its end blend, so it has half a blend less time.
     travel[0] -= 0.5 * blend_times[0]
     travel[-1] -= 0.5 * blend_times[-1]
     velocities = steps / travel[:, None]
@@ -61,15 +61,15 @@ def with_blend_times(times: Array, points: Array, blend_times: Array) -> Blends:
 
 
 def with_accelerations(times: Array, points: Array, accelerations: Array) -> Blends:
-    """Blends of given accelerations; their durations follow: t_b = |Δv|/a.
+    """Plan blends of given accelerations; their durations follow as t_b = |Δv|/a.
 
     Args:
-        times: Of the points, increasing; shape (N,), [s].
+        times: Times of the points, increasing; shape (N,), [s].
         points: Via points; shape (N, n), [rad or m].
         accelerations: a > 0 of each joint; shape (n,), [rad/s² or m/s²].
 
     Raises:
-        InvalidField: A segment too short for its blends, or for getting to its end from standing still.
+        InvalidField: A segment is too short for its blends, or an end segment for its distance from rest.
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     velocities = steps / lengths[:, None]
@@ -89,7 +89,7 @@ def with_accelerations(times: Array, points: Array, accelerations: Array) -> Ble
 
 
 def _end_blend(length: float, distance: Array, acceleration: Array, ends: int, segment: int) -> Array:
-    """t_b of an end segment: of T t_b - c t_b² = L/a the smaller root, c = 1 with both ends at rest, else 1/2."""
+    """Return t_b of an end segment, the smaller root of T t_b - c t_b² = L/a: c = 1 if both ends rest, else 1/2."""
     room = length**2 - 2.0 * ends * distance / acceleration
     short = np.flatnonzero(room < -_ROUNDING * length**2)
     if len(short) > 0:
@@ -105,7 +105,7 @@ def _end_blend(length: float, distance: Array, acceleration: Array, ends: int, s
 
 
 def _check_room(lengths: Array, durations: Array, field: str) -> None:
-    """Check that the blends of each segment fit: half of an inner one, all of an end one."""
+    """Check that each segment has room for its blends: half of an inner one, all of an end one."""
     shares = np.full(len(durations), 0.5)
     shares[0] = shares[-1] = 1.0
     parts = durations * shares[:, None]
@@ -122,14 +122,14 @@ def _check_room(lengths: Array, durations: Array, field: str) -> None:
 
 
 def _changes(velocities: Array) -> Array:
-    """Δv at each point, from rest and to rest; shape (N, n)."""
+    """Return Δv at each point, starting and ending at rest; shape (N, n)."""
     return np.diff(velocities, axis=0, prepend=0.0, append=0.0)
 
 
 def _assembled(
     times: Array, points: Array, velocities: Array, accelerations: Array, durations: Array, field: str
 ) -> Blends:
-    """The motion of each joint as phases, blend and straight line in turn."""
+    """Assemble each joint's motion from alternating blends and straight lines."""
     lengths = np.diff(times)
     shares = np.full(len(times), 0.5)
     shares[0] = shares[-1] = 1.0

@@ -1,4 +1,4 @@
-"""A part of a trajectory: from rest to rest, of one segment or of lines that are blended."""
+"""A part of a trajectory, from rest to rest: one segment, or lines blended into one path."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,15 +15,15 @@ from gelenk.trajectory.words import StopReason
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """Why a part could not be done wholly.
+    """Why a part could not be completed.
 
     Attributes:
-        reason: Of what kind.
-        segment: Which one could not be done, from 0.
-        share: Of it that was done, from 0 to 1.
-        position: Of the tip, where it could not go on; shape (3,), [m].
-        joint: Which one is at its limit.
-        detail: In a sentence.
+        reason: Kind of reason.
+        segment: Index of the segment that could not be completed, from 0.
+        share: Completed fraction of that segment, from 0 to 1.
+        position: Position of the tip at which the path could not continue; shape (3,), [m].
+        joint: Joint that is at its limit, if any.
+        detail: Explanation in a sentence.
     """
 
     reason: StopReason
@@ -36,14 +36,14 @@ class Halt:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part of a trajectory, as far as it could be done.
+    """A part of a trajectory, as far as it could be completed.
 
     Attributes:
-        motion: Of the joints, from 0 s on; of one piece that takes no time where nothing moves.
-        reports: Of its segments, as far as they were started; times from 0 s on.
-        demands: What the motion has to keep to.
-        halt: Why it ends early; None where it is whole.
-        timing: If requested.
+        motion: Joint motion, starting at 0 s; one piece of zero duration if nothing moves.
+        reports: Reports of the segments that were started; their times count from the start of the part.
+        demands: Requirements that the motion has to meet.
+        halt: Why the part ends early; None if it is complete.
+        timing: Comparison of timings, if requested.
     """
 
     motion: PiecewisePolynomial
@@ -53,7 +53,7 @@ class Part:
     timing: TimingComparison | None = None
 
     def slowed(self, factor: float) -> "Part":
-        """The same in `factor` times the time."""
+        """Return the part slowed down to `factor` times its duration."""
         if factor == 1.0:
             return self
         return replace(
@@ -64,18 +64,18 @@ class Part:
         )
 
     def noted(self, notes: tuple[str, ...]) -> "Part":
-        """The same with further notes on its segments."""
+        """Return the part with further notes on all of its segments."""
         if not notes:
             return self
         return replace(self, reports=tuple(replace(one, notes=(*one.notes, *notes)) for one in self.reports))
 
     def moved(self, start: float) -> tuple[SegmentReport, ...]:
-        """Its segments, the part beginning at a time, [s]."""
+        """Return the reports of its segments for a part that begins at `start`, [s]."""
         return tuple(report.moved(start) for report in self.reports)
 
 
 def standing(configuration: Array) -> PiecewisePolynomial:
-    """Joints that stand still, for no time."""
+    """Return a motion of zero duration at a configuration of shape (n,)."""
     return PiecewisePolynomial(np.zeros(2), configuration[None, None, :].copy())
 
 

@@ -1,4 +1,4 @@
-"""A law of time that passes places of a path at given times: a clamped cubic spline s(t) that never goes back."""
+"""A time law that passes places of a path at given times: a clamped cubic spline s(t) that never goes backwards."""
 
 import numpy as np
 
@@ -24,18 +24,18 @@ def passing_at(
     limits: MotionLimits,
     tip_motion: TipMotion | None,
 ) -> Timed:
-    """The motion along a path, from rest to rest, that is at each place at its time; C² where the path is.
+    """Plan the motion along a path, from rest to rest, that passes each place at its time; C² where the path is.
 
     Args:
-        path: What the tip follows.
-        joints: q(s), of all of it.
+        path: Path of the tip.
+        joints: q(s) along the whole path.
         places: s of each waypoint after the start; shape (m,), [m or rad].
-        times: When to be there, after the start; shape (m,), [s].
-        limits: Of joints and tip.
+        times: Time of each waypoint, counted from the start; shape (m,), [s].
+        limits: Limits of joints and tip.
         tip_motion: See `timed`.
 
     Raises:
-        InvalidField: The times do not increase, would make the tip go back on its way, or are too short.
+        InvalidField: The times do not increase, would make the tip go backwards, or are too short for the limits.
     """
     if len(times) != len(places):
         raise InvalidField("times", f"{counted(len(times), 'entry')} for {counted(len(places), 'waypoint')}")
@@ -54,7 +54,7 @@ def passing_at(
 
 
 def _refuse_going_back(law: PiecewisePolynomial) -> None:
-    """Refuse ds/dt < 0: its least value on a piece is at an end or where its parabola turns."""
+    """Refuse ds/dt < 0; the minimum on a piece is at an end or at the vertex of the parabola."""
     a, b, c = (law.coefficients[:, k, 0] for k in (1, 2, 3))
     widths = np.diff(law.breaks)
     turn = np.clip(np.divide(-b, 3.0 * c, out=np.zeros_like(b), where=c != 0.0), 0.0, widths)

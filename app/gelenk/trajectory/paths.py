@@ -1,12 +1,12 @@
-"""Ways of the tip through space, by how far along it is: s in metres, or in radians where it only turns.
+"""Paths of the tip through space as functions of the path coordinate s, in metres, or in radians if it only turns.
 
-A path knows no time. With a time law s(t) the tip's twist is ξ = ξ_s ṡ and its acceleration ξ̇ = ξ_s s̈ + ξ_s' ṡ²; the
-lecture's formula for p̈ has the first derivative's factor wrong: it is d²p/ds² ṡ² + dp/ds s̈. Position and
-orientation are planned apart and meet in s.
+A path contains no timing. With a time law s(t), the tip's twist is ξ = ξ_s ṡ and its acceleration ξ̇ = ξ_s s̈ + ξ_s' ṡ².
+(The lecture's formula for p̈ has the wrong factor at the first derivative: p̈ = d²p/ds² ṡ² + dp/ds s̈.) Position and
+orientation are planned separately, both as functions of s.
 
-- `line`, `circle`: of these the orientation goes from start to end in proportion to the distance.
-- `blended_lines`: a polyline whose corners are cut by parabolas.
-- `spline` (`spline_paths`): smooth through any number of poses.
+- `line`, `circle`: the orientation advances in proportion to the distance travelled.
+- `blended_lines` (`spline_paths`): a polyline whose corners are replaced by parabolas.
+- `spline` (`spline_paths`): a smooth curve through any number of poses.
 """
 
 import math
@@ -29,16 +29,16 @@ Unit: TypeAlias = Literal["m", "rad"]
 ViaOrientation: TypeAlias = Literal["smooth", "slerp", "zyz", "zyz_other"]
 
 POINT = 1e-9
-"""Length below which a line is a turn on the spot, [m]."""
+"""Length below which a path is a turn on the spot, [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class PathSamples:
-    """A path at N places.
+    """Poses and derivatives at N places of a path.
 
     Attributes:
-        poses: Along it.
-        first: ξ_s = (dp/ds; ω/ṡ), along the base's axes; shape (N, 6), [m, rad per m or rad].
+        poses: Poses at the places.
+        first: ξ_s = (dp/ds; ω/ṡ), in the base frame; shape (N, 6), [m, rad per m or rad].
         second: dξ_s/ds; shape (N, 6), [m, rad per m² or rad²].
     """
 
@@ -48,30 +48,30 @@ class PathSamples:
 
     @property
     def tangents(self) -> Array:
-        """Unit tangent of the position, zero where it stays; shape (N, 3)."""
+        """Unit tangents of the position, zero where it does not move; shape (N, 3)."""
         norms = np.linalg.norm(self.first[:, :3], axis=1)[:, None]
         tangents: Array = np.where(norms > 0.5, self.first[:, :3], 0.0)
         return tangents
 
     @property
     def curvatures(self) -> Array:
-        """‖d²p/ds²‖; shape (N,), [1/m]."""
+        """Curvatures ‖d²p/ds²‖; shape (N,), [1/m]."""
         curvatures: Array = np.linalg.norm(self.second[:, :3], axis=1)
         return curvatures
 
     @property
     def angular_rates(self) -> Array:
-        """‖ω‖ / ṡ; shape (N,), [rad/m], or 1 where it only turns about one axis."""
+        """Angular rates ‖ω‖ / ṡ; shape (N,), [rad/m]; 1 for a turn on the spot about one axis."""
         rates: Array = np.linalg.norm(self.first[:, 3:], axis=1)
         return rates
 
     def twists(self, speeds: Array) -> Array:
-        """(ṗ; ω) at ṡ of shape (N,), [m/s or rad/s]; shape (N, 6), [m/s, rad/s]."""
+        """Return (ṗ; ω) at ṡ of shape (N,), [m/s or rad/s]; shape (N, 6), [m/s, rad/s]."""
         twists: Array = self.first * speeds[:, None]
         return twists
 
     def accelerations(self, speeds: Array, accelerations: Array) -> Array:
-        """(p̈; ω̇) at ṡ and s̈ of shape (N,); shape (N, 6), [m/s², rad/s²]."""
+        """Return (p̈; ω̇) at ṡ and s̈ of shape (N,) each; shape (N, 6), [m/s², rad/s²]."""
         total: Array = self.first * accelerations[:, None] + self.second * speeds[:, None] ** 2
         return total
 
@@ -81,35 +81,35 @@ class Path(Protocol):
 
     @property
     def unit(self) -> Unit:
-        """The unit of s."""
+        """Unit of s: metres, or radians for a turn on the spot."""
 
     @property
     def extent(self) -> float:
-        """The value of s at the end, [m or rad]; it is 0 at the start."""
+        """Value of s at the end, [m or rad]; it is 0 at the start."""
 
     @property
     def length(self) -> float:
-        """Of the path of the position, [m]."""
+        """Length of the position's path, [m]."""
 
     @property
     def angle(self) -> float:
-        """Travelled by the orientation, [rad]."""
+        """Angle travelled by the orientation, [rad]."""
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Values of s inside of the path at which ξ_s or dξ_s/ds jumps."""
+        """Values of s inside the path at which ξ_s or dξ_s/ds jumps."""
 
     def at(self, s: Array) -> PathSamples:
-        """Poses and derivatives at places s; shape (N,)."""
+        """Return poses and derivatives at places s of shape (N,), [m or rad]."""
 
 
 @dataclass(frozen=True, slots=True)
 class CurvePath:
-    """A curve, and an orientation that goes in proportion to its length; of no length it is a turn on the spot.
+    """A curve with an orientation that advances in proportion to its length; of zero length, a turn on the spot.
 
     Attributes:
-        curve: The position.
-        orientation: From its start to its end.
+        curve: Path of the position.
+        orientation: Path of the orientation from the start to the end of the curve.
     """
 
     curve: Curve
@@ -154,28 +154,28 @@ class CurvePath:
 
 
 def line(start: Array, end: Array, orientation: OrientationPath | None = None) -> CurvePath:
-    """Straight from pose to pose; where only the orientation differs, a turn on the spot.
+    """Return the straight line from pose to pose; a turn on the spot if only the orientations differ.
 
     Args:
-        start: T_base_tip; shape (4, 4).
-        end: Likewise.
-        orientation: Between the two; about one axis if left out.
+        start: T_base_tip at the start; shape (4, 4).
+        end: T_base_tip at the end; shape (4, 4).
+        orientation: Path between the two orientations; by default about one axis.
     """
     turn = axis_angle(start[:3, :3], end[:3, :3]) if orientation is None else orientation
     return CurvePath(Line(start[:3, 3].copy(), end[:3, 3].copy()), turn)
 
 
 def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "smooth") -> CurvePath:
-    """The arc from a pose through another one to a third.
+    """Return the circular arc from a pose through a second to a third.
 
     Args:
-        start: T_base_tip; shape (4, 4).
-        via: Likewise; its orientation is passed where its position is.
-        end: Likewise.
+        start: T_base_tip at the start; shape (4, 4).
+        via: T_base_tip in between, whose orientation is reached together with its position; shape (4, 4).
+        end: T_base_tip at the end; shape (4, 4).
         orientation: See `through_orientations`.
 
     Raises:
-        InvalidField: Two of the positions are the same, or all three lie on a line.
+        InvalidField: Two of the positions coincide, or all three lie on a line.
     """
     arc = arc_through(*(T[:3, 3] for T in (start, via, end)))
     rotations = np.ascontiguousarray(np.array([start, via, end])[:, :3, :3])
@@ -184,14 +184,14 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
 
 
 def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) -> OrientationPath:
-    """A path through several orientations.
+    """Return a path through several orientations.
 
     Args:
-        rotations: At least two; shape (M + 1, 3, 3).
-        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
+        rotations: At least two orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
         law: `smooth`: a spline with continuous angular acceleration. `slerp`: about one axis from each to the next; the
-            angular rate jumps at those between, which `breaks` then names. `zyz`: a spline of the Euler angles, with
-            `zyz_other` to the other triple of each that follows the start.
+            angular rate jumps at the inner knots, listed in `breaks`. `zyz`: a spline of the Euler angles; `zyz_other`
+            uses the other triple of every orientation after the start.
     """
     if law == "smooth":
         return rotation_spline(rotations, knots)
@@ -202,10 +202,10 @@ def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) ->
 
 @dataclass(frozen=True)
 class PathSequence:
-    """Paths one after the other, each beginning where the one before ends.
+    """Paths joined one after the other, each beginning where the previous one ends.
 
     Attributes:
-        parts: At least one, of one unit.
+        parts: At least one path; all have the same unit of s.
     """
 
     parts: tuple[Path, ...]
@@ -232,13 +232,13 @@ class PathSequence:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """See `Path`: all joints, and those inside of the parts."""
+        """See `Path`: the junctions of the parts, and the breaks inside them."""
         ends = self._ends
         inner = (ends[i] + one for i, part in enumerate(self.parts) for one in part.breaks)
         return tuple(sorted({float(s) for s in (*ends[1:-1], *inner)}))
 
     def at(self, s: Array) -> PathSamples:
-        """See `Path`; at a joint the later part counts."""
+        """See `Path`; at a junction, the later part counts."""
         ends, count = self._ends, len(s)
         place = np.searchsorted(ends[1:-1], s, side="right")
         if count > 0 and place.min() == place.max():
@@ -259,10 +259,10 @@ class PathSequence:
 
 
 def sequence(parts: Sequence[Path]) -> PathSequence:
-    """Paths one after the other.
+    """Join paths one after the other.
 
     Raises:
-        ValueError: There is none, or metres meet radians.
+        ValueError: There are no paths, or their units of s differ.
     """
     if len({part.unit for part in parts}) != 1:
         raise ValueError("paths in a sequence have one unit of s, and there is at least one")
@@ -270,10 +270,10 @@ def sequence(parts: Sequence[Path]) -> PathSequence:
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:
-    """Refuse a corner at which the path leads back along itself.
+    """Refuse a corner between directions `a` and `b`, of any length, at which the path turns back along itself.
 
     Raises:
-        InvalidField: It does.
+        InvalidField: The path turns back.
     """
     if math.hypot(*(a / math.hypot(*a) + b / math.hypot(*b))) <= 1e-6:
         raise InvalidField(field, "the next leg leads back along the one before: such a corner takes a stop")

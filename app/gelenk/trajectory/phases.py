@@ -1,4 +1,4 @@
-"""Motions of phases of constant acceleration, each coordinate with switching times of its own."""
+"""Motions made of phases of constant acceleration, with separate switching times for each coordinate."""
 
 from collections.abc import Sequence
 from typing import TypeAlias
@@ -10,12 +10,12 @@ from gelenk.model.errors import InvalidField
 from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 Phase: TypeAlias = tuple[float, float]
-"""How long, [s], and the acceleration, [rad/s² or m/s²]."""
+"""Duration, [s], and acceleration, [rad/s² or m/s²]."""
 
 _SAME = 1e-14
-"""Switching times that differ by less, in fractions of the whole motion, are one."""
+"""Difference, as a fraction of the whole duration, below which switching times are merged into one."""
 _SHORTEST = 1e-6
-"""Least time to the greatest speed, in fractions of the latest time: a double has no digits for less."""
+"""Least time to reach the top speed, as a fraction of the latest time: a double cannot resolve less."""
 
 
 def of_phases(
@@ -25,19 +25,19 @@ def of_phases(
     start_time: float = 0.0,
     field: str = "limits.joint_acceleration",
 ) -> PiecewisePolynomial:
-    """The motion; its breaks are the switching times of all coordinates.
+    """Build a motion from phases; its breaks are the switching times of all coordinates.
 
-    Phases of no duration are left out. A motion of no duration at all is one piece whose two breaks are the same.
+    Phases of zero duration are dropped. A motion of zero duration is one piece whose two breaks coincide.
 
     Args:
-        starts: Positions at first; shape (n,), [rad or m].
-        start_velocities: Velocities at first; shape (n,), [rad/s or m/s].
-        phases: Of each coordinate, in order; their durations add up to the same time.
-        start_time: When it begins, [s].
-        field: What is to blame where phases are too short.
+        starts: Initial positions; shape (n,), [rad or m].
+        start_velocities: Initial velocities; shape (n,), [rad/s or m/s].
+        phases: Phases of each coordinate in order; their durations add up to the same time for all.
+        start_time: Time at which the motion begins, [s].
+        field: Request field to blame if phases are too short.
 
     Raises:
-        InvalidField: A speed is reached so fast that the switching times do not tell when.
+        InvalidField: A speed is reached so fast that the switching times cannot be told apart.
     """
     own = [_alone(*one) for one in zip(starts, start_velocities, phases, strict=True)]
     breaks = _merged([breaks for breaks, _ in own])
@@ -54,7 +54,7 @@ def of_phases(
 
 
 def _alone(q: float, v: float, phases: Sequence[Phase]) -> tuple[Array, Array]:
-    """Breaks and coefficients of one coordinate; shapes (M + 1,) and (M, 3)."""
+    """Return breaks and coefficients of one coordinate; shapes (M + 1,) and (M, 3)."""
     breaks, rows = [0.0], []
     for duration, acceleration in phases:
         if duration > 0.0:
@@ -78,7 +78,7 @@ def _check_resolution(own: Sequence[tuple[Array, Array]], latest: float, field: 
 
 
 def _merged(switches: Sequence[Array]) -> Array:
-    """All switching times in order, those that differ by rounding once, the latest of all at the end."""
+    """Merge all switching times in order, dropping those that differ only by rounding; the last is the latest."""
     times = np.unique(np.concatenate(switches))
     kept = [0.0]
     for time in times[times < times[-1] * (1.0 - _SAME)]:

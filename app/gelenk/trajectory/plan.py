@@ -1,7 +1,7 @@
-"""A trajectory: its segments one after the other, each planned and timed, and all of it judged.
+"""Planning of a whole trajectory: plan and time its segments one after the other, then audit the result.
 
-What can only be done in part is done as far as it can be, from rest to rest, and says where and why it ends. A motion
-that does not pass its audit is not an answer.
+A trajectory that can only be completed in part is planned as far as possible, from rest to rest, and reports where and
+why it ends. A motion that fails its audit is never returned.
 """
 
 from collections.abc import Iterator
@@ -25,15 +25,15 @@ from gelenk.trajectory.ways import is_blended
 from gelenk.trajectory.whole_audit import whole
 
 _SAME_DURATION = 1e-9
-"""Share by which a duration may be less than the shortest one: it is meant to be that."""
+"""Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
 
 _LIMITS = {"velocity", "acceleration", "jerk", "tip"}
 _ROUNDING, _MARGIN = 1e-5, 1e-12
-"""Share of a limit that may be exceeded before a motion is slowed down by it, and how much more it then is."""
+"""Relative excess over a limit that counts as rounding, and the extra margin when a motion is slowed down to it."""
 _TOLD = 4
-"""Reasons that a refused motion names."""
+"""Largest number of reasons that a refusal lists."""
 _MOMENT = 1e-9
-"""What stands for no time, [s]."""
+"""Duration that stands for zero in an audit, [s]."""
 
 
 def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
@@ -41,13 +41,13 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
 
     Args:
         robot: The robot.
-        chain: What moves; n variables.
+        chain: Chain that moves, with n variables.
         problem: The request.
 
     Raises:
-        InvalidField: A segment makes no sense, or asks for less time than its limits allow.
-        OutsideLimits: It starts beyond a joint's limits.
-        AuditFailed: The motion does not pass its audit.
+        InvalidField: A segment is inconsistent, or demands less time than its limits allow.
+        OutsideLimits: The start is outside a joint's limits.
+        AuditFailed: The motion fails its audit.
     """
     check_limits(chain, problem.start[None])
     parts, halt = _parts(robot, chain, problem)
@@ -75,7 +75,7 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
 
 
 def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Halt | None]:
-    """The parts that can be done, each from rest to rest, and why the rest cannot."""
+    """Plan the parts that can be completed, each from rest to rest; also return why the others cannot."""
     parts: list[Part] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
@@ -97,10 +97,10 @@ def _part(
 
 
 def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment, ...]]]:
-    """Segments by themselves, and lines with those that they are blended into.
+    """Yield single segments and groups of blended lines, each with the index of its first segment.
 
     Raises:
-        InvalidField: A segment is blended with nothing, or with what is no line, or at another law.
+        InvalidField: A segment cannot be blended into the next one; see `_refuse_unblendable`.
     """
     first = 0
     for i, segment in enumerate(segments):
@@ -112,7 +112,7 @@ def _grouped(segments: tuple[Segment, ...]) -> Iterator[tuple[int, tuple[Segment
 
 
 def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
-    """Refuse a blend that leads nowhere."""
+    """Refuse to blend segment `i` unless it and the next are lines with one law and no durations of their own."""
     field = f"segments.{i}.blend_radius"
     if i + 1 == len(segments) or segments[i].type != "line" or segments[i + 1].type != "line":
         raise InvalidField(field, "only a line can be blended, and only into a line that follows it")
@@ -126,10 +126,10 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
 
 
 def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
-    """The factor by which all is slowed down to last as long as requested.
+    """Return the factor by which the whole motion is slowed down to last as long as requested.
 
     Raises:
-        InvalidField: It takes longer already, or some segment has a duration of its own.
+        InvalidField: The motion takes longer already, or a segment has its own duration or times.
     """
     if problem.duration is None:
         return 1.0
@@ -146,10 +146,10 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
 
 
 def _with_stated_jerk(part: Part, problem: Problem) -> Part:
-    """Slowed down to the limits of jerk that were requested, where the law alone does not keep them.
+    """Slow a part down to the requested jerk limits if its law does not keep them by itself.
 
     Raises:
-        InvalidField: The time that it takes is given.
+        InvalidField: The part would have to be slowed down, but its duration or times are given.
     """
     limits = part.demands.stated_jerk
     if limits is None or part.demands.keeps_jerk or part.motion.duration == 0.0:
@@ -169,7 +169,7 @@ def _with_stated_jerk(part: Part, problem: Problem) -> Part:
 
 
 def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], list[Audit]]:
-    """Parts, and the judgement of each that moves; what exceeds a limit by rounding alone is slowed down by as much."""
+    """Audit each part that moves; slow down a part that exceeds a limit by rounding alone."""
     judged, audits = [], []
     for planned in parts:
         part = planned
@@ -186,7 +186,7 @@ def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], 
 
 
 def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
-    """The note that a law does not keep limits of jerk, where that matters."""
+    """Return a note if the law does not keep the jerk limits and the motion exceeds them."""
     jerk = found.jerk
     if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
         return ()
@@ -194,7 +194,7 @@ def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
 
 
 def _excess(found: Audit) -> float:
-    """The largest ratio to a limit, where nothing else is wrong."""
+    """Return the largest ratio to a limit if exceeded limits are the only reasons for failure, else 1."""
     if found.passed or any(reason.check not in _LIMITS for reason in found.reasons):
         return 1.0
     checks = {reason.check for reason in found.reasons}
@@ -204,16 +204,16 @@ def _excess(found: Audit) -> float:
 
 
 def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:
-    """The audit of joints that stand still for no time: an ordinary audit looks at pieces that take time."""
+    """Audit joints that stand still, as a motion of tiny duration, because an audit needs pieces that take time."""
     still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
     return audit(robot, chain, still, Demands())
 
 
 def refuse_failed(judgement: Audit) -> None:
-    """Let no motion pass that breaks what was promised of it.
+    """Refuse a motion that failed its audit.
 
     Raises:
-        AuditFailed: It does.
+        AuditFailed: The motion failed.
     """
     if not judgement.passed:
         raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))

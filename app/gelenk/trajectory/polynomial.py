@@ -1,7 +1,7 @@
-"""What every motion is made of: pieces of polynomials in time, several coordinates at once.
+"""Piecewise polynomials in time with several coordinates: the common form of every motion.
 
-A cubic, a spline, a trapezoid of velocity, a jerk-limited profile and a time-optimal parabola along a spline are all
-exactly that, so that whatever plays, samples, scales or judges a motion need know nothing else.
+Cubics, splines, trapezoidal and jerk-limited profiles and time-optimal parabolas along a spline all have this form, so
+code that plays, samples, scales or audits a motion needs to handle no other.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from gelenk.model.arrays import Array
 
 @dataclass(frozen=True, slots=True)
 class PiecewisePolynomial:
-    """q(t) = Σ_k c[i, k] (t - t_i)^k on t_i ≤ t ≤ t_{i+1}; beyond its ends the first and last piece go on.
+    """A motion q(t) = Σ_k c[i, k] (t - t_i)^k on t_i ≤ t ≤ t_{i+1}; the outer pieces extend beyond its ends.
 
     Attributes:
         breaks: t_0 < t_1 < …, the ends of the M pieces; shape (M + 1,), [s].
@@ -26,11 +26,11 @@ class PiecewisePolynomial:
 
     @property
     def duration(self) -> float:
-        """From the first break to the last, [s]."""
+        """Time from the first break to the last, [s]."""
         return float(self.breaks[-1] - self.breaks[0])
 
     def derivative(self, order: int = 1) -> "PiecewisePolynomial":
-        """Its derivative in time."""
+        """Return the time derivative of a given order."""
         c = self.coefficients
         for _ in range(order):
             powers = np.arange(1, c.shape[1])[:, None]
@@ -38,7 +38,7 @@ class PiecewisePolynomial:
         return PiecewisePolynomial(self.breaks, c)
 
     def at(self, times: Array) -> Array:
-        """Values at times of shape (N,), [s]; shape (N, n). At an inner break the later piece counts."""
+        """Return values of shape (N, n) at times of shape (N,), [s]; at an inner break, the later piece counts."""
         local, c = self._pieces_at(times)
         values = c[:, -1] + 0.0 * local
         for k in range(c.shape[1] - 2, -1, -1):
@@ -47,7 +47,7 @@ class PiecewisePolynomial:
         return result
 
     def rates_at(self, times: Array) -> tuple[Array, Array, Array]:
-        """Values and two derivatives at times of shape (N,), [s]; shape (N, n) each."""
+        """Return values and first and second derivatives at times of shape (N,), [s]; shape (N, n) each."""
         local, c = self._pieces_at(times)
         value = c[:, -1] + 0.0 * local
         first = second = np.zeros_like(value)
@@ -58,24 +58,24 @@ class PiecewisePolynomial:
         return value, first, 2.0 * second
 
     def _pieces_at(self, times: Array) -> tuple[Array, Array]:
-        """Times since the start of the piece that counts, shape (N, 1), and its coefficients; of one piece once."""
+        """Return times since the start of each time's piece, shape (N, 1), and coefficients; only one row if M = 1."""
         if len(self.coefficients) == 1:
             return (times - self.breaks[0])[:, None], self.coefficients
         i = np.searchsorted(self.breaks[1:-1], times, side="right")
         return (times - self.breaks[i])[:, None], self.coefficients[i]
 
     def scaled(self, factor: float) -> "PiecewisePolynomial":
-        """The same path in `factor` times the time: velocities become 1/factor, accelerations 1/factor²."""
+        """Return the same path in `factor` times the time: velocities scale by 1/factor, accelerations by 1/factor²."""
         powers = factor ** -np.arange(self.coefficients.shape[1])[:, None]
         start = self.breaks[0]
         return PiecewisePolynomial(start + factor * (self.breaks - start), self.coefficients * powers)
 
 
 def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
-    """Motions one after the other, each beginning when the one before ends.
+    """Join motions one after the other, each beginning when the previous one ends.
 
     Args:
-        parts: At least one, of the same coordinates.
+        parts: At least one motion; all have the same coordinates.
     """
     degree = max(part.coefficients.shape[1] for part in parts)
     breaks, rows = [parts[0].breaks[:1]], []

@@ -1,8 +1,8 @@
 """The request for a trajectory, and its result.
 
-A trajectory begins at a configuration, at rest, and goes through segments: joints to a configuration or a pose, the tip
-along a line, a circle or a spline. Each segment has a law of time and limits of its own. It comes to rest between two
-segments but where lines are blended.
+A trajectory starts at rest at a configuration and runs through segments: the joints move to a configuration or a pose,
+or the tip along a line, a circle or a spline. Each segment has its own time law and limits. The motion stops between
+two segments unless they are blended lines.
 """
 
 from collections.abc import Callable
@@ -20,13 +20,13 @@ from gelenk.trajectory.words import Law, NearSingularity, OrientationLaw, Segmen
 
 @dataclass(frozen=True, slots=True)
 class MotionLimits:
-    """What joints and tip may do in a segment, scales applied; all finite and > 0 except for the tip's, which may be ∞.
+    """Limits of joints and tip in a segment, scale factors included; > 0, and finite except for the tip's.
 
     Attributes:
-        velocity: Of each joint; shape (n,), [rad/s or m/s].
-        acceleration: Shape (n,), [rad/s² or m/s²].
-        jerk: Shape (n,), [rad/s³ or m/s³].
-        tip: Of the tip.
+        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
+        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
+        jerk: Jerk limit of each joint; shape (n,), [rad/s³ or m/s³].
+        tip: Limits of the tip.
     """
 
     velocity: Array
@@ -37,27 +37,27 @@ class MotionLimits:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One part of a trajectory.
+    """One segment of a requested trajectory.
 
     Attributes:
-        type: The kind of path.
-        law: Of time.
-        limits: That hold on it.
-        duration: It is to last, [s]; as long as its limits ask for if None.
+        type: Kind of path.
+        law: Time law.
+        limits: Limits on this segment.
+        duration: Requested duration, [s]; the shortest within the limits if None.
         configuration: Target of a joint segment; shape (n,), [rad or m].
-        pose: T_base_tip at the end, of a joint segment to a pose, a line or a circle; shape (4, 4).
-        via: T_base_tip on the way of a circle; shape (4, 4).
-        blend_radius: Distance from the end of a line at which it is left for the next, [m]; 0 stops there.
-        blend_acceleration: Of the tip in the blend instead of a radius, [m/s²].
-        blend_time: Of the blend instead of a radius, [s].
-        orientation: How a path of the tip turns: about an axis, of which one that passes orientations has a smooth
-            spline, or the Euler angles ZYZ each on their path, on either branch.
-        configurations: A joint spline's waypoints after the start; shape (m, n), [rad or m].
-        poses: A Cartesian spline's.
-        times: When each is to be reached, after the segment's start; shape (m,), [s].
-        boundary: Of a spline.
-        blends: Whether a joint spline's waypoints are passed beside, on straight lines with parabolic blends.
-        stated_jerk: Limits of jerk that were requested, which hold whatever the law; shape (n,), ∞ where none was,
+        pose: T_base_tip at the end of a line, a circle or a joint segment to a pose; shape (4, 4).
+        via: T_base_tip in between on a circle; shape (4, 4).
+        blend_radius: Distance from the end of a line at which its blend into the next begins, [m]; 0 for none.
+        blend_acceleration: Tip acceleration in the blend, given instead of a radius, [m/s²].
+        blend_time: Duration of the blend, given instead of a radius, [s].
+        orientation: How a tip path turns: about an axis (on a smooth spline if it passes several orientations), or by
+            ZYZ Euler angles on either branch.
+        configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
+        poses: Waypoints of a Cartesian spline after the start.
+        times: Time of each waypoint, counted from the start of the segment; shape (m,), [s].
+        boundary: Boundary condition of a spline.
+        blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
+        stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
             [rad/s³ or m/s³].
     """
 
@@ -82,15 +82,15 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Following:
-    """How joints are to follow a path of the tip.
+    """How the joints follow a path of the tip.
 
     Attributes:
-        task: Directions that count; others are left free.
+        task: Constrained directions; the others are free.
         position_tolerance: Largest distance from the path, also between samples, [m].
-        orientation_tolerance: Largest angle, [rad].
-        min_singular_value: σ of the Jacobian's rows that count, metres and radians mixed, below which a pose counts as
-            near to a singularity.
-        near_singularity: What to do there: stop; go on with damped joints and leave the path; go on exactly, slowly.
+        orientation_tolerance: Largest angle from the path's orientation, [rad].
+        min_singular_value: Smallest singular value of the Jacobian's constrained rows, metres and radians mixed, below
+            which a pose counts as near a singularity.
+        near_singularity: What to do there: stop, damp the joints and leave the path, or slow down on the exact path.
     """
 
     task: Task = FULL_POSE
@@ -105,11 +105,11 @@ class Problem:
     """The request for a trajectory.
 
     Attributes:
-        start: Where it begins, at rest; shape (n,), [rad or m].
-        segments: One after the other; at least one.
-        following: How joints follow the tip's ways.
-        duration: It is to last as a whole, [s]; as long as the limits ask for if None.
-        compares_timing: Whether uniform and time-optimal scaling of each segment are to be compared.
+        start: Start configuration, at rest; shape (n,), [rad or m].
+        segments: At least one segment, in order.
+        following: How the joints follow the tip's paths.
+        duration: Requested total duration, [s]; the shortest within the limits if None.
+        compares_timing: Whether to compare uniform and time-optimal timing of each segment.
     """
 
     start: Array
@@ -121,13 +121,13 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class BlendReport:
-    """How a line went over into the next.
+    """How a line was blended into the next.
 
     Attributes:
-        radius: Distance from the corner at which the line is left, [m].
-        start_time: [s].
-        end_time: [s].
-        acceleration: What the tip's may be in it at most, [m/s²]; None where only the radius was given.
+        radius: Distance from the corner at which the blend begins, [m].
+        start_time: Start of the blend, [s].
+        end_time: End of the blend, [s].
+        acceleration: Limit of the tip's acceleration in the blend, [m/s²]; None if only the radius was given.
     """
 
     radius: float
@@ -138,20 +138,20 @@ class BlendReport:
 
 @dataclass(frozen=True, slots=True)
 class SegmentReport:
-    """The result of a segment, as far as it was done.
+    """The result of a segment, as far as it was completed.
 
     Attributes:
-        index: Which, from 0.
-        type: The kind of path.
-        law: Of time.
-        start_time: [s].
-        end_time: [s].
-        length: Of the tip's path, [m]; of a joint segment None.
-        angle: By which the tip turns on it, [rad]; of a joint segment None.
-        joint_deviation: From the path at most that damping cost: distance [m] and angle [rad]; None if not damped.
-        blended: Whether it is left for the next without a stop.
-        blend: How, if the motion gets that far.
-        notes: What else is to be known.
+        index: Index of the segment, from 0.
+        type: Kind of path.
+        law: Time law.
+        start_time: Start of the segment, [s].
+        end_time: End of the segment, [s].
+        length: Length of the tip's path, [m]; None for a joint segment.
+        angle: Angle through which the tip turns, [rad]; None for a joint segment.
+        joint_deviation: Largest distance [m] and angle [rad] from the path due to damping; None if not damped.
+        blended: Whether the motion passes into the next segment without a stop.
+        blend: Blend into the next segment, if the motion gets that far.
+        notes: Further remarks for the user.
     """
 
     index: int
@@ -167,11 +167,11 @@ class SegmentReport:
     notes: tuple[str, ...] = ()
 
     def slowed(self, factor: float) -> "SegmentReport":
-        """The same in `factor` times the time."""
+        """Return the report of the motion slowed down to `factor` times its duration."""
         return self._timed(lambda time: factor * time)
 
     def moved(self, start: float) -> "SegmentReport":
-        """The same, all of it beginning at a time, [s]."""
+        """Return the report with all times moved later by `start`, [s]."""
         return self._timed(lambda time: start + time)
 
     def _timed(self, change: Callable[[float], float]) -> "SegmentReport":
@@ -183,15 +183,15 @@ class SegmentReport:
 
 @dataclass(frozen=True, slots=True)
 class TimingComparison:
-    """One path of a segment (or of blended ones) at two timings.
+    """Uniform and time-optimal timing of the path of one segment, or of blended ones.
 
     Attributes:
-        segments: Which, from 0.
-        law: That is scaled uniformly.
-        uniform_duration: The law, scaled so that some limit is just reached, [s].
-        velocity_factor: k that the velocity limits alone ask for, of the law lasting 1 s.
-        acceleration_factor: The same of the acceleration limits: a time of √k times keeps them.
-        time_optimal_duration: [s].
+        segments: Indices of the segments, from 0.
+        law: Time law that is scaled uniformly.
+        uniform_duration: Duration of that law, scaled until some limit is just reached, [s].
+        velocity_factor: k that the velocity limits alone require for the law lasting 1 s.
+        acceleration_factor: The same for the acceleration limits, which √k times the time keeps.
+        time_optimal_duration: Duration of the time-optimal law, [s].
     """
 
     segments: tuple[int, ...]
@@ -204,15 +204,15 @@ class TimingComparison:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why a trajectory ends before its time.
+    """Why and where a trajectory ends early.
 
     Attributes:
-        reason: Of what kind.
-        segment: Which one could not be done, from 0.
-        time: Where the answer's motion ends, [s].
-        position: Of the tip, where it could not go on; shape (3,), [m].
-        joint: Which one is at its limit.
-        detail: In a sentence.
+        reason: Kind of reason.
+        segment: Index of the segment that could not be completed, from 0.
+        time: End of the planned motion, [s].
+        position: Position of the tip at which the path could not continue; shape (3,), [m].
+        joint: Joint that is at its limit, if any.
+        detail: Explanation in a sentence.
     """
 
     reason: StopReason
@@ -225,15 +225,15 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """The result of a problem.
+    """The result of planning a trajectory.
 
     Attributes:
-        motion: Of the joints, from 0 s on.
-        segments: Those that were done, wholly or in part.
-        completed_fraction: Of the segments, each counting alike, a part of one by its length.
-        failure: Why it is not 1.
-        audit: The judgement of the motion.
-        timing: If requested.
+        motion: Joint motion, starting at 0 s.
+        segments: Reports of the segments that were completed wholly or in part.
+        completed_fraction: Completed fraction; segments count equally, an incomplete one by its completed length.
+        failure: Why the trajectory ends early; None if it is complete.
+        audit: Audit of the motion.
+        timing: Comparisons of timings, if requested.
     """
 
     motion: PiecewisePolynomial

@@ -1,10 +1,10 @@
-"""Which speeds along a path can be kept up to its end, and the fastest among them [Pham2018].
+"""Reachability along a path: the speeds from which its end can be reached, and the fastest among them [Pham2018].
 
-The path is cut into intervals of length Δ, in each of which u = s̈ is constant, so that x = ṡ² goes from x_i to
-x_i + 2Δu. What a motion may do in an interval is a convex polygon of the points (u, x_i), given by rows αu + βx ≤ 1:
-at rest, u = x = 0, it may do all of them. For a given x they are bounds of u, lines in x from above and from below;
-eliminating u by pairs of such lines leaves bounds of x. All pairs but those with the speed at the next node are known
-beforehand, so that one step costs three operations on a vector.
+The path is cut into intervals of length Δ. In each of them u = s̈ is constant, so x = ṡ² goes from x_i to x_i + 2Δu.
+The admissible points (u, x_i) of an interval form a convex polygon, given by rows αu + βx ≤ 1; it always contains rest,
+u = x = 0. For a given x, the rows bound u from above and from below by lines in x; eliminating u from pairs of such
+lines leaves bounds of x. All pairs except those with the speed at the next node are evaluated in advance, so one step
+costs only three vector operations.
 """
 
 from dataclasses import dataclass
@@ -15,21 +15,21 @@ from gelenk.model.arrays import Array
 from gelenk.model.errors import InvalidField
 
 _NO_WEIGHT = 1e-12
-"""α of a row, in fractions of the largest of its interval, below which u has no part in it."""
+"""α of a row, as a fraction of the largest in its interval, below which the row does not bound u."""
 _UNBOUNDED = 1e30
 _MOST_STEPS = 100
 
 
 @dataclass(frozen=True, slots=True)
 class Stages:
-    """The constraints of a motion in each of N intervals.
+    """Constraints of a motion in each of N intervals.
 
     Attributes:
         lengths: Δ; shape (N,).
-        upper: Offsets and slopes of lines in x that u stays below, infinite and 0 for none; shape (2, N, m).
-        lower: The same of those it stays above.
-        highest: The largest x at the start of each interval from which the motion can continue; shape (N,).
-        kept: The least share of x that is left at the end of each interval; shape (N,).
+        upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m).
+        lower: The same for those that bound u from below, -∞ and 0 for none.
+        highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
+        kept: Smallest fraction of x that must be left at the end of each interval; shape (N,).
     """
 
     lengths: Array
@@ -40,14 +40,14 @@ class Stages:
 
 
 def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
-    """Intervals from their rows αu + βx ≤ 1.
+    """Build the constraints of intervals from their rows αu + βx ≤ 1.
 
     Args:
         lengths: Δ > 0; shape (N,).
-        alpha: Shape (N, m).
-        beta: Shape (N, m).
-        kept: The least share of x that is to be left at the end of an interval, from 0 to 1; shape (N,). Where q' of a
-            joint changes its sign, the largest x may be one from which there is no way but to stop.
+        alpha: α; shape (N, m).
+        beta: β; shape (N, m).
+        kept: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it, where q'
+            of a joint changes sign, the largest x may be one from which the motion can only stop.
     """
     is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -63,10 +63,10 @@ def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
 
 
 def _highest(upper: Array, lower: Array, x: Array) -> Array:
-    """The largest x at which the lines from above are not below those from below, by Newton's method from the right.
+    """Return the largest x at which no upper line is below a lower one, by Newton's method from the right.
 
-    The least line from above less the greatest from below is concave and, at 0, not negative: every step ends to the
-    right of the zero, and after finitely many at it.
+    The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
+    to the right of the zero, and finitely many steps reach it.
     """
     rows = np.arange(len(x))
     for _ in range(_MOST_STEPS):
@@ -86,18 +86,15 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
 
 
 def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple[Array, Array]:
-    """The least and the largest x at each node from which the end can be reached.
+    """Return the least and the largest x at each node from which the end can be reached; shape (N + 1,) each.
 
     Args:
-        course: The intervals.
-        caps: What x may be at most at each node for other reasons; shape (N + 1,).
-        end: The least and the largest x at the end.
-
-    Returns:
-        Both; shape (N + 1,).
+        course: Constraints of the intervals.
+        caps: Further upper bound of x at each node; shape (N + 1,).
+        end: Least and largest x allowed at the end.
 
     Raises:
-        InvalidField: There is none, which takes an end that is not at rest.
+        InvalidField: The end cannot be reached, which is possible only if it is not at rest.
     """
     count = len(course.lengths)
     least, most = np.zeros(count + 1), np.minimum(np.append(course.highest, np.inf), caps)
@@ -108,7 +105,7 @@ def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple
         gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
     offsets = course.lower[0]
     for i in range(count - 1, -1, -1):
-        # No faster than what can be braked to the largest x of the next node.
+        # No faster than the motion can brake to the largest x of the next node.
         most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
         if course.kept[i] > 0.0:
             most[i] = min(most[i], most[i + 1] / course.kept[i])
@@ -120,7 +117,7 @@ def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple
 
 
 def _at_least(course: Stages, i: int, next_least: float, most: float) -> tuple[float, float]:
-    """Bounds of x in an interval at whose end it has to be no less than some value."""
+    """Return bounds of x in interval `i` for which x at its end is at least `next_least`."""
     half = 0.5 / course.lengths[i]
     need = next_least * half - course.upper[0, i]
     climb = course.upper[1, i] + half
@@ -131,13 +128,13 @@ def _at_least(course: Stages, i: int, next_least: float, most: float) -> tuple[f
 
 
 def fastest(course: Stages, least: Array, most: Array, start: float) -> Array:
-    """The x at each node, in every interval with the largest u that stays between two bounds; shape (N + 1,).
+    """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
 
     Args:
-        course: The intervals.
-        least: The least x at each node; shape (N + 1,).
-        most: The largest.
-        start: x at the first node, between both.
+        course: Constraints of the intervals.
+        least: Least x at each node; shape (N + 1,).
+        most: Largest x at each node; shape (N + 1,).
+        start: x at the first node, within its bounds.
     """
     x = start
     found = [x]

@@ -1,8 +1,8 @@
 """Smooth paths through orientations: a spline with continuous angular acceleration, and the turn over a corner.
 
-Between two knots R(x) = R_k Exp(θ(x)) with θ a cubic. The spline's angular velocities at the knots are those with which
-angular acceleration is continuous too, so it is C² as a cubic spline of positions is; it is the interpolation that
-SciPy's `RotationSpline` computes. Both ends have the mean angular velocity of their interval.
+Between two knots R(x) = R_k Exp(θ(x)), where θ is a cubic. The angular velocities at the knots are chosen so that the
+angular acceleration is continuous. This makes the spline C², like a cubic spline of positions; SciPy's `RotationSpline`
+computes the same interpolation. Each end has the mean angular velocity of its interval.
 """
 
 from dataclasses import dataclass
@@ -22,11 +22,11 @@ _CONVERGED = 1e-13
 
 @dataclass(frozen=True, slots=True)
 class RotationVectorPath:
-    """R(x) = R_k Exp(θ(x)), with θ a polynomial on each piece.
+    """A path R(x) = R_k Exp(θ(x)), with θ a polynomial on each piece.
 
     Attributes:
-        starts: R_k of each of M pieces; shape (M, 3, 3).
-        vectors: θ over x from 0 to 1, M pieces of 3 coordinates, [rad].
+        starts: R_k of each of the M pieces; shape (M, 3, 3).
+        vectors: θ for x from 0 to 1; M pieces, 3 coordinates, [rad].
     """
 
     starts: Array
@@ -34,7 +34,7 @@ class RotationVectorPath:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None: the angular rate is continuous."""
+        """Always empty: the angular rate is continuous."""
         return ()
 
     @property
@@ -52,11 +52,11 @@ class RotationVectorPath:
 
 
 def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
-    """The C² spline through orientations.
+    """Return the C² spline through orientations.
 
     Args:
-        rotations: At least two; shape (M + 1, 3, 3).
-        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
+        rotations: At least two orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
     """
     steps = vectors_from_rotations(np.ascontiguousarray(rotations[:-1].transpose(0, 2, 1) @ rotations[1:]))
     widths = np.diff(knots)[:, None]
@@ -78,14 +78,14 @@ def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
 
 
 def rotation_corner(entry: Array, corner: Array, exit_: Array) -> RotationVectorPath:
-    """The turn over a corner: R(u) = R_B Exp((1 - u)² θ_a + u² θ_b), R_B Exp(θ_a) and R_B Exp(θ_b) being the ends.
+    """Return the turn over a corner, R(u) = R_B Exp((1 - u)² θ_a + u² θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
 
-    As with the parabola of positions, its angular rates at both ends are those of the turns that it connects.
+    As with the parabola of positions, the angular rates at both ends are those of the turns that it connects.
 
     Args:
-        entry: Orientation at A'; shape (3, 3).
-        corner: At B, which is not reached; shape (3, 3).
-        exit_: At C'; shape (3, 3).
+        entry: Orientation at A', where the blend begins; shape (3, 3).
+        corner: Orientation at B, which is not reached; shape (3, 3).
+        exit_: Orientation at C', where the blend ends; shape (3, 3).
     """
     a, b = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
     coefficients = np.array([[a, -2.0 * a, a + b]])
@@ -93,12 +93,12 @@ def rotation_corner(entry: Array, corner: Array, exit_: Array) -> RotationVector
 
 
 def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:
-    """Fill in the angular velocities at inner knots with which angular acceleration is continuous there.
+    """Fill in the angular velocities at the inner knots that make the angular acceleration continuous there.
 
     2 A_k ω_k / h_k + 4 (1/h_k + 1/h_{k+1}) ω_{k+1} + 2 A_{k+1}⁻¹ ω_{k+2} / h_{k+1}
       = 6 (r_k / h_k² + r_{k+1} / h_{k+1}²) - β(r_k, A_k⁻¹ ω_{k+1}),
-    where β is quadratic in ω: solved again and again until that no longer changes. The angular velocity is continuous
-    whatever comes out.
+    where β is quadratic in ω: the system is solved repeatedly until ω no longer changes. The angular velocity is
+    continuous even without convergence.
     """
     lower = 2.0 * rate_matrices(steps)[1:-1] / widths[1:-1, None]
     upper = 2.0 * inverses[1:-1] / widths[1:-1, None]
@@ -117,9 +117,9 @@ def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:
 
 
 def _eliminated(lower: Array, diagonal: Array, upper: Array) -> tuple[Array, Array]:
-    """What elimination needs again and again: factors (M - 1, 3, 3), and the inverses of the pivots (M, 3, 3).
+    """Eliminate once for repeated use; return factors (M - 1, 3, 3) and inverse pivots (M, 3, 3).
 
-    The matrix has blocks (M - 1, 3, 3) on both sides of a diagonal of numbers (M, 1) times the unit matrix.
+    The matrix has off-diagonal blocks (M - 1, 3, 3), and on its diagonal numbers (M, 1) times the identity matrix.
     """
     factors, pivots = np.empty_like(lower), np.empty((len(diagonal), 3, 3))
     pivots[0] = np.eye(3) / diagonal[0]
@@ -130,7 +130,7 @@ def _eliminated(lower: Array, diagonal: Array, upper: Array) -> tuple[Array, Arr
 
 
 def _substituted(factors: Array, pivots: Array, upper: Array, right: Array) -> Array:
-    """Solve for (M, 3), forwards and backwards."""
+    """Solve for a right side of shape (M, 3) by forward and backward substitution."""
     solution = right.copy()
     for i, factor in enumerate(factors):
         solution[i + 1] -= factor @ solution[i]
@@ -141,6 +141,6 @@ def _substituted(factors: Array, pivots: Array, upper: Array, right: Array) -> A
 
 
 def _turned(matrices: Array, vectors: Array) -> Array:
-    """Each matrix times its vector; shapes (N, 3, 3) and (N, 3)."""
+    """Multiply each matrix by its vector; shapes (N, 3, 3) and (N, 3)."""
     products: Array = np.einsum("nij,nj->ni", matrices, vectors)
     return products

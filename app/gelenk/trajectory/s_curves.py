@@ -1,7 +1,7 @@
-"""Profiles of seven phases along a path of length 1, from rest to rest: many at once, to choose one of them.
+"""Seven-phase profiles along a path of length 1, from rest to rest, computed for many limits at once.
 
-Jerk j for t_j, acceleration a for t_a, jerk -j for t_j, coast, and the same mirrored [Biagiotti2008]: from rest to rest
-that is what `jerk_limited` finds too.
+Jerk j for t_j, acceleration a for t_a, jerk -j for t_j, coast, then the mirror image [Biagiotti2008]. From rest to
+rest, `jerk_limited` finds the same profile.
 """
 
 import numpy as np
@@ -10,17 +10,17 @@ from gelenk.model.arrays import Array
 from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 _SHORTEST = 1e-5
-"""Least duration of a phase, in fractions of the whole: one of jerk lasts as long at least, others are left out."""
+"""Shortest phase as a fraction of the whole: jerk phases last at least this long, other shorter phases are dropped."""
 
 
 def phases(caps: Array) -> tuple[Array, Array, Array]:
-    """Durations of jerk, of constant acceleration and of the coast in the least time; shape (N,) each.
+    """Return the durations of jerk, of constant acceleration and of the coast in the least time; shape (N,) each.
 
     Args:
         caps: Largest speed, acceleration and jerk; shape (N, 3), [1/s, 1/s², 1/s³].
     """
     v, a, j = caps.T
-    # The speed at which there is no coast left: with the acceleration reached, or else without.
+    # The speed at which no coast is left: with the full acceleration reached, or without.
     lag = a / j
     reached = 0.5 * a * (np.sqrt(lag**2 + 4.0 / a) - lag)
     peak = np.minimum(v, np.where(reached >= a * lag, reached, np.cbrt(0.25 * j)))
@@ -31,14 +31,14 @@ def phases(caps: Array) -> tuple[Array, Array, Array]:
 
 
 def lasting(caps: Array) -> Array:
-    """How long each takes; shape (N,), [s]."""
+    """Return the duration of each profile; shape (N,), [s]."""
     jerking, even, coast = phases(caps)
     total: Array = 4.0 * jerking + 2.0 * even + coast
     return total
 
 
 def planned(caps: Array) -> PiecewisePolynomial:
-    """One of them as s(t), with its duration.
+    """Return one profile as s(t), with its own duration.
 
     Args:
         caps: Largest speed, acceleration and jerk; shape (3,), [1/s, 1/s², 1/s³].
@@ -54,17 +54,17 @@ def planned(caps: Array) -> PiecewisePolynomial:
 
 
 def profiles(caps: Array, count: int) -> tuple[Array, Array, Array, Array]:
-    """s, ṡ, s̈ and s⃛ at instants evenly spread over each phase, its ends among them; shape (N, 8 count) each."""
+    """Return s, ṡ, s̈ and s⃛ at `count` evenly spread instants of each phase and half coast; shape (N, 8 count) each."""
     return _states(phases(caps), count)
 
 
 def _states(lasting_each: tuple[Array, Array, Array], count: int) -> tuple[Array, Array, Array, Array]:
-    """The profiles with given durations of their phases, see `profiles`."""
+    """Sample profiles with given durations of their phases; see `profiles`."""
     jerking, even, coast = (values[:, None] for values in lasting_each)
     shares = np.linspace(0.0, 1.0, count)
     rising, steady, falling, coasting = (width * shares for width in (jerking, even, jerking, 0.5 * coast))
     ramp = 2.0 * jerking + even
-    # So that they go to 1, rounding or not.
+    # Choose the jerk so that s ends at 1 despite rounding.
     j = 1.0 / (jerking * (jerking + even) * (ramp + coast))
     a, v = j * jerking, j * jerking * (jerking + even)
     left, first = falling[:, ::-1], j * jerking**3 / 6.0

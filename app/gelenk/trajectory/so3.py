@@ -1,4 +1,4 @@
-"""Rotation vectors that change: R = Exp(θ), the angular velocity in the moving frame, and its derivative.
+"""Angular velocity of R = Exp(θ) in the moving frame, and its derivative, for a time-varying rotation vector θ.
 
 ω = A(θ) θ̇ and ω̇ = A(θ) θ̈ + β(θ, θ̇), where A = I - k₁ [θ]× + k₂ [θ]×² is the right Jacobian of SO(3) [Chirikjian2011].
 """
@@ -13,7 +13,7 @@ from gelenk.model.arrays import Array
 _Coefficients: TypeAlias = tuple[Array, Array, Array, Array]
 
 _SERIES = 1.0
-"""Angle below which the coefficients come from their power series: their closed forms lose digits there, [rad]."""
+"""Angle below which the coefficients come from power series, because the closed forms lose digits there, [rad]."""
 _TERMS = np.arange(10)
 _FIRST = (-1.0) ** _TERMS / [float(math.factorial(2 * j + 2)) for j in range(10)]
 _SECOND = (-1.0) ** _TERMS / [float(math.factorial(2 * j + 3)) for j in range(10)]
@@ -22,7 +22,7 @@ _SERIES_ROWS = np.array([_FIRST, _SECOND, *_SLOPES])
 
 
 def skew(vectors: Array) -> Array:
-    """[v]×, so that [v]× w = v × w; shape (N, 3) → (N, 3, 3)."""
+    """Return [v]×, for which [v]× w = v × w; shape (N, 3) → (N, 3, 3)."""
     matrices = np.zeros((len(vectors), 3, 3))
     matrices[:, 2, 1], matrices[:, 0, 2], matrices[:, 1, 0] = vectors.T
     matrices[:, 1, 2], matrices[:, 2, 0], matrices[:, 0, 1] = -vectors.T
@@ -30,7 +30,7 @@ def skew(vectors: Array) -> Array:
 
 
 def rate_matrices(thetas: Array) -> Array:
-    """A(θ); shape (N, 3) → (N, 3, 3)."""
+    """Return A(θ), the right Jacobian of SO(3); shape (N, 3) → (N, 3, 3)."""
     k1, k2, _, _ = _coefficients(np.linalg.norm(thetas, axis=1))
     crosses = skew(thetas)
     matrices: Array = np.eye(3) - k1[:, None, None] * crosses + k2[:, None, None] * (crosses @ crosses)
@@ -38,18 +38,18 @@ def rate_matrices(thetas: Array) -> Array:
 
 
 def angular_velocities(thetas: Array, rates: Array) -> Array:
-    """ω of the moving frame, in its own axes; shape (N, 3) each, [rad] and [rad/s] → [rad/s]."""
+    """Return ω of the moving frame, in its own axes; shape (N, 3) each, [rad] and [rad/s] → [rad/s]."""
     k1, k2, _, _ = _coefficients(_sizes(thetas))
     return _applied(k1, k2, thetas, rates)
 
 
 def angular_accelerations(thetas: Array, rates: Array, second: Array) -> Array:
-    """ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s²]."""
+    """Return ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s²]."""
     return angular_motion(thetas, rates, second)[1]
 
 
 def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, Array]:
-    """ω and ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s] and [rad/s²]."""
+    """Return ω and ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s] and [rad/s²]."""
     coefficients = _coefficients(_sizes(thetas))
     k1, k2 = coefficients[:2]
     quadratic = _quadratic_part(coefficients, thetas, rates)
@@ -57,7 +57,7 @@ def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, A
 
 
 def quadratic_part(thetas: Array, rates: Array) -> Array:
-    """β(θ, θ̇): what the angular acceleration is without θ̈; shape (N, 3) each."""
+    """Return β(θ, θ̇), the angular acceleration for θ̈ = 0; shape (N, 3) each."""
     return _quadratic_part(_coefficients(_sizes(thetas)), thetas, rates)
 
 
@@ -71,14 +71,14 @@ def _quadratic_part(coefficients: _Coefficients, thetas: Array, rates: Array) ->
 
 
 def _applied(k1: Array, k2: Array, thetas: Array, vectors: Array) -> Array:
-    """A(θ) times vectors; shape (N, 3)."""
+    """Multiply A(θ) by vectors; shape (N, 3)."""
     once = _crossed(thetas, vectors)
     products: Array = vectors - k1[:, None] * once + k2[:, None] * _crossed(thetas, once)
     return products
 
 
 def _crossed(a: Array, b: Array) -> Array:
-    """The cross product a × b, pair by pair; shape (N, 3): NumPy's own takes several times as long for a few pairs."""
+    """Return cross products a × b of shape (N, 3); for a few pairs several times faster than NumPy's."""
     (x, y, z), (u, v, w) = a.T, b.T
     products = np.empty_like(a)
     products[:, 0], products[:, 1], products[:, 2] = y * w - z * v, z * u - x * w, x * v - y * u
@@ -91,7 +91,7 @@ def _sizes(vectors: Array) -> Array:
 
 
 def _coefficients(n: Array) -> _Coefficients:
-    """k₁ = (1 - cos n)/n², k₂ = (n - sin n)/n³, and k₁'/n, k₂'/n; shape (N,) each."""
+    """Return k₁ = (1 - cos n)/n², k₂ = (n - sin n)/n³, and k₁'/n, k₂'/n; shape (N,) each."""
     small = n < _SERIES
     if small.all():
         return _by_series(n * n)
@@ -103,7 +103,7 @@ def _coefficients(n: Array) -> _Coefficients:
 
 
 def _by_series(x: Array) -> _Coefficients:
-    """From n²."""
+    """Compute the coefficients from x = n² by their power series."""
     k1, k2, slope1, slope2 = _SERIES_ROWS[:, -1:] + 0.0 * x
     for j in range(len(_TERMS) - 2, -1, -1):
         a, b, c, d = _SERIES_ROWS[:, j]
