@@ -19,7 +19,7 @@ def skeleton(description: Description, without: Container[str]) -> dict[str, lis
 
     Returns:
         Solids by link name: a rod to each joint below, and a body for the joint above if that moves; no link without
-        solids. If other links show something, a link with neither a shape nor a movable joint is a mere frame: no solids.
+        solids. If other links show something, a link with neither a shape nor a movable joint is a mere frame: none.
     """
     stock = Stock((math.hypot(*joint.origin.xyz) for joint in description.joints), _THICKNESS)
     bare = [link for link in description.links if not _shows(link, without)]

@@ -1,9 +1,9 @@
-"""Robots on disk: the catalogue, read-only, and the uploaded ones, one folder each.
+"""Robots on disk: the read-only catalogue, and uploaded robots in one folder each.
 
-- `folders`: durable writing: what is acknowledged is on disk, what is not is invisible.
-- `archive`: a zip of one URDF and its meshes, unpacked with suspicion.
-- `meshes`: which file a mesh's name means.
-- `records`: a robot's folder, read: what it is, where its files are.
-- `index`: what the list of robots and the quotas need of each uploaded one, in one file.
-- `library`: all robots by name; loaded once, and again when their folder has changed.
+- `folders`: durable writing: acknowledged data is on disk, unfinished data is invisible.
+- `archive`: unpacks an untrusted zip of one URDF and its meshes.
+- `meshes`: finds the file that a mesh name refers to.
+- `records`: reads a robot's folder: its `robot.json` and the paths of its files.
+- `index`: one file with the data on each uploaded robot that the list of robots and the quotas need.
+- `library`: all robots by name, loaded once, and again when their folder has changed.
 """

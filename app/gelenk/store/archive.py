@@ -1,7 +1,7 @@
-"""A zip of one URDF and its meshes, unpacked with suspicion: names, counts and real bytes are checked.
+"""Unpacks an untrusted zip of one URDF and its meshes, and checks names, counts and actual sizes.
 
-The sizes that a zip states are not believed: bytes are counted while they are unpacked. Nothing here looks inside
-a mesh; kinematics need none, and the browser gets them as they came.
+The sizes stated in a zip are not trusted: bytes are counted while they are unpacked. Nothing here parses a mesh:
+kinematics does not need meshes, and the browser gets them unchanged.
 """
 
 import os
@@ -25,22 +25,22 @@ MAX_ENTRIES = 2000
 MAX_UNPACKED = 256 * 1024 * 1024
 MAX_PATH_BYTES = 200
 MAX_DIRECTORY = 1024 * 1024
-"""Bytes of the list of entries at the end of a zip: 2,000 of them need a quarter of it."""
+"""Largest size of the list of entries at the end of a zip, [bytes]: 2,000 entries need a quarter of it."""
 MAX_FOLDERS = 16
-"""Folders on the way to an entry; those of packages that people share are some ten at most."""
+"""Largest number of folders above an entry; widely used packages have about ten at most."""
 _CHUNK = 1024 * 1024
 _END_RECORD = struct.Struct("<4s4H2LH")
 
 
 @dataclass(frozen=True, slots=True)
 class UnpackedRobot:
-    """What an archive held.
+    """Contents of an archive.
 
     Attributes:
-        urdf: The description's bytes.
-        urdf_folder: Where it stood in the archive, "" at the top.
-        meshes: Mesh files by their path in the archive: stretches of a file without a name, which is gone with the
-            context that they were unpacked in, or with the process.
+        urdf: Bytes of the URDF.
+        urdf_folder: Folder of the URDF in the archive, "" at the top.
+        meshes: Mesh files by their path in the archive: parts of an unnamed file that disappears when the context of
+            `unpacked` or the process ends.
     """
 
     urdf: bytes
@@ -50,17 +50,17 @@ class UnpackedRobot:
 
 @contextmanager
 def unpacked(file: BinaryIO, max_unpacked: int = MAX_UNPACKED, root: Path | None = None) -> Iterator[UnpackedRobot]:
-    """Unpack an archive for as long as the context lasts.
+    """Unpack an archive for the duration of the context.
 
     Args:
         file: The zip.
-        max_unpacked: Bytes that may come out of it.
-        root: The folder on whose disk it is unpacked; that for temporary files if left out.
+        max_unpacked: Largest number of unpacked bytes.
+        root: Folder on whose disk the archive is unpacked; the folder for temporary files if omitted.
 
     Raises:
-        InvalidArchive: Not a zip, not one URDF, or an entry that has no place in one.
+        InvalidArchive: Not a zip, not exactly one URDF, or an entry that is not allowed.
         TooLarge: More entries or bytes than allowed.
-        StorageFailed: There is no room to unpack it.
+        StorageFailed: The disk has no room to unpack it.
     """
     _check_directory(file)
     try:
@@ -96,7 +96,7 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> Un
 
 
 def _check_directory(file: BinaryIO) -> None:
-    """Refuse an overlong list of entries before it is read: the end record of a zip tells its length."""
+    """Refuse an overlong list of entries before reading it: the end record of the zip states its length."""
     size = file.seek(0, os.SEEK_END)
     file.seek(max(0, size - _END_RECORD.size - 0xFFFF))
     tail = file.read()
@@ -114,7 +114,7 @@ def _check_directory(file: BinaryIO) -> None:
 
 
 def _check_count(archive: zipfile.ZipFile) -> None:
-    """Count the entries themselves: how many its end record tells is its own word."""
+    """Count the entries themselves, because the number in the end record may be false."""
     count = len(archive.infolist())
     if count > MAX_ENTRIES:
         raise TooLarge("entries in the archive", count, MAX_ENTRIES)
@@ -149,7 +149,7 @@ def _check_names(names: list[str]) -> None:
 
 
 def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:
-    """Entries that share compressed bytes are how a small zip becomes a huge one; all lie before their list."""
+    """Refuse entries that overlap the list of entries, or share bytes, which is how a small zip becomes a huge one."""
     end = -1
     for entry in sorted(entries, key=lambda entry: entry.header_offset):
         if entry.header_offset < end:
@@ -160,7 +160,7 @@ def _check_overlap(entries: list[zipfile.ZipInfo], directory: int) -> None:
 
 
 def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], left: int, allowed: int) -> int:
-    """Unpack one entry to the end of a file, counting; returns its bytes."""
+    """Append an unpacked entry to a file, counting; return its number of bytes."""
     count = 0
     for chunk in _chunks(archive, entry):
         count += len(chunk)
@@ -171,7 +171,7 @@ def _copy(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, sink: IO[bytes], lef
 
 
 def _chunks(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
-    """The bytes of an entry, piece by piece."""
+    """Yield the bytes of an entry in pieces."""
     try:
         with archive.open(entry) as source:
             while chunk := source.read(_CHUNK):

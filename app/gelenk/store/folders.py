@@ -1,8 +1,8 @@
 """Durable writing of folders: complete and on disk, or not there at all.
 
-Everything is written beside, synced, and then made visible by one rename, so that a kill at any moment leaves the
-old state or the new. Writers of one root take turns by a file lock, which the system releases when a process dies;
-readers need none. What takes long, to write much or to remove it, happens in a `staging` folder without that lock.
+Everything is written beside its target, synced, and made visible by one rename, so a kill at any moment leaves the old
+state or the new one. Writers of one root take turns by a file lock, which the system releases when a process dies;
+readers need no lock. Slow work, such as writing or removing much data, happens in a `staging` folder without that lock.
 """
 
 import errno
@@ -33,8 +33,8 @@ class Stretch:
 
     Attributes:
         file: Open for reading.
-        start: Where in it the part begins, [bytes].
-        size: How long it is, [bytes].
+        start: Offset of the part in the file, [bytes].
+        size: Length of the part, [bytes].
     """
 
     file: IO[bytes]
@@ -43,11 +43,11 @@ class Stretch:
 
 
 Content: TypeAlias = bytes | Stretch
-"""What a file is to hold."""
+"""Content to write to a file."""
 
 
 def pieces(content: Content) -> Iterator[bytes]:
-    """The bytes of a content, piece by piece."""
+    """Yield the bytes of a content in pieces."""
     if isinstance(content, bytes):
         yield content
         return
@@ -59,16 +59,16 @@ def pieces(content: Content) -> Iterator[bytes]:
 
 
 def open_plain(path: Path, mode: str = "rb") -> IO[Any]:
-    """Open a file of the data folder, where a pipe in its place is not waited for.
+    """Open a regular file of the data folder, without blocking if a pipe is in its place.
 
     Raises:
-        FileNotFoundError: There is none, or a pipe, a device, a socket or a folder instead.
-        OSError: It cannot be opened.
+        FileNotFoundError: The path is missing, or is a pipe, a device, a socket or a folder.
+        OSError: The file cannot be opened.
     """
     try:
         file = open(path, mode, opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK, 0o666))  # noqa: SIM115
     except OSError as error:
-        if error.errno in {errno.ENXIO, errno.EISDIR}:  # a socket, or a pipe that nobody reads; a folder
+        if error.errno in {errno.ENXIO, errno.EISDIR}:  # a socket, or a pipe without a reader; a folder
             raise FileNotFoundError(errno.ENOENT, "it is not a plain file", str(path)) from error
         raise
     if stat.S_ISREG(os.fstat(file.fileno()).st_mode):
@@ -78,7 +78,7 @@ def open_plain(path: Path, mode: str = "rb") -> IO[Any]:
 
 
 def read_plain(path: Path) -> bytes:
-    """The content of a file of the data folder; raises as `open_plain` does."""
+    """Return the content of a file of the data folder; raises the errors of `open_plain`."""
     with open_plain(path) as file:
         content: bytes = file.read()
     return content
@@ -86,10 +86,10 @@ def read_plain(path: Path) -> bytes:
 
 @contextmanager
 def writing() -> Iterator[None]:
-    """Turn the system's refusal to write into one of ours.
+    """Turn the system's errors of writing into `StorageFailed`.
 
     Raises:
-        StorageFailed: The disk refuses to be written to; `StorageFull` where it has no room.
+        StorageFailed: The disk cannot be written to; `StorageFull` if it has no room.
     """
     try:
         yield
@@ -99,7 +99,7 @@ def writing() -> Iterator[None]:
 
 
 def why_not(root: Path) -> str | None:
-    """Why nothing can be written below `root`, which is made if missing; None where something was, and is gone."""
+    """Return why nothing can be written below `root`, which is created if missing; None if a test write succeeds."""
     try:
         with nameless(root) as file:
             file.write(bytes(_PROBE))
@@ -111,9 +111,9 @@ def why_not(root: Path) -> str | None:
 
 @contextmanager
 def nameless(root: Path | None) -> Iterator[IO[bytes]]:
-    """A file on the disk of `root` for as long as the context lasts: without a name, gone with the process too.
+    """Open an unnamed file on the disk of `root` for the duration of the context; it disappears with the process too.
 
-    Where no folder is given, it is on the disk for temporary files.
+    If no folder is given, the file is on the disk for temporary files.
 
     Raises:
         StorageFailed: See `writing`.
@@ -127,7 +127,7 @@ def nameless(root: Path | None) -> Iterator[IO[bytes]]:
 
 @contextmanager
 def exclusive(root: Path) -> Iterator[None]:
-    """Hold the right to write below `root`, which is made if missing, against every other process and thread.
+    """Lock writing below `root`, which is created if missing, against all other processes and threads.
 
     Raises:
         StorageFailed: See `writing`.
@@ -141,10 +141,10 @@ def exclusive(root: Path) -> Iterator[None]:
 
 @contextmanager
 def staging(root: Path) -> Iterator[Path]:
-    """A folder to write in, or to move there what is to go; it and what is in it are gone after the context.
+    """Create a folder for new files, or for those to be removed; the context removes it with its content.
 
-    First it removes what interrupted writers have left in `root`: a process that is killed again and again in the
-    middle fills no disk. `exclusive`, which must not be held before, is only held while that is moved into the folder.
+    It first removes what interrupted writers left in `root`, so that a process killed again and again while writing
+    does not fill the disk. Only while moving that away it holds `exclusive`, which the caller must not hold.
 
     Raises:
         StorageFailed: See `writing`.
@@ -167,26 +167,26 @@ def staging(root: Path) -> Iterator[Path]:
 
 
 def sweep(folder: Path) -> None:
-    """Remove what interrupted writers have left in a folder; to be called while holding `exclusive`."""
+    """Remove what interrupted writers left in a folder; the caller must hold `exclusive`."""
     for orphan in _orphans(folder):
         discard(orphan)
 
 
 def create_folder(root: Path, name: str, files: Mapping[str, Content]) -> None:
-    """Make `root/name` with these files (their content by relative path), all at once, while holding `exclusive`."""
+    """Create `root/name` atomically, with files given by relative path; the caller must hold `exclusive`."""
     with _beside(root) as new:
         write_tree(new, files)
         move(new, root / name)
 
 
 def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = True) -> None:
-    """Put a file in the place of the one of the same name, all at once.
+    """Replace a file, or create it, atomically.
 
     Args:
-        folder: Where it is.
-        name: Its name.
-        content: What it is to hold.
-        is_durable: Whether it is on disk when this returns; else that is left to the system.
+        folder: Folder of the file.
+        name: Name of the file.
+        content: New content.
+        is_durable: Whether the file is on disk when this returns; otherwise the system decides when to write it.
     """
     with _beside(folder) as new:
         write_tree(new, {name: content}, is_durable)
@@ -196,19 +196,19 @@ def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = Tru
 
 
 def remove_folder(root: Path, name: str) -> None:
-    """Remove `root/name`, all at once."""
+    """Remove `root/name` atomically."""
     discard(set_aside(root, name))
 
 
 def set_aside(root: Path, name: str) -> Path:
-    """Make `root/name` invisible at once, which a full disk allows too; the path is there to be discarded."""
+    """Rename `root/name` to an invisible path, which works on a full disk too; return that path for `discard`."""
     old = root / f"{_OLD}{uuid.uuid4().hex}"
     move(root / name, old)
     return old
 
 
 def move(source: Path, target: Path) -> None:
-    """Give a folder another name below the same root, on disk when this returns."""
+    """Rename a folder below the same root; the new name is on disk when this returns."""
     source.rename(target)
     _sync(target.parent)
 
@@ -223,7 +223,7 @@ def discard(path: Path) -> None:
 
 
 def write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = True) -> None:
-    """Write files below a new folder, and where wanted sync them and the folders: when all are written, it is quicker.
+    """Write files below a new folder; if durable, sync files and folders after all are written, which is faster.
 
     Raises:
         StorageFailed: See `writing`.
@@ -242,7 +242,7 @@ def write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = Tr
 
 @contextmanager
 def _beside(parent: Path) -> Iterator[Path]:
-    """A name of a folder to write in that is gone afterwards, unless it was renamed."""
+    """Yield the path of a folder to write in; it is removed afterwards, unless it was renamed."""
     new = parent / f"{_NEW}{uuid.uuid4().hex}"
     try:
         yield new
@@ -251,13 +251,13 @@ def _beside(parent: Path) -> Iterator[Path]:
 
 
 def _orphans(folder: Path) -> list[Path]:
-    """What interrupted writers have left in a folder."""
+    """Return what interrupted writers left in a folder."""
     left = [folder / name for name in os.listdir(folder) if name.startswith((_OLD, _NEW))]  # noqa: PTH208 - of thousands
     return [path for path in left if path.name.startswith(_OLD) or not _is_in_use(path)]
 
 
 def _is_in_use(new: Path) -> bool:
-    """Whether a process holds the lock in a folder of `staging`."""
+    """Return whether a process holds the lock in a `staging` folder."""
     try:
         with open_plain(new / _LOCK) as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -269,7 +269,7 @@ def _is_in_use(new: Path) -> bool:
 
 
 def _make(folder: Path) -> None:
-    """Make a folder and its parents, their names durable."""
+    """Create a folder and its parents durably."""
     if not folder.is_dir():
         _make(folder.parent)
         folder.mkdir(exist_ok=True)
@@ -277,7 +277,7 @@ def _make(folder: Path) -> None:
 
 
 def _sync(path: Path) -> None:
-    """Make the bytes of a file, or the names in a folder, durable."""
+    """Flush the bytes of a file, or the names in a folder, to disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

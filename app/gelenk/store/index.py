@@ -1,8 +1,8 @@
-"""What the list of robots and the quotas need of each uploaded robot, in one file instead of ten thousand.
+"""One file with what the list of robots and the quotas need of each uploaded robot, instead of ten thousand folders.
 
-The folders are what counts, and the file is derived from them. Who writes a robot, or reads one that the file does not
-know as it is, appends a line; the last one of a name counts, and what is no line is passed over. Which robots there
-are the folder itself says. What was lost with a killed process, or edited by hand, is found when it is examined again.
+The folders are authoritative; the file is derived from them. A process appends a line when it writes a robot, or reads
+one whose line is missing or outdated; the last line of a name counts, and invalid lines are skipped. The folder decides
+which robots exist. Lines lost with a killed process, or outdated by a manual edit, are noticed at the next check.
 """
 
 import os
@@ -25,20 +25,20 @@ from gelenk.store.records import ROBOT_FILE, Source, Stamp, read_record, stamp_o
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _FILE = ".index"
 _LOOKED_AT = 2000
-"""Robots of which each list looks whether a person has edited them; a look takes some microseconds."""
+"""Number of robots that each listing checks for manual edits; a check takes a few microseconds."""
 _SPARE_LINES = 1000
-"""Lines that are outdated may be as many as there are robots, and these."""
+"""Number of outdated lines allowed beyond the number of robots before the file is rewritten."""
 
 
 class Entry(NamedTuple):
-    """An uploaded robot as the index tells of it.
+    """The index entry of an uploaded robot.
 
     Attributes:
         name: The robot's name.
-        stamp: Of its `robot.json`.
-        owner: Which client keeps it.
-        kept_bytes: Of its files, as they count for the quota.
-        summary: As the list of robots has it, in JSON.
+        stamp: Stamp of its `robot.json`.
+        owner: Client that keeps it.
+        kept_bytes: Size of its files as counted for the quota, [bytes].
+        summary: Its JSON in the list of robots.
     """
 
     name: str
@@ -49,11 +49,11 @@ class Entry(NamedTuple):
 
 
 class Index:
-    """The uploaded robots as the list tells of them; safe to use from many threads and processes.
+    """An index of the uploaded robots; safe to use from many threads and processes.
 
     Args:
-        uploads: Their folder.
-        reserved: Names that none of them may have.
+        uploads: Folder of the uploaded robots.
+        reserved: Names that no uploaded robot may have.
     """
 
     def __init__(self, uploads: Path, reserved: Collection[str]) -> None:
@@ -63,7 +63,7 @@ class Index:
         self._inode = self._position = self._lines = self._next = 0
 
     def names(self) -> list[str]:
-        """What may be the name of an uploaded robot; a file may have such a name too."""
+        """Return the names in the folder that an uploaded robot may have; some may belong to files."""
         try:
             names = os.listdir(self._uploads)  # noqa: PTH208 - there may be thousands
         except (FileNotFoundError, NotADirectoryError):
@@ -71,16 +71,16 @@ class Index:
         return [name for name in names if NAME.fullmatch(name) and name not in self._reserved]
 
     def entries(self, looked_at: int | None = _LOOKED_AT) -> tuple[list[Entry], list[tuple[str, RobotFile]]]:
-        """The uploaded robots by name, and those that must be loaded to say what the list has of them.
+        """Return the known robots, sorted by name, and those that must be loaded before they can be listed.
 
         Folders that are not robots are left out.
 
         Args:
-            looked_at: How many known ones are checked for edits; None for all. The next list
-                goes on from there.
+            looked_at: Number of known robots that are checked for edits; None for all. The next call continues from
+                there.
         """
         with self._lock:
-            # In this order: a robot that is added in between is not listed, and read by the next one.
+            # In this order, a robot added in between is left out here and read by the next call.
             names = sorted(self.names())
             self._follow()
             self._known = {name: self._known[name] for name in names if name in self._known}
@@ -93,7 +93,7 @@ class Index:
             return list(self._known.values()), others
 
     def note(self, name: str, file: RobotFile) -> None:
-        """Tell the others of a robot that was just written; to be called while holding `folders.exclusive`."""
+        """Record a robot that was just written, for all processes; the caller must hold `folders.exclusive`."""
         with self._lock:
             stamp = self._stamp(name)
             if stamp is None:
@@ -108,7 +108,7 @@ class Index:
                 folders.replace_file(self._uploads, _FILE, content, is_durable=False)
 
     def _forget_edited(self, count: int | None) -> None:
-        """Check the next few known robots for changes since they were read."""
+        """Check the next few known robots and drop those that have changed since they were read."""
         turn = list(self._known)
         begin = self._next % len(turn) if turn and count is not None else 0
         self._next = begin + (count or 0)
@@ -132,7 +132,7 @@ class Index:
         return record.file if stamp is None or record.file.default_chain is None else _entry(name, stamp, record.file)
 
     def _follow(self) -> None:
-        """Read what has been appended since the last time; all of it where another file has taken its place."""
+        """Read the lines appended since the last call, or the whole file if it has been replaced."""
         try:
             with folders.open_plain(self._uploads / _FILE) as file:
                 status = os.fstat(file.fileno())
@@ -152,7 +152,7 @@ class Index:
                 self._known[entry.name] = entry
 
     def _append(self, entries: Iterable[Entry]) -> None:
-        """Add lines; a disk that takes none costs time alone."""
+        """Append lines; if the disk refuses them, this only costs time later."""
         content = b"".join(map(_as_line, entries))
         if content:
             with suppress(OSError), folders.open_plain(self._uploads / _FILE, "ab") as file:
@@ -160,7 +160,7 @@ class Index:
 
 
 def summary(name: str, source: Source, file: RobotFile) -> dict[str, Any]:
-    """A robot in the list of robots; its chain is None where `robot.json` does not name it."""
+    """Return a robot's entry in the list of robots; its chain is None if `robot.json` does not name one."""
     chain = None if file.default_chain is None else file.default_chain.model_dump()
     told = {"name": name, "description": file.description, "source": source, "format": file.format}
     return told | {"default_chain": chain}
@@ -171,7 +171,7 @@ def _entry(name: str, stamp: Stamp, file: RobotFile) -> Entry:
 
 
 def _as_line(entry: Entry) -> bytes:
-    """Fields and their checksum between tabs, which JSON has none of; it also ends one before that is torn."""
+    """Join the fields and their checksum by tabs, which JSON never contains; a line break before ends any torn line."""
     stamp = b"%d %d %d" % entry.stamp
     fields = (entry.name.encode(), stamp, orjson.dumps(entry.owner), b"%d" % entry.kept_bytes, entry.summary)
     line = b"\t".join(fields)
@@ -179,7 +179,7 @@ def _as_line(entry: Entry) -> bytes:
 
 
 def _from_line(line: bytes) -> Entry:
-    """Raises ValueError where it is damaged."""
+    """Parse a line; raises ValueError if it is damaged."""
     fields, _, checksum = line.rpartition(b"\t")
     if int(checksum) != zlib.crc32(fields):
         raise ValueError("it is damaged")

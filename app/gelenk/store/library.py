@@ -1,8 +1,7 @@
-"""All robots by name: the catalogue, and those that were uploaded or dropped into the data folder.
+"""All robots by name: the catalogue, and robots uploaded or added by hand to the data folder.
 
-Every process asks the folder whether a robot has changed, each time it is used; that costs two `stat` calls and makes
-an upload, or an edit by hand, visible to all of them at once. Robots are loaded when first needed and kept within a
-bound of memory.
+Every process checks whether a robot's folder has changed, each time the robot is used. That costs two `stat` calls and
+makes uploads and manual edits visible to all at once. Robots are loaded when first needed, within a memory limit.
 """
 
 import difflib
@@ -43,31 +42,31 @@ from gelenk.store.meshes import MeshFiles, flat
 from gelenk.store.records import ROBOT_FILE, LoadedRobot, Record, Source, describe, load, mesh_file, read_record
 
 _MEMORY = 512 * 1024 * 1024
-"""Estimated bytes of loaded robots kept; Pinocchio's work space grows with the cube of the joints."""
+"""Memory for loaded robots, in estimated bytes; Pinocchio's workspace grows with the cube of the joints."""
 _VERSION = re.compile(r"files-[0-9a-f]{12}")
 _MODEL_NAMES = {"urdf": "robot.urdf", "dh": "dh.json"}
 _TICK = 2_000_000_000
 """Nanoseconds within which two changes of a folder may have the same time."""
 _ATTEMPTS = 3
-"""A folder may be replaced between the reading of its record and of its model."""
+"""Attempts to load a robot, since its folder may be replaced between the reading of its record and of its model."""
 
 logger = logging.getLogger("gelenk")
 
 
 @dataclass(frozen=True, slots=True)
 class RobotUpload:
-    """What someone wants to be kept as a robot.
+    """A robot to be stored.
 
     Attributes:
         name: The robot's name.
-        format: What `model` is.
-        model: The bytes of the URDF or of the DH table as JSON.
+        format: Format of `model`.
+        model: Bytes of the URDF, or of the DH table as JSON.
         description: One sentence for people.
         default_chain: Chain of calls that name none.
-        meshes: What mesh files hold, by relative path.
-        urdf_folder: Where the URDF stood among them.
+        meshes: Contents of mesh files, by relative path.
+        urdf_folder: Folder of the URDF among them.
         strict: Whether a URDF with harmless faults is refused; not stored.
-        owner: Which client keeps it, counted against its quota.
+        owner: Client that keeps it; it counts against this client's quota.
     """
 
     name: str
@@ -83,11 +82,11 @@ class RobotUpload:
 
 @dataclass(frozen=True, slots=True)
 class Quota:
-    """What one client may keep.
+    """Storage limits of one client.
 
     Attributes:
-        robots: How many uploaded ones.
-        robot_bytes: Of all of them.
+        robots: Largest number of uploaded robots.
+        robot_bytes: Largest total size of their files, [bytes].
     """
 
     robots: int = 20_000
@@ -99,11 +98,11 @@ class Library:
 
     Args:
         catalogue: Folder of the robots that come with the project.
-        uploads: Folder of all others; made when first written to.
-        quota: How much of these each client may keep.
+        uploads: Folder of all other robots; created when first written to.
+        quota: Storage limits of each client.
 
     Attributes:
-        uploads: The latter.
+        uploads: Folder of the uploaded robots.
     """
 
     def __init__(self, catalogue: Path, uploads: Path, quota: Quota = Quota()) -> None:
@@ -115,9 +114,9 @@ class Library:
         self._lock = threading.Lock()
 
     def prepare(self) -> None:
-        """Remove what an interrupted writer may have left; a folder that cannot be written to is left as it is.
+        """Remove what interrupted writers left, and refresh the index; a read-only folder stays unchanged.
 
-        That may be much: others write meanwhile.
+        This may take long: others can write meanwhile.
         """
         if not self.uploads.is_dir():
             return
@@ -137,9 +136,9 @@ class Library:
         return list(self._catalogue)
 
     def summaries(self) -> list[bytes]:
-        """All robots as the list has them in JSON, the catalogue's first, each part by name; what is none is left out.
+        """Return each robot's JSON in the list: the catalogue first, each part by name, invalid folders left out.
 
-        Of an uploaded one that was edited by hand this may be what it was: each list looks at some of them again.
+        A robot edited by hand may appear as it was before: each call checks only some of the robots for edits.
         """
         entries, others = self._index.entries()
         told = {entry.name: entry.summary for entry in entries}
@@ -150,7 +149,7 @@ class Library:
         return [*filter(None, ours), *told.values()]
 
     def _summary(self, name: str, source: Source, file: RobotFile) -> bytes | None:
-        """A robot in the list; None for a folder that is not a robot (a request by name gives the reason)."""
+        """Return a robot's JSON in the list; None if its folder is not a robot (a request by name gives the reason)."""
         told = summary(name, source, file)
         if told["default_chain"] is None:
             try:
@@ -161,10 +160,10 @@ class Library:
         return orjson.dumps(told)
 
     def _check_quota(self, new: RobotFile, old: RobotFile | None = None) -> None:
-        """Refuse what its owner has no room for; a robot of the same owner makes room for what takes its place.
+        """Check that the owner's quota has room for a robot; one that it replaces, of the same owner, no longer counts.
 
         Raises:
-            QuotaExceeded: How much there is, and may be.
+            QuotaExceeded: The owner would have too many robots or bytes.
         """
         if new.owner is None:
             return
@@ -183,9 +182,10 @@ class Library:
                 raise QuotaExceeded(new.owner, what, used, more, allowed)
 
     def state(self) -> int | None:
-        """A number that changes whenever a robot is uploaded, replaced or removed; None as long as it may change again.
+        """Return a number that changes when a robot is added, replaced or removed; None while it could miss a change.
 
-        That is the time of the folder, which whoever writes makes and removes a folder in; its clock may tick slowly.
+        It is the folder's time of change, since every writer creates and removes a folder in it; its clock may be
+        coarse.
         """
         try:
             changed = self.uploads.stat().st_mtime_ns
@@ -194,7 +194,7 @@ class Library:
         return changed if abs(time.time_ns() - changed) > _TICK else None
 
     def loaded(self, name: str) -> LoadedRobot | None:
-        """A robot if it is in memory and up to date; quick enough for an event loop."""
+        """Return a robot if it is in memory and up to date, else None; fast enough for an event loop."""
         found = self._loaded.get(name)
         if found is None or not (found.record.source == "catalogue" or found.record.is_current()):
             return None
@@ -204,15 +204,15 @@ class Library:
         return found
 
     def is_ours(self, name: str) -> bool:
-        """Whether a robot comes with the project."""
+        """Return whether a robot comes with the project."""
         return name in self._catalogue
 
     def get(self, name: str) -> LoadedRobot:
-        """A robot, loaded if need be.
+        """Return a robot, and load it if necessary.
 
         Raises:
-            UnknownRobot: There is none of this name.
-            InvalidInput: A folder dropped in by hand is not a robot.
+            UnknownRobot: No robot has this name.
+            InvalidInput: A folder added by hand is not a robot.
         """
         found = self.loaded(name)
         for _ in range(_ATTEMPTS):
@@ -228,11 +228,11 @@ class Library:
         return found
 
     def mesh(self, name: str, path: str) -> Path:
-        """A mesh file of a robot.
+        """Return the path of a robot's mesh file.
 
         Raises:
-            UnknownRobot: There is no such robot.
-            UnknownMesh: It has no such file.
+            UnknownRobot: No robot has this name.
+            UnknownMesh: The robot has no such file.
         """
         file = mesh_file(self.get(name), path)
         if file is None:
@@ -240,16 +240,17 @@ class Library:
         return file
 
     def add(self, upload: RobotUpload) -> bool:
-        """Keep a new robot; when this returns it is on disk, and every process sees it.
+        """Store a new robot; when this returns, it is on disk and visible to every process.
 
         Returns:
-            True if it is new, False if the very same was there already.
+            True if the robot is new, False if an identical one is already stored.
 
         Raises:
-            InvalidName: The name is none.
-            RobotExists: The name is already in use.
-            InvalidInput: It does not describe a robot.
-            StorageFailed: It cannot be written.
+            InvalidName: The name is invalid.
+            RobotExists: Another robot uses the name.
+            InvalidInput: The upload does not describe a robot.
+            QuotaExceeded: The owner would have too many robots or bytes.
+            StorageFailed: The robot cannot be written.
         """
         if not NAME.fullmatch(upload.name):
             raise InvalidName(upload.name)
@@ -274,13 +275,14 @@ class Library:
         return True
 
     def replace(self, upload: RobotUpload) -> None:
-        """Put another robot in the place of an uploaded one: the old one or the new one is there at any moment.
+        """Replace an uploaded robot; at any moment, either the old one or the new one exists.
 
         Raises:
-            UnknownRobot: There is none of this name.
-            ReadOnlyRobot: It belongs to the catalogue.
-            InvalidInput: It does not describe a robot.
-            StorageFailed: It cannot be written.
+            UnknownRobot: No robot has this name.
+            ReadOnlyRobot: The robot belongs to the catalogue.
+            InvalidInput: The upload does not describe a robot.
+            QuotaExceeded: The owner would have too many bytes.
+            StorageFailed: The robot cannot be written.
         """
         folder = self._writable(upload.name)
         file, version, contents = _files(upload)
@@ -304,9 +306,9 @@ class Library:
         """Remove an uploaded robot.
 
         Raises:
-            UnknownRobot: There is none of this name.
-            ReadOnlyRobot: It belongs to the catalogue.
-            StorageFailed: It cannot be removed.
+            UnknownRobot: No robot has this name.
+            ReadOnlyRobot: The robot belongs to the catalogue.
+            StorageFailed: The robot cannot be removed.
         """
         self._writable(name)
         with folders.exclusive(self.uploads):
@@ -317,11 +319,11 @@ class Library:
             self._loaded.pop(name, None)
 
     def _folders(self) -> list[Path]:
-        """The folders that may be uploaded robots."""
+        """Return the folders that may be uploaded robots."""
         return [path for name in sorted(self._index.names()) if (path := self.uploads / name).is_dir()]
 
     def _move_stale_versions(self, folder: Path, aside: Path) -> None:
-        """Move versions away that a killed replacement wrote, or did not come to remove."""
+        """Move versions away that a killed replacement wrote, or had not yet removed."""
         try:
             record = read_record(folder, "uploaded")
         except (KinematicsError, OSError):
@@ -332,7 +334,7 @@ class Library:
                     path.rename(aside / uuid.uuid4().hex)
 
     def _writable(self, name: str) -> Path:
-        """The folder of an uploaded robot; checked before the lock is taken, and again while it is held."""
+        """Return the folder of an uploaded robot; called before the lock is taken, and again while it is held."""
         if name in self._catalogue:
             raise ReadOnlyRobot(name)
         folder = self.uploads / name
@@ -361,7 +363,7 @@ class Library:
 
 
 def _may_be_swept(folder: Path) -> bool:
-    """Whether there is more in a robot's folder than one version and what a person has put there."""
+    """Return whether a robot's folder holds hidden files or more than one version."""
     with suppress(OSError):
         names = os.listdir(folder)  # noqa: PTH208 - of each robot at each start
         return any(name.startswith(".") for name in names) or sum(map(bool, map(_VERSION.fullmatch, names))) > 1
@@ -369,15 +371,15 @@ def _may_be_swept(folder: Path) -> bool:
 
 
 def _weight(loaded: LoadedRobot) -> int:
-    """Estimated bytes in memory: chains, and about 37 MB of Pinocchio's work space at 100 joints."""
+    """Estimate the memory of a robot, [bytes]: chains, and about 37 MB of Pinocchio's workspace at 100 joints."""
     return 2_000_000 + 37 * int(loaded.robot.model.nv) ** 3
 
 
 def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
-    """The `robot.json` of an upload, after the robot has been built once, and the folder of its other files.
+    """Build an upload's robot once; return its `robot.json`, and the folder and contents of its other files.
 
-    Each version has a folder of its own, so that a replacement never touches what the present `robot.json` names. Of
-    the meshes those are kept that the description uses, without the folders around them.
+    Each version has its own folder, so that a replacement never touches files named in the current `robot.json`. Only
+    the meshes that the description uses are kept, without the folders around them.
     """
     description, _, _ = describe(upload.name, upload.format, upload.model, upload.strict)
     ends = upload.default_chain
@@ -407,7 +409,7 @@ def _as_bytes(file: RobotFile) -> bytes:
 
 
 def _digest(upload: RobotUpload) -> str:
-    """SHA-256 of the model's bytes and of each mesh's path and bytes."""
+    """Return the SHA-256 of the model's bytes and of each mesh's path and bytes."""
     digest = hashlib.sha256(upload.model)
     for path in sorted(upload.meshes):
         digest.update(f"\0{path}\0".encode())
@@ -419,10 +421,10 @@ def _digest(upload: RobotUpload) -> str:
 
 
 def _stands(folder: Path, wanted: RobotFile) -> bool:
-    """Whether the very robot is there already: the names of files apart, their digest included.
+    """Return whether an identical robot is stored: same digest and settings, whatever the names of its files.
 
     Raises:
-        RobotExists: Another one is.
+        RobotExists: Another robot is stored there.
     """
     if folder.exists() and not _holds(folder, wanted):
         raise RobotExists(folder.name)
@@ -430,7 +432,7 @@ def _stands(folder: Path, wanted: RobotFile) -> bool:
 
 
 def _file_of(folder: Path) -> RobotFile | None:
-    """What a folder tells of itself, where it can be read."""
+    """Return the contents of a folder's `robot.json`; None if it cannot be read."""
     try:
         record = read_record(folder, "uploaded")
     except (KinematicsError, OSError):

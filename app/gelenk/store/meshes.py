@@ -1,6 +1,6 @@
-"""Which file a mesh's name in a description means, and how an archive's files are named on disk.
+"""Finds the file that a mesh name in a description refers to, and names an archive's files on disk.
 
-It is not known from which folder on a package was packed: the file counts whose path has the same end as the name.
+The folder from which a package was packed is unknown, so a file matches if its path ends like the mesh name.
 """
 
 import os.path
@@ -14,29 +14,29 @@ from gelenk.model.errors import listed, meshes_are
 
 MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae"})
 COMPANION_SUFFIXES = frozenset({".mtl", ".png", ".jpg", ".jpeg"})
-"""Materials and pictures, which OBJ and DAE refer to."""
+"""Materials and images, which OBJ and DAE files refer to."""
 KEPT_SUFFIXES = MESH_SUFFIXES | COMPANION_SUFFIXES
 _MOST_FOLDERS = 100
-"""Parts of a name that are looked for: more do not fit into an archive's path of 200 bytes."""
+"""Largest number of a name's parts that are compared: an archive's path of 200 bytes has no more."""
 
 
 def flat(path: str) -> str:
-    """A path of an archive as the name of a file: its folders are none on disk. No path of an archive has a colon."""
+    """Return an archive's path as a single file name, since its folders are not kept; such paths contain no colon."""
     return path.replace("/", ":")
 
 
 def ends(name: str) -> list[str]:
-    """All ends of a name, the longest first: `a/b/c`, `b/c`, `c`."""
+    """Return all ends of a name, the longest first: `a/b/c`, `b/c`, `c`."""
     parts = name.split("/")[-_MOST_FOLDERS:]
     return ["/".join(parts[start:]) for start in range(len(parts))]
 
 
 class MeshFiles:
-    """Mesh files by the ends of their paths.
+    """Mesh files, found by the ends of their paths.
 
     Args:
-        paths: Of the files, relative.
-        urdf_folder: Where the description stands among them, "" at the top.
+        paths: Relative paths of the files.
+        urdf_folder: Folder of the description among them, "" at the top.
     """
 
     def __init__(self, paths: Collection[str], urdf_folder: str) -> None:
@@ -55,11 +55,11 @@ class MeshFiles:
                     nearest[1].append(path)
 
     def find(self, reference: str) -> list[str]:
-        """The file that a mesh's name means; none where it is missing, several where they fit alike.
+        """Return the file that a mesh name refers to; none if it is missing, several if they match equally well.
 
-        A relative name starts at the URDF's folder. Else, and for `package://name/folder/file`, all of it must be the
-        end of a path, or all but the package's name; of several such files those count that are nearest to the URDF.
-        A package may also have been packed from a folder inside it: then a whole path is an end of the name.
+        A relative name starts at the URDF's folder. Failing that, and for `package://name/folder/file`, the whole name,
+        or all but the package's name, must be the end of a path; of several such files, those nearest to the URDF
+        count. A package may also have been packed from a folder inside it: then a whole path is an end of the name.
         """
         scheme, is_address, name = reference.partition("://")
         if not is_address:
@@ -77,9 +77,9 @@ class MeshFiles:
         return []
 
     def used(self, references: Iterable[str]) -> set[str]:
-        """The files that these names may mean, with the materials and pictures that OBJ and DAE among them may need.
+        """Return the files that these names may refer to, with materials and images that OBJ and DAE files may need.
 
-        Those are all below the folder around the mesh's own, as nothing looks into a mesh.
+        Those are all below the parent of the mesh's folder, because meshes are not parsed.
         """
         meshes = {path for reference in references for path in self.find(reference)}
         around = tuple({_around(path) for path in meshes if not path.lower().endswith(".stl")})
@@ -88,10 +88,10 @@ class MeshFiles:
 
 
 def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
-    """What is wrong with the meshes that a description names, in one sentence a kind.
+    """Return warnings of the meshes that a description names, one sentence for each kind of fault.
 
     Args:
-        found: What `MeshFiles.find` has found for each name.
+        found: Result of `MeshFiles.find` for each name.
     """
     kinds = {name: PurePosixPath(name).suffix[1:] for name in found}
     unread = {name: kind or "no ending" for name, kind in kinds.items() if f".{kind.lower()}" not in MESH_SUFFIXES}
@@ -111,5 +111,5 @@ def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
 
 
 def _around(path: str) -> str:
-    """The folder around that of a file, with a slash at its end; "" at the top."""
+    """Return the parent of a file's folder, with a slash at its end; "" at the top."""
     return "".join(f"{part}/" for part in path.split("/")[:-2])

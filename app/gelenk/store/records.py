@@ -1,7 +1,7 @@
 """Reads a robot's folder: its record, its files, and the robot that they describe.
 
-A folder holds one URDF or one `dh.json`, and a `robot.json` about it. A folder dropped in by hand may do without
-the `robot.json`: then its one `*.urdf` or its `dh.json` is the robot.
+A folder holds one URDF or one `dh.json`, and a `robot.json` about it. A folder added by hand may lack the `robot.json`:
+then its only `*.urdf` or its `dh.json` is the robot.
 """
 
 import importlib.metadata
@@ -35,16 +35,16 @@ ROBOT_FILE = "robot.json"
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """A folder as its `robot.json` tells of it.
+    """A robot's folder as its `robot.json` describes it.
 
     Attributes:
-        name: The robot's name: the folder's.
-        source: Which of the two roots the folder is in.
+        name: Name of the robot, and of the folder.
+        source: Which of the two roots contains the folder.
         file: The contents of `robot.json`.
-        file_path: Where that is, or would be.
-        model_path: The URDF or DH file.
-        mesh_root: Where mesh files are looked up, if anywhere.
-        signature: Of both files, when they were read.
+        file_path: Path of `robot.json`, even if that is missing.
+        model_path: Path of the URDF or DH file.
+        mesh_root: Folder to search for mesh files, if any.
+        signature: Stamps of both files when they were read.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Record:
     signature: Signature
 
     def is_current(self) -> bool:
-        """Whether neither file has changed since; two `stat` calls, quick enough for an event loop."""
+        """Return whether both files are unchanged; two `stat` calls, fast enough for an event loop."""
         return self.signature == _signature(self.file_path, self.model_path)
 
 
@@ -65,11 +65,11 @@ class LoadedRobot:
     """A record with the robot that it describes.
 
     Attributes:
-        record: Where it came from.
-        robot: Ready for computation.
-        urdf: The description as text: as uploaded, or as written from the DH table.
-        table: The DH table, where the robot is one.
-        found: Of each mesh that the description names the files below `mesh_root` that it may mean.
+        record: Record from which the robot was loaded.
+        robot: The robot, ready for computation.
+        urdf: The description as URDF text: as uploaded, or as written from the DH table.
+        table: The DH table; None for a URDF.
+        found: Files below `mesh_root` that each mesh name of the description may refer to.
     """
 
     record: Record
@@ -80,12 +80,12 @@ class LoadedRobot:
 
     @property
     def meshes(self) -> dict[str, str | None]:
-        """The mesh file of each mesh that the description names, below `mesh_root`; None where it is not clear."""
+        """File of each mesh of the description, below `mesh_root`; None if it is missing or ambiguous."""
         return {mesh: paths[0] if len(paths) == 1 else None for mesh, paths in self.found.items()}
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What is odd about the description, which meshes are missing, and what was not kept of an archive."""
+        """Oddities of the description, missing meshes, and the number of an archive's files that were not stored."""
         left_out = self.record.file.left_out
         unused = (
             f"{counted(left_out, 'file')} of the archive, meshes or pictures that nothing refers to, were not stored"
@@ -94,10 +94,10 @@ class LoadedRobot:
 
 
 def read_record(folder: Path, source: Source) -> Record | None:
-    """Read a folder's record; None where there is no such folder, or nothing in it that could be a robot.
+    """Read a folder's record; return None if the folder is missing or holds nothing that could be a robot.
 
     Raises:
-        InvalidRobotFolder: Its `robot.json` is not one, leads out of the folder, or nothing here can be read.
+        InvalidRobotFolder: Its `robot.json` is invalid or leads out of the folder, or a file cannot be read.
         FileNotFoundError: The model file is missing; also while the folder is being replaced.
     """
     try:
@@ -136,10 +136,10 @@ def _read_record(folder: Path, source: Source) -> Record | None:
 
 
 def load(record: Record) -> LoadedRobot:
-    """The robot that a record describes.
+    """Load the robot that a record describes.
 
     Raises:
-        FileNotFoundError: The record has been replaced meanwhile.
+        FileNotFoundError: The record has been replaced in the meantime.
         InvalidInput: The file does not describe a robot.
         UnknownFrame: The default chain names a frame that the robot does not have.
     """
@@ -153,9 +153,9 @@ def load(record: Record) -> LoadedRobot:
 
 
 def describe(name: str, format_: str, content: bytes, strict: bool = False) -> tuple[Description, str, DhTable | None]:
-    """The description that a model file holds, as text too, and the table where it is one.
+    """Return the description in a model file, the same as URDF text, and the DH table if the file holds one.
 
-    A table is written as URDF and read like any other: one path for all robots. `strict` is that of `read_urdf`.
+    A table is written as URDF and read like any other, so all robots use one code path; see `read_urdf` for `strict`.
 
     Raises:
         InvalidInput: The file does not describe a robot.
@@ -180,9 +180,9 @@ def describe(name: str, format_: str, content: bytes, strict: bool = False) -> t
 
 
 def mesh_file(loaded: LoadedRobot, path: str) -> Path | None:
-    """The file of the robot at a path below its meshes: that of the list, or `name/folder/file` of a `package://`.
+    """Return the robot's file at a path below its meshes: as listed, or `name/folder/file` of a `package://` name.
 
-    It is compressed where its name ends in `.gz` and the path does not.
+    The file is compressed if its name ends in `.gz` and the path does not.
     """
     root = loaded.record.mesh_root
     if root is None:
@@ -192,13 +192,13 @@ def mesh_file(loaded: LoadedRobot, path: str) -> Path | None:
 
 
 def package_data() -> Path:
-    """The robots of example-robot-data, where the package is installed."""
+    """Return the folder of robots in the installed package example-robot-data."""
     distribution = importlib.metadata.distribution("example-robot-data")
     return Path(str(distribution.locate_file("cmeel.prefix/share/example-robot-data")))
 
 
 def stamp_of(path: Path | str) -> Stamp | None:
-    """What changes with a file; None where there is no such file, or something that is none."""
+    """Return values that change with a file: time [ns], inode and size [bytes]; None if it is not a regular file."""
     try:
         status = os.stat(path)  # noqa: PTH116 - on the path of every call
     except (FileNotFoundError, NotADirectoryError):
@@ -222,7 +222,7 @@ def _robot_file(path: Path) -> RobotFile:
 
 
 def _without_robot_file(folder: Path) -> RobotFile | None:
-    """What a folder tells of itself by its one URDF or its `dh.json`."""
+    """Infer the contents of `robot.json` from a folder's URDF or `dh.json`; None unless it holds exactly one."""
     models = [path for path in (*folder.glob("*.urdf"), *folder.glob("dh.json")) if path.is_file()]
     if len(models) != 1:
         return None
@@ -230,14 +230,14 @@ def _without_robot_file(folder: Path) -> RobotFile | None:
 
 
 def _found_meshes(record: Record, references: tuple[str, ...]) -> dict[str, list[str]]:
-    """The files below the mesh root that each of the meshes may mean."""
+    """Return the files below the mesh root that each mesh name may refer to."""
     root, urdf_folder = record.mesh_root, record.file.urdf_folder
     if root is None:
         return {reference: [] for reference in references}
     if record.source == "uploaded":
         files = MeshFiles(_files_below(root), urdf_folder)
         return {mesh: [path for path in files.find(mesh) if _file_below(root, path)] for mesh in references}
-    # A package holds the meshes of many robots, all where their names say: only these are looked for.
+    # A package holds the meshes of many robots at the paths that their names give, so only these are checked.
     found = {}
     for mesh in references:
         _, is_address, name = mesh.partition("://")
@@ -247,19 +247,19 @@ def _found_meshes(record: Record, references: tuple[str, ...]) -> dict[str, list
 
 
 def _files_below(root: Path) -> list[str]:
-    """The paths of all meshes, materials and pictures below a folder, compressed or not, as an archive has them."""
+    """Return the archive paths of all meshes, materials and images below a folder, compressed or not."""
     names = (os.path.relpath(os.path.join(folder, name), root) for folder, _, names in os.walk(root) for name in names)  # noqa: PTH118
     found = {name.removesuffix(".gz") for name in names}
     return [path.replace(":", "/") for path in found if PurePosixPath(path).suffix.lower() in KEPT_SUFFIXES]
 
 
 def _file_below(root: Path, path: str) -> Path | None:
-    """The mesh, material or picture at a path that stays below a folder, if there is one."""
+    """Return the mesh, material or image at a path below a folder; None if it is missing or outside the folder."""
     if PurePosixPath(path).suffix.lower() not in KEPT_SUFFIXES:
         return None
     try:
         candidates = root / path, root / flat(path), root / f"{path}.gz"
         file = next(filter(Path.is_file, candidates), root).resolve()
         return file if file.is_relative_to(root.resolve()) and file.is_file() else None
-    except (OSError, ValueError):  # a name that no file system takes
+    except (OSError, ValueError):  # not a valid file name
         return None
