@@ -1,9 +1,9 @@
-"""What the tip can do within the limits of each joint: the polytopes that ellipsoids stand in for.
+"""Polytopes of tip velocities and forces within the joint limits, which ellipsoids only approximate.
 
-Velocities {Jq̇ : |q̇_i| ≤ q̇max_i} are a zonotope, a sum of segments, one a joint. Forces {F : |J_iᵀF| ≤ τmax_i}, whose
-torques no joint exceeds, are an intersection of strips. Both are symmetric about zero. Everything here is exact and in
-the coordinates of range(J), where J of shape (r, n) has full rank r ≤ 3: the facets of a zonotope are parallel to r - 1
-of its segments, and a linear programme over strips has its optimum where r of them are tight [Ziegler1995].
+Velocities {Jq̇ : |q̇_i| ≤ q̇max_i} form a zonotope, a sum of segments, one per joint. Forces {F : |J_iᵀF| ≤ τmax_i},
+whose torques are within the limits, form an intersection of strips. Both are symmetric about zero. All results are
+exact, in coordinates of range(J), where J of shape (r, n) has full rank r ≤ 3: each facet of a zonotope is parallel to
+r - 1 of its segments, and a linear programme over strips has its optimum where r of them are tight [Ziegler1995].
 """
 
 import math
@@ -15,27 +15,27 @@ import numpy as np
 from gelenk.model.arrays import Array, Flags
 
 _PARALLEL = 1e-12
-"""Sine of the angle, or determinant of unit vectors, below which directions are taken as dependent."""
+"""Sine of the angle, or determinant of unit vectors, below which directions count as dependent."""
 _NEXT_TO_NOTHING = 1e-14
-"""Share of the longest column below which one is rounding."""
+"""A column shorter than this share of the longest is rounding."""
 _ON = 1e-9
-"""By how much of a strip's width a vertex may be beyond it, being computed."""
+"""Tolerance for rounding of a vertex outside a strip, as a share of its half-width."""
 
 Vertices: TypeAlias = list[list[float]]
 
 
 def subsets(joints: int, rank: int) -> int:
-    """How many sets of joints an exact answer goes through."""
+    """Return the number of sets of joints that an exact computation examines."""
     return math.comb(joints, rank)
 
 
 def largest_velocities(J: Array, limits: Array, directions: Array) -> Array:
-    """Largest speed along each direction with no other component: where the ray leaves the zonotope.
+    """Compute the largest speed purely along each direction: where the ray leaves the zonotope.
 
     Args:
-        J: In coordinates of its range; shape (r, n), r ≥ 1.
+        J: Jacobian in coordinates of its range; shape (r, n), r ≥ 1.
         limits: q̇max > 0; shape (n,).
-        directions: Unit vectors of these coordinates; shape (D, r).
+        directions: Unit vectors in these coordinates; shape (D, r).
 
     Returns:
         Speeds; shape (D,).
@@ -47,17 +47,17 @@ def largest_velocities(J: Array, limits: Array, directions: Array) -> Array:
 
 
 def largest_velocity_components(J: Array, limits: Array, directions: Array) -> Array:
-    """Largest component along each direction, whatever the others: Σ q̇max_i |J_iᵀu|, the support function; (D,)."""
+    """Compute the largest velocity component along each direction: the support function Σ q̇max_i |J_iᵀu|; (D,)."""
     return cast(Array, np.abs(directions @ J) @ limits)
 
 
 def largest_forces(J: Array, limits: Array, directions: Array) -> Array:
-    """Largest force along each direction with no other component, NaN where no joint feels it; shape (D,).
+    """Compute the largest force purely along each direction, NaN where it loads no joint; shape (D,).
 
     Args:
-        J: As above.
+        J: Jacobian in coordinates of its range; shape (r, n), r ≥ 1.
         limits: τmax > 0; shape (n,).
-        directions: Unit vectors; shape (D, r).
+        directions: Unit vectors in these coordinates; shape (D, r).
     """
     torques = np.abs(directions @ J)
     felt = torques > _PARALLEL * np.linalg.norm(J, axis=0)
@@ -66,9 +66,9 @@ def largest_forces(J: Array, limits: Array, directions: Array) -> Array:
 
 
 def largest_force_components(J: Array, limits: Array, directions: Array) -> Array:
-    """Largest component along each direction of any force within the limits; shape (D,).
+    """Compute the largest component along each direction of any force within the limits; shape (D,).
 
-    max uᵀF over |J_iᵀF| ≤ τmax_i is by duality the smallest Σ τmax_i |λ_i| with Jλ = u, and that is reached where all
+    By duality, max uᵀF over |J_iᵀF| ≤ τmax_i is the smallest Σ τmax_i |λ_i| with Jλ = u, which is attained where all
     but r of the λ_i are zero.
     """
     r, n = J.shape
@@ -85,7 +85,7 @@ def largest_force_components(J: Array, limits: Array, directions: Array) -> Arra
 
 
 def velocity_polygon(J: Array, limits: Array) -> Array:
-    """Vertices of the zonotope of a planar J, anticlockwise; shape (2, n) → (V, 2), a segment's two ends if flat."""
+    """Compute the vertices of the zonotope of a planar J, anticlockwise (its two ends if flat); (2, n) → (V, 2)."""
     segments = (J * limits).T[_felt(J)]
     below = (segments[:, 1] < 0.0) | ((segments[:, 1] == 0.0) & (segments[:, 0] < 0.0))
     segments[below] *= -1.0
@@ -95,7 +95,7 @@ def velocity_polygon(J: Array, limits: Array) -> Array:
             merged[-1] = merged[-1] + segment
         else:
             merged.append(segment)
-    # The first and the last may be parallel too, at angles of 0 and π.
+    # The first and the last segment may be parallel too, at angles 0 and π.
     if len(merged) > 1 and _sine(merged[0], merged[-1]) < _PARALLEL:
         merged[0] = merged[0] - merged.pop()
     if not merged:
@@ -105,7 +105,7 @@ def velocity_polygon(J: Array, limits: Array) -> Array:
 
 
 def force_polygon(J: Array, limits: Array) -> Array:
-    """Vertices of the forces within the limits of a planar J of rank 2, anticlockwise; shape (2, n) → (V, 2)."""
+    """Compute the vertices of the force polytope of a planar J of rank 2, anticlockwise; shape (2, n) → (V, 2)."""
     strips = (J / limits).T[_felt(J)]
     corners = []
     for a, b in combinations(strips, 2):
@@ -122,7 +122,7 @@ def force_polygon(J: Array, limits: Array) -> Array:
 
 
 def _normals(J: Array) -> Array:
-    """Unit normals of the facets of the zonotope, one of each pair that is parallel; shape (F, r)."""
+    """Unit normals of the facets of the zonotope, one per parallel pair; shape (F, r)."""
     r = len(J)
     sizes = np.linalg.norm(J, axis=0)
     units = (J[:, sizes > 0.0] / sizes[sizes > 0.0]).T
@@ -138,11 +138,11 @@ def _normals(J: Array) -> Array:
 
 
 def _felt(J: Array) -> Flags:
-    """Which columns of a planar J, shape (2, n), are more than rounding beside the longest; shape (n,)."""
+    """Which columns of a planar J are more than rounding, compared with the longest; shape (2, n) → (n,)."""
     lengths = np.linalg.norm(J, axis=0)
     return np.asarray(lengths > _NEXT_TO_NOTHING * lengths.max(initial=0.0))
 
 
 def _sine(a: Array, b: Array) -> float:
-    """|sin| of the angle between two vectors of a plane."""
+    """|sin| of the angle between two plane vectors."""
     return float(abs(a[0] * b[1] - a[1] * b[0]) / (np.linalg.norm(a) * np.linalg.norm(b)))

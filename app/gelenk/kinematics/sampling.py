@@ -1,7 +1,7 @@
-"""Configurations spread over the joint space of a chain, between its limits.
+"""Sampling of a chain's joint space within its limits.
 
-Row i is the same whatever part of the rows it is computed with, so that parts may go to any number of processes: the
-numbers are one stream of a generator that can be entered anywhere, or a sequence that knows each of its numbers.
+Row i does not depend on the other rows computed with it, so parts can be computed by any number of processes: the
+numbers come from a generator that can jump to any position, or from a sequence with an explicit formula.
 """
 
 import math
@@ -19,22 +19,22 @@ from gelenk.model.errors import InvalidField, quoted
 Sequence: TypeAlias = Literal["random", "low_discrepancy"]
 
 SLIDE = 1.0
-"""How far a sliding joint without a limit is moved, [m]."""
+"""Sampling distance to either side for a prismatic joint without limits, [m]."""
 FAR = 1000.0
-"""A limit at least as far out, [rad or m], says that there is none."""
+"""A limit at or beyond this magnitude, [rad or m], means no limit."""
 
 _TABLE = 4096
-"""Numbers in a table of a low-discrepancy sequence, at most."""
+"""Largest number of entries in a table of a low-discrepancy sequence."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
-    """Between what bounds each variable is sampled.
+    """The sampling bounds of each variable.
 
     Attributes:
-        lower: Shape (n,), [rad or m].
-        upper: Likewise.
-        notes: What was assumed, one sentence each.
+        lower: Lower bounds; shape (n,), [rad or m].
+        upper: Upper bounds; shape (n,), [rad or m].
+        notes: The assumptions made, one sentence each.
     """
 
     lower: Array
@@ -43,12 +43,12 @@ class Ranges:
 
 
 def joint_ranges(chain: Chain, given: Mapping[str, tuple[float, float]]) -> Ranges:
-    """The limits of a chain's variables, or what is given for some of them within these.
+    """Return the sampling bounds of a chain's variables: the given ranges, else the joint limits.
 
-    A turning joint without a limit turns once round, a sliding one moves `SLIDE` to either side.
+    A revolute joint without limits covers one full turn, a prismatic one moves `SLIDE` to either side.
 
     Raises:
-        InvalidField: A range is for no variable of the chain, is upside down or leads beyond the limits.
+        InvalidField: A range names no variable of the chain, has lower > upper or exceeds the limits.
     """
     sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     lower, upper, notes = chain.lower.copy(), chain.upper.copy(), []
@@ -87,17 +87,17 @@ def _sampled_range(lower: float, upper: float, spread: float) -> tuple[float, fl
 
 @dataclass(frozen=True, slots=True)
 class Sampling:
-    """Configurations, uniform between bounds.
+    """A sequence of configurations, uniform between bounds.
 
     `random`: row i is row i of `lower + numpy.random.default_rng(seed).random((count, n)) * (upper - lower)`.
-    `low_discrepancy`: Halton's sequence with the digits of each place permuted at random [Owen2017]; it leaves smaller
+    `low_discrepancy`: the Halton sequence with randomly permuted digits in each place [Owen2017]; it leaves smaller
     gaps and no clusters.
 
     Attributes:
         ranges: The bounds.
-        count: How many.
-        sequence: Which.
-        seed: Of the random numbers.
+        count: Number of configurations.
+        sequence: `random` or `low_discrepancy`.
+        seed: Seed of the random numbers.
     """
 
     ranges: Ranges
@@ -106,7 +106,7 @@ class Sampling:
     seed: int
 
     def configurations(self, first: int, count: int) -> Array:
-        """Samples `first` to `first + count`; shape (count, n), [rad or m]."""
+        """Compute `count` samples from number `first` on; shape (count, n), [rad or m]."""
         lower, upper = self.ranges.lower, self.ranges.upper
         n = len(lower)
         if self.sequence == "random":
@@ -120,15 +120,15 @@ class Sampling:
         return qs
 
     def chosen(self, numbers: Indices) -> Array:
-        """Samples by their numbers; shape (k, n)."""
+        """Compute the samples with the given numbers; shape (k, n), [rad or m]."""
         rows = [self.configurations(number, 1) for number in numbers.tolist()]
         return np.concatenate([*rows, np.empty((0, len(self.ranges.lower)))])
 
 
 def _radical_inverses(first: int, count: int, j: int, seed: int) -> Array:
-    """Numbers from `first` on, their digits permuted and mirrored at the point; shape (count,), from 0 to 1.
+    """Radical inverses of numbers from `first` on, with permuted digits; shape (count,), from 0 to 1.
 
-    The base is the j-th prime. The last digits of many numbers, and the first ones, come out of short tables.
+    The base is the j-th prime. A table gives the low digits; the high ones are computed once for many numbers.
     """
     base, permutations, low, table = _digits(j, seed)
     highs, lows = np.divmod(np.arange(first, first + count), len(table))
@@ -145,7 +145,7 @@ def _radical_inverses(first: int, count: int, j: int, seed: int) -> Array:
 
 @lru_cache(maxsize=512)
 def _digits(j: int, seed: int) -> tuple[int, Indices, int, Array]:
-    """The j-th prime, a permutation for each place, how many places the table covers, and what its numbers become."""
+    """The j-th prime, a digit permutation per place, the number of places in the table, and the table's values."""
     primes = [p for p in range(2, 800) if all(p % d for d in range(2, int(p**0.5) + 1))]
     base = primes[j]
     places = math.ceil(32 / math.log2(base))

@@ -1,7 +1,7 @@
-"""Singular configurations: what the tip has lost there, which joints make it so, which motions the tip does not see.
+"""Singular configurations: the directions that the tip loses, the joints that cause it, and the internal motions.
 
-A configuration is singular where the Jacobian's rank is below that of the chain's structure, and nearly so where the
-last singular value that can be other than zero is small.
+A configuration is singular if the Jacobian's rank is below the chain's structural rank, and nearly singular if the
+last structurally nonzero singular value is small.
 """
 
 from dataclasses import dataclass, replace
@@ -17,30 +17,30 @@ from gelenk.model.chain import Chain
 
 RANK_TOLERANCE = 1e-10
 _INVOLVED = 1e-6
-"""Share of a joint in a motion, relative to the largest, above which it takes part."""
+"""A joint takes part in a motion if its share exceeds this times the largest."""
 _REPEATED = 1e-6
-"""Relative gap below which two singular values are the same."""
+"""Relative gap up to which two singular values count as equal."""
 
 
 @dataclass(frozen=True, slots=True)
 class SingularityReport:
-    """The directions that the tip keeps and loses at a configuration.
+    """The rank of the Jacobian at a configuration, and the directions that the tip loses there.
 
     Attributes:
-        rank: Singular values that count.
-        structural_rank: The same at random configurations: the configuration is singular where `rank` is less.
-        tolerance: A singular value counts where it exceeds this times the largest.
+        rank: Number of singular values that count.
+        structural_rank: Rank at random configurations: the configuration is singular if `rank` is less.
+        tolerance: A singular value counts if it exceeds this times the largest.
         sigmas: Singular values, largest first; shape (min(m, n),).
-        lost_directions: Orthonormal basis of ker(Jᵀ), in the rows of J, those that are lost here first;
+        lost_directions: Orthonormal basis of ker(Jᵀ), in the rows of J, directions lost only here first;
             shape (m, m - rank).
-        twists: The same as unit twists in the base's axes; shape (6, m - rank).
-        wrenches: The same as unit wrenches that no joint feels; shape (6, m - rank).
-        internal_motions: Orthonormal basis of ker(J), those that only exist here first; shape (n, n - rank).
+        twists: These directions as unit twists in the base's axes; shape (6, m - rank).
+        wrenches: These directions as unit wrenches that need no joint torque; shape (6, m - rank).
+        internal_motions: Orthonormal basis of ker(J), motions that exist only here first; shape (n, n - rank).
         joints: Indices of the joints whose columns are dependent here and not elsewhere.
-        kinds: What the singularity is called, where the geometry tells.
-        exit: Joint motion of unit length along which `smallest` grows fastest; shape (n,). None where it does not to
-            first order, as where the singular value is repeated: one of the two falls along nearly every way.
-        exit_rate: How fast it grows along that, per [rad or m].
+        kinds: Names of the singularity, if the geometry determines them.
+        exit: Unit joint motion along which `smallest` grows fastest; shape (n,). None if it does not grow to first
+            order, as for a repeated singular value: one of the two falls along nearly every direction.
+        exit_rate: Growth rate of `smallest` along `exit`, per [rad or m].
     """
 
     rank: int
@@ -58,12 +58,12 @@ class SingularityReport:
 
     @property
     def defect(self) -> int:
-        """How many directions are lost here that the arm has elsewhere."""
+        """Number of directions lost here that the arm has elsewhere."""
         return self.structural_rank - self.rank
 
     @property
     def smallest(self) -> float | None:
-        """The last singular value that can be other than zero; None where none can."""
+        """The last structurally nonzero singular value; None if all are structurally zero."""
         return float(self.sigmas[self.structural_rank - 1]) if self.structural_rank else None
 
 
@@ -73,16 +73,16 @@ def singularity_report(
     tolerance: float = RANK_TOLERANCE,
     space: TaskSpace = FULL_SPACE,
 ) -> SingularityReport:
-    """The report on one configuration.
+    """Report rank, lost directions and internal motions at one configuration.
 
-    Where a redundant arm is singular, the directions and motions that it loses or gains there are those that it regains
-    or gives up fastest when it moves on; the others are what it lacks or has everywhere.
+    At a singularity of a redundant arm, the directions it loses and the motions it gains are those that change fastest
+    as it moves away; the others it lacks or has everywhere.
 
     Args:
         chain: Base and tip.
         q: Configuration; shape (n,), [rad or m].
-        tolerance: A singular value counts where it exceeds this times the largest.
-        space: The rows that count.
+        tolerance: A singular value counts if it exceeds this times the largest.
+        space: The rows of the Jacobian that count.
     """
     Js, least = space.with_rounding(chain, q[None])
     fixed = structure(chain, space.task, space.reference)
@@ -92,7 +92,7 @@ def singularity_report(
     T = np.einsum("ka,kij,ib->ajb", parts.left_kernel, H, parts.kernel)
     lost = _ordered(parts.left_kernel, space.never(fixed), T, defect)
     free = _ordered(parts.kernel, fixed.idle, T.transpose(2, 0, 1), defect)
-    # Slopes that are rounding beside the Jacobian's own numbers are none.
+    # Slopes at the rounding level of the Jacobian count as zero.
     slight = max(STRUCTURAL_TOLERANCE * float(parts.sigmas.max(initial=0.0)), float(least[0]))
     exit_, rate = _way_out(T, defect, slight) if defect else _gradient(parts, H, fixed.rank, slight)
     return SingularityReport(
@@ -112,20 +112,20 @@ def singularity_report(
 
 
 def _split_at_rank(J: Array, tolerance: float, least: float, most: int) -> Subspaces:
-    """The subspaces of J, whose rank is no more than structural: what rounding adds to that is none."""
+    """Subspaces of J, with the rank limited to the structural rank and to singular values above rounding."""
     parts = subspaces(J, tolerance)
     rank = min(parts.rank, int(np.sum(parts.sigmas > least)), most)
     return replace(parts, rank=rank)
 
 
 def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array:
-    """A basis of the same space, first the `count` vectors that the changes act on most, last the constant ones.
+    """Basis of the same space: first the `count` vectors that the changes affect most, last the constant ones.
 
     Args:
-        basis: Orthonormal; shape (m, k).
-        constant: Orthonormal vectors of that space; shape (m, l).
-        changes: What motions do to each vector of the basis; shape (k, …, …).
-        count: How many vectors change.
+        basis: Orthonormal basis; shape (m, k).
+        constant: Orthonormal vectors of this space; shape (m, l).
+        changes: Effect of joint motions on each basis vector; shape (k, …, …).
+        count: Number of vectors that change.
     """
     if basis.shape[1] == 0:
         return basis
@@ -139,15 +139,15 @@ def _ordered(basis: Array, constant: Array, changes: Array, count: int) -> Array
 
 
 def _involved(motions: Array, least: float) -> tuple[int, ...]:
-    """The joints that take part in some motions, shape (n, k), by more than a share of the largest part."""
+    """Joints whose share in some motions, shape (n, k), exceeds `least` times the largest share."""
     shares = np.linalg.norm(motions, axis=1)
     return tuple(np.flatnonzero(shares > least * shares.max(initial=0.0)).tolist())
 
 
 def _gradient(parts: Subspaces, H: Array, rank: int, slight: float) -> tuple[Array | None, float]:
-    """The gradient of σ at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v of its singular vectors.
+    """Gradient of σ at a regular configuration: ∂σ/∂q_j = uᵀ ∂J/∂q_j v, with its singular vectors u and v.
 
-    A singular value that is repeated has a kink: its singular vectors are any of a plane, and no such number.
+    A repeated singular value has a kink: its singular vectors are not unique, and the gradient does not exist.
     """
     if rank == 0:
         return None, 0.0
@@ -158,11 +158,11 @@ def _gradient(parts: Subspaces, H: Array, rank: int, slight: float) -> tuple[Arr
 
 
 def _way_out(T: Array, defect: int, slight: float) -> tuple[Array | None, float]:
-    """The direction in which σ grows at a singular configuration, equally on both sides.
+    """Direction in which σ grows fastest from a singular configuration, equally on both sides.
 
-    To first order what grows along d are the singular values of M(d) = Σ_j d_j Uᵀ ∂J/∂q_j V, U and V those of the two
-    kernels; the least of them that can be other than zero counts. Of one lost direction the fastest d is a singular
-    vector of the map d ↦ M(d); of several the best of these vectors and of sums of two is taken.
+    To first order, the vanished singular values grow along d as those of M(d) = Σ_j d_j Uᵀ ∂J/∂q_j V, where U and V are
+    bases of the two kernels; the smallest structurally nonzero one counts. For one lost direction the fastest d is a
+    singular vector of the map d ↦ M(d); for several, the best of these vectors and of sums of two is taken.
     """
     vectors = np.linalg.svd(T.transpose(1, 0, 2).reshape(T.shape[1], T.shape[0] * T.shape[2]))[0].T
     candidates = vectors[:1]
@@ -175,6 +175,6 @@ def _way_out(T: Array, defect: int, slight: float) -> tuple[Array | None, float]
 
 
 def _direction(gradient: Array, slight: float) -> tuple[Array | None, float]:
-    """Unit vector and length of a gradient; no direction where it is no longer than rounding."""
+    """Unit vector and length of a gradient; None and 0 if it is within rounding."""
     length = float(np.linalg.norm(gradient))
     return (gradient / length + 0.0, length) if length > slight else (None, 0.0)

@@ -1,11 +1,11 @@
-"""How far a configuration is from the nearest singular one, in the joints.
+"""Distance in joint space from a configuration to the nearest singular one.
 
-Where a direction is lost, the block F = Uᵀ J V of the Jacobian vanishes, U and V being its last singular vectors: all
-beyond the number that the arm can have less one. F changes by Uᵀ ∂J/∂q_j V with a joint, so the nearest point of the
-singular set follows by the projections of sequential quadratic programming: x = q + A⁺(-F - A(q - x_k)), which is at
-rest where F = 0 and the way from q is square to the set. Many starts guard against the nearest of several such
-points being missed: minima of the measure of manipulability along rays from q, looked for once more inside the ball
-that the first round leaves. What is found is singular beyond doubt; that nothing is nearer is not proven.
+Where a direction is lost, the block F = Uᵀ J V of the Jacobian vanishes; U and V are the singular vectors from number r
+on, r being the structural rank. Joint j changes F by Uᵀ ∂J/∂q_j V, so sequential quadratic programming projects onto
+the singular set: x = q + A⁺(-F - A(q - x_k)). A fixed point has F = 0, and the line from q meets the set at a right
+angle. Many starts reduce the risk of missing the nearest such point: minima of the manipulability measure along rays
+from q, then again inside the ball given by the first result. The result is certainly singular, but not proven to be
+the nearest.
 """
 
 from dataclasses import dataclass
@@ -26,19 +26,19 @@ _KEPT, _SETTLED = 6, 3
 _ROUNDS, _MORE_ROUNDS, _NEWTON_STEPS = 5, 6, 5
 _DIFFERENCE = 1e-6
 _LONGEST_STEP = 0.6
-"""[rad or m] that a start moves at once: the projections are those of a linear map."""
+"""Longest step of a start, [rad or m]: the projections are linear approximations."""
 _AT_REST = 1e-10
 _MOVED = 1e-6
-"""[rad or m] by which a joint must move to be named."""
+"""A joint counts as moving if it moves by more than this, [rad or m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class NearestSingularity:
-    """The nearest singular configuration that was found.
+    """The nearest singular configuration found.
 
     Attributes:
         q: The configuration; shape (n,), [rad or m].
-        distance: Norm of the joint motion that leads there, [rad and m].
+        distance: Norm of the joint motion to it, [rad and m].
         joints: Indices of the joints that move.
         sigma: The smallest singular value there, zero up to rounding.
     """
@@ -51,12 +51,12 @@ class NearestSingularity:
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """The options of the search.
+    """Options of the search.
 
     Attributes:
-        radius: How far from the configuration at most, [rad and m].
-        tolerance: A singular value counts where it exceeds this times the largest.
-        respect_limits: Whether the singular configuration is to be within the joint limits.
+        radius: Largest distance from the configuration, [rad and m].
+        tolerance: A singular value counts if it exceeds this times the largest.
+        respect_limits: Whether the singular configuration must be within the joint limits.
     """
 
     radius: float
@@ -65,16 +65,16 @@ class Search:
 
 
 def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search) -> NearestSingularity | None:
-    """The nearest configuration where a direction is lost that the arm has elsewhere; None where none was found.
+    """Find the nearest configuration that loses a direction the arm has elsewhere; None if none was found.
 
-    The same call gives the same answer. Turning joints are not wound back: the distance is that of the joints' own
-    positions.
+    The search is deterministic. Revolute joints are not wrapped: the distance is between joint positions, not angles
+    modulo a turn.
 
     Args:
         chain: Base and tip.
         q: Configuration, within the limits if these are respected; shape (n,), [rad or m].
-        space: The rows that count.
-        search: How far, and when a direction counts as lost.
+        space: The rows of the Jacobian that count.
+        search: Options of the search.
     """
     projection = _Projection.to_singular_set(chain, q, space, search)
     if projection is None:
@@ -88,21 +88,21 @@ def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search
 
 
 def can_lose(chain: Chain, space: TaskSpace) -> bool:
-    """Whether any joint has a say in what the tip can do in the rows that count."""
+    """Return whether any joint affects the rank of the rows that count."""
     return structure(chain, space.task, space.reference).rank > 0 and bool(_deciding_joints(chain, space))
 
 
 def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tuple[Array, Array]:
-    """F as rows, which is zero where the chain has less than a rank, and its derivative by the joints.
+    """Compute the block F, which is zero where the Jacobian has less than a rank, and its derivative by the joints.
 
     Args:
         chain: Base and tip.
-        space: The rows that count.
+        space: The rows of the Jacobian that count.
         rank: The rank that the chain has elsewhere, at least 1.
         xs: Configurations; shape (N, n), [rad or m].
 
     Returns:
-        Shapes (N, k) and (N, k, n).
+        F flattened, shape (N, k), and ∂F/∂q, shape (N, k, n).
     """
     left, sigmas, right = np.linalg.svd(space.jacobians(chain, xs))
     U, V = left[:, :, rank - 1 :], right[:, rank - 1 :]
@@ -115,16 +115,16 @@ def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tup
 
 @dataclass(frozen=True, slots=True)
 class _Projection:
-    """Projects onto the singular set next to a configuration.
+    """Projection of a configuration onto the singular set.
 
     Attributes:
         chain: Base and tip.
-        q: Where the way starts; shape (n,).
-        space: The rows that count.
-        rank: The rank that the chain can have.
-        search: How far.
-        lower: Bounds of the joints; shape (n,).
-        upper: The same.
+        q: The configuration; shape (n,).
+        space: The rows of the Jacobian that count.
+        rank: Structural rank of the chain.
+        search: Options of the search.
+        lower: Lower bounds of the joints; shape (n,).
+        upper: Upper bounds of the joints; shape (n,).
     """
 
     chain: Chain
@@ -137,7 +137,7 @@ class _Projection:
 
     @classmethod
     def to_singular_set(cls, chain: Chain, q: Array, space: TaskSpace, search: Search) -> "_Projection | None":
-        """None where no joint has a say in what the chain can do."""
+        """Create the projection; None if no joint affects the rank."""
         if not can_lose(chain, space):
             return None
         rank = structure(chain, space.task, space.reference).rank
@@ -146,7 +146,7 @@ class _Projection:
         return cls(chain, q, space, rank, search, *bounds)
 
     def nearest(self, xs: Array) -> NearestSingularity | None:
-        """The nearest of the singular configurations that lie next to some starts; shape (N, n)."""
+        """Find the nearest singular configuration reached from starts of shape (N, n)."""
         relax, last = np.ones(len(xs)), np.full(len(xs), np.inf)
         for k in range(_ROUNDS + _MORE_ROUNDS):
             if k == _ROUNDS:
@@ -154,25 +154,25 @@ class _Projection:
                 xs, relax, last = xs[keep], relax[keep], last[keep]
             normal, along = self._steps(xs)
             strides = np.linalg.norm(along, axis=1)
-            # Where the set bends towards q the foot is overshot: then go but a part of the way.
+            # Where the set bends towards q, the step overshoots the foot: then take a shorter one.
             relax = np.where(strides > 0.8 * last, np.maximum(0.5 * relax, 1.0 / 16.0), relax)
             last = strides
             xs = self._moved(xs, normal + relax[:, None] * along)
         return self.judged(self._settled(xs[self._best(xs, _SETTLED)]))
 
     def _moved(self, xs: Array, steps: Array) -> Array:
-        """Starts after steps of bounded length, within the limits."""
+        """Move starts by steps of bounded length, within the limits."""
         lengths = np.linalg.norm(steps, axis=1, keepdims=True)
         bounded = steps * np.minimum(1.0, _LONGEST_STEP / np.maximum(lengths, _LONGEST_STEP))
         return np.asarray(np.clip(xs + bounded, self.lower, self.upper))
 
     def _strides(self, xs: Array) -> Array:
-        """The whole path to the foot, as far as it can be followed from each start."""
+        """Full step from each start to the foot of the perpendicular from q, to first order."""
         normal, along = self._steps(xs)
         return normal + along
 
     def _settled(self, xs: Array) -> Array:
-        """Newton's method on the step itself, by differences: where that is zero the way from q is the shortest."""
+        """Find zeros of the full step by Newton's method with difference quotients: there q is locally nearest."""
         count, n = xs.shape
         for _ in range(_NEWTON_STEPS):
             around = np.concatenate((xs[:, None], xs[:, None] + _DIFFERENCE * np.eye(n)), axis=1)
@@ -188,7 +188,7 @@ class _Projection:
         return xs
 
     def _steps(self, xs: Array) -> tuple[Array, Array]:
-        """The step that leads to F = 0, and the one along the set to the foot; joints at a limit stay there."""
+        """Step to F = 0, and step along the singular set to the foot; joints at a limit stay there."""
         F, A = vanishing_block(self.chain, self.space, self.rank, xs)
         target = np.broadcast_to(self.q, xs.shape)
         free = np.ones(xs.shape, dtype=bool)
@@ -204,7 +204,7 @@ class _Projection:
         return normal, goal - xs - normal
 
     def _best(self, xs: Array, count: int) -> Array:
-        """Which starts are the most promising, no two in the same place."""
+        """Indices of the most promising starts, without duplicates."""
         F, A = vanishing_block(self.chain, self.space, self.rank, xs)
         slopes = np.linalg.norm(A, axis=(1, 2))
         scores = np.linalg.norm(xs - self.q, axis=1) + 2.0 * np.linalg.norm(F, axis=1) / np.maximum(slopes, 1e-9)
@@ -217,7 +217,7 @@ class _Projection:
         return np.array(chosen)
 
     def judged(self, xs: Array) -> NearestSingularity | None:
-        """The nearest of those that are singular indeed."""
+        """Return the nearest of the configurations that are singular and within the radius; None if none is."""
         Js, least = self.space.with_rounding(self.chain, xs)
         sigmas = np.linalg.svd(Js, compute_uv=False)
         distances = np.linalg.norm(xs - self.q, axis=1)
@@ -231,10 +231,10 @@ class _Projection:
 
 
 def _minima(projection: _Projection, radius: float, seed: int) -> Array:
-    """Where the measure of manipulability has its minima on rays of some length from the configuration, nearest first.
+    """Minima of the manipulability measure on rays of a given length from the configuration, nearest first.
 
     Returns:
-        At most `_STARTS` configurations; shape (N, n).
+        At most `_STARTS` configurations, and the configuration itself; shape (N, n).
     """
     q, n = projection.q, len(projection.q)
     rays = _rays(_deciding_joints(projection.chain, projection.space), n, seed)
@@ -250,7 +250,7 @@ def _minima(projection: _Projection, radius: float, seed: int) -> Array:
 
 
 def _measures(projection: _Projection, xs: Array) -> Array:
-    """Quantities that vanish where a direction is lost; shape (N,)."""
+    """Manipulability measure, or smallest singular value, which vanish where a direction is lost; shape (N,)."""
     space, chain = projection.space, projection.chain
     if not space.is_of_the_geometric_rows or projection.rank < min(len(space), len(chain)):
         sigmas = np.linalg.svd(space.jacobians(chain, xs), compute_uv=False)
@@ -260,7 +260,7 @@ def _measures(projection: _Projection, xs: Array) -> Array:
 
 @lru_cache(maxsize=1024)
 def _deciding_joints(chain: Chain, space: TaskSpace) -> tuple[int, ...]:
-    """The joints that have a say in what is lost: those about the first axis and the like have none."""
+    """Joints that affect which directions are lost; a joint about the first axis, for example, does not."""
     xs = random_configurations(chain, _TRIALS)
     rank = structure(chain, space.task, space.reference).rank
     Js, least = space.with_rounding(chain, xs)
@@ -272,7 +272,7 @@ def _deciding_joints(chain: Chain, space: TaskSpace) -> tuple[int, ...]:
 
 @lru_cache(maxsize=256)
 def _rays(joints: tuple[int, ...], n: int, seed: int) -> Array:
-    """Directions from a configuration: each of some joints alone, both ways, and random ones; shape (k, n)."""
+    """Unit directions from a configuration: each of some joints alone, both signs, and random ones; shape (k, n)."""
     unit = np.eye(n)[list(joints)]
     drawn = np.random.default_rng(seed).normal(size=(_RAYS, len(joints))) @ unit
     return np.concatenate((unit, -unit, drawn / np.linalg.norm(drawn, axis=1, keepdims=True)))

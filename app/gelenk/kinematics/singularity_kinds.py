@@ -1,9 +1,9 @@
-"""What a singularity is called: of the wrist, the elbow or the shoulder, where the lines of the joints tell it.
+"""Names of singularities, wrist, elbow or shoulder, where the axes of the joints determine them.
 
-The determinant of an arm that can be solved in closed form is a product, and each factor vanishes for a reason of its
-own: two axes of the wrist fall on one line; the wrist, the elbow and the shoulder are in line; the wrist stands where
-the first joint cannot move it out of the plane of the arm. Such arms are recognised by their axes at random
-configurations; other arms have no such names, or some of their singularities have none.
+The Jacobian determinant of an arm with a closed-form solution is a product, and each factor vanishes for its own
+reason: two wrist axes coincide; wrist, elbow and shoulder are in line; or the first joint cannot move the wrist out of
+the plane of the arm. Such arms are recognised by their axes at random configurations; in other arms some or all
+singularities have no name.
 """
 
 from collections.abc import Callable
@@ -25,10 +25,10 @@ from gelenk.model.chain import Chain
 _LINEAR: tuple[Direction, ...] = ("x", "y", "z")
 _TRIALS = 4
 _SAME = 1e-6
-"""Distance relative to the arm at which lines meet, sine at which they are parallel."""
+"""Relative distance below which lines meet, and sine below which they are parallel."""
 _CLEARLY = 1e-4
 _VANISHED = 1e-7
-"""Factor, of numbers of the size of one, that counts as zero."""
+"""Largest factor, scaled to order one, that counts as zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +36,9 @@ class Lines:
     """The axes of a chain's joints at one configuration, from the columns of its Jacobian.
 
     Attributes:
-        axes: Unit vectors, along which a sliding joint moves; shape (n, 3).
-        points: A point on each axis, against the tip; shape (n, 3), [m].
-        turning: Which joints turn; shape (n,).
+        axes: Unit vectors along the axes, for a prismatic joint along its motion; shape (n, 3).
+        points: A point on each axis relative to the tip, zero if prismatic; shape (n, 3), [m].
+        turning: Which joints are revolute; shape (n,).
     """
 
     axes: Array
@@ -47,18 +47,18 @@ class Lines:
 
     @classmethod
     def of(cls, J: Array) -> "Lines":
-        """The lines by a geometric Jacobian in the base's axes; shape (6, n)."""
+        """Create the lines from a geometric Jacobian in the base's axes; shape (6, n)."""
         turning = np.linalg.norm(J[3:], axis=0) > 0.5
         axes = np.where(turning, J[3:], J[:3]).T
-        # v = z × (tip - o), so the foot of the tip on the axis is z × v away from it.
+        # v = z × (tip - o), so the vector from the tip to its foot on the axis is z × v.
         return cls(axes, np.where(turning[:, None], np.cross(axes, J[:3].T), 0.0), turning)
 
     def velocities(self, point: Array) -> Array:
-        """How each joint moves a point of the last body; shape (n, 3)."""
+        """Compute the velocity of a point of the last body for unit speed of each joint; shape (n, 3)."""
         return np.where(self.turning[:, None], np.cross(self.axes, point - self.points), self.axes)
 
     def meeting_point(self, first: int, last: int) -> tuple[Array, float]:
-        """The point that is nearest to some of the axes, and its largest distance from one of them."""
+        """Find the point nearest to axes `first` to `last - 1`, and its largest distance from one of them, [m]."""
         squares = np.eye(3) - self.axes[first:last, :, None] * self.axes[first:last, None, :]
         feet = np.einsum("kij,kj->ki", squares, self.points[first:last])
         point = np.linalg.lstsq(squares.sum(axis=0), feet.sum(axis=0), rcond=1e-12)[0]
@@ -66,17 +66,17 @@ class Lines:
 
 
 Factors: TypeAlias = Callable[[Lines], dict[SingularityKind | None, float]]
-"""The factors of a determinant by the name of what vanishes with them, each of the size of one; None has no name."""
+"""The factors of a determinant, scaled to order one, by the name of their singularity; None for one without a name."""
 
 
 def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float) -> tuple[SingularityKind, ...]:
-    """The names of what makes a configuration singular; none where the geometry of the arm does not tell.
+    """Return the names of a singularity; none if the geometry of the arm does not determine them.
 
     Args:
         chain: Base and tip.
         q: A singular configuration; shape (n,), [rad or m].
-        space: The rows that count.
-        tolerance: Relative size at which a singular value counted as zero.
+        space: The rows of the Jacobian that count.
+        tolerance: Relative size up to which a singular value counted as zero.
     """
     factors = _factors(chain, space.task, space.reference)
     if factors is None:
@@ -88,18 +88,18 @@ def singularity_kinds(chain: Chain, q: Array, space: TaskSpace, tolerance: float
 
 @lru_cache(maxsize=1024)
 def _factors(chain: Chain, task: Task, reference: Reference) -> Factors | None:
-    """How the singularities of a chain are distinguished; None where they are not."""
+    """Factors that distinguish the singularities of a chain; None if the chain is not of a known type."""
     flat = chain.flat
     own = len(flat.joints) == len(chain) and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
     if not own or len(chain) == 0:
         return None
     n, wanted = len(chain), frozenset(task.directions)
     if reference == "world" and len(wanted) < 6 and wanted != {"rx", "ry", "rz"}:
-        # The point that passes the base's origin is no part of the arm.
+        # The point at the base's origin is not part of the arm.
         return None
     trials = [Lines.of(J) for J in chain_jacobians(chain.flat, random_configurations(chain, _TRIALS))[2]]
     if _is_planar(trials):
-        # With a part of the plane other rows lose rank for other reasons.
+        # With only some directions of the plane, rank is lost for other reasons.
         linear: Task = Task(tuple(direction for direction in task.directions if direction in _LINEAR))
         whole = structure(chain, Task(_LINEAR), reference).rank
         in_plane = len(linear) > 0 and structure(chain, linear, reference).rank == whole
@@ -114,13 +114,13 @@ def _factors(chain: Chain, task: Task, reference: Reference) -> Factors | None:
 
 
 def _is_planar(trials: list[Lines]) -> bool:
-    """Whether all joints turn about one direction or slide along it."""
+    """Whether all joint axes are parallel."""
     axes = trials[0].axes
     return bool((np.linalg.norm(np.cross(axes, axes[0]), axis=1) < _SAME).all())
 
 
 def _meet(trials: list[Lines], first: int, last: int) -> bool:
-    """Whether some neighbouring axes turn about one point, no two of them parallel to the next."""
+    """Whether consecutive revolute axes meet in one point, none of them parallel to the next."""
     if first < 0 or not trials[0].turning[first:last].all():
         return False
     for lines in trials:
@@ -133,14 +133,14 @@ def _meet(trials: list[Lines], first: int, last: int) -> bool:
 
 
 def _extent(lines: Lines) -> float:
-    """A length of the arm, [m]."""
+    """Characteristic length of the arm, [m]."""
     return float(np.linalg.norm(lines.points - lines.points.mean(axis=0), axis=1).max()) or 1.0
 
 
 def _has_three_parallel(trials: list[Lines]) -> bool:
-    """Whether the second to the fourth of six turning axes are parallel and square to their neighbours.
+    """Whether axes 2 to 4 of six revolute axes are parallel and perpendicular to axes 1 and 5.
 
-    The last two meet: then the determinant is a product.
+    The last two must meet: then the determinant is a product.
     """
     for lines in trials:
         z = lines.axes[1]
@@ -153,12 +153,12 @@ def _has_three_parallel(trials: list[Lines]) -> bool:
 
 
 def _planar(_: Lines) -> dict[SingularityKind | None, float]:
-    """The singularities of a planar arm, all of the elbow: links in line."""
+    """The singularities of a planar arm, which all count as elbow: links in line."""
     return {"elbow": 0.0}
 
 
 def _parallel(lines: Lines) -> dict[SingularityKind | None, float]:
-    """Three parallel axes: those in one plane; the last axis parallel to them; the wrist over the first axis."""
+    """Three parallel axes. Elbow: coplanar; wrist: the last axis parallel too; shoulder: wrist over the first axis."""
     z, extent = lines.axes[1], _extent(lines)
     centre = lines.meeting_point(4, 6)[0]
     upper, lower = np.cross(z, lines.points[2] - lines.points[1]), np.cross(z, lines.points[3] - lines.points[2])
@@ -170,7 +170,7 @@ def _parallel(lines: Lines) -> dict[SingularityKind | None, float]:
 
 
 def _positioning(trials: list[Lines], placed: int, *, with_wrist: bool) -> Factors | None:
-    """An arm that moves a point, the centre of the wrist or the tip, and the wrist that turns about it."""
+    """An arm that positions a point, the wrist centre or the tip, and possibly a wrist that rotates about it."""
     arm = _arm_factors(trials, placed)
     if arm is None and not with_wrist:
         return None
@@ -194,7 +194,7 @@ def _positioning(trials: list[Lines], placed: int, *, with_wrist: bool) -> Facto
 def _arm_factors(
     trials: list[Lines], placed: int
 ) -> Callable[[Lines, Array, float], dict[SingularityKind | None, float]] | None:
-    """The factors of the joints that move the centre of the wrist."""
+    """Factors of the joints that move the wrist centre."""
     if placed == 3:
         z = [lines.axes[1] for lines in trials]
         follows = all(
@@ -210,19 +210,19 @@ def _arm_factors(
 
 
 def _upright(lines: Lines, centre: Array, extent: float) -> dict[SingularityKind | None, float]:
-    """The second and the third joint move the wrist in a plane, out of which only the first one leads."""
+    """An arm whose second and third joint move the wrist in a plane, which only the first joint leaves."""
     first, second, third = lines.velocities(centre)[:3] / extent
     in_plane = float(np.linalg.norm(np.cross(second, third)))
     return {"elbow" if lines.turning[2] else None: in_plane, "shoulder": abs(float(first @ lines.axes[1]))}
 
 
 def _spherical(lines: Lines, centre: Array, extent: float) -> dict[SingularityKind | None, float]:
-    """Three joints turn about the shoulder, so that only the fourth one moves the wrist nearer to it."""
+    """An arm whose first three axes meet in the shoulder: only the fourth joint changes the wrist's distance to it."""
     shoulder = lines.meeting_point(0, 3)[0]
     velocities = lines.velocities(centre)[:4] / extent
     elbow = abs(float(velocities[3] @ (centre - shoulder))) / extent
     found: dict[SingularityKind | None, float] = {"elbow": elbow}
     if elbow > _VANISHED:
-        # Without the wrist's own motion to and fro what is left are two directions.
+        # Besides the radial motion of the wrist, two directions remain.
         found["shoulder"] = float(np.linalg.svd(velocities, compute_uv=False)[2])
     return found

@@ -1,8 +1,8 @@
-"""Where a path of configurations passes singular ones, or comes near to them.
+"""Places where a path of configurations passes through or near singular configurations.
 
-The path leads straight from each configuration to the next in the joints. It is examined in steps of a few
-hundredths of a radian; each minimum of the smallest singular value is then followed to its bottom, by sections and, as
-the value has a kink where it is zero, by Gauss-Newton steps on the block of the Jacobian that vanishes there.
+The path is piecewise linear in joint space. It is sampled in steps of a few hundredths of a radian; each minimum of the
+smallest singular value is then refined by golden-section search and, as the value has a kink at zero, by Gauss-Newton
+steps on the block of the Jacobian that vanishes there.
 """
 
 from dataclasses import dataclass
@@ -15,11 +15,11 @@ from gelenk.model.arrays import Array
 from gelenk.model.chain import Chain
 
 _STEP = 0.05
-"""Longest motion of a joint between two stations, [rad or m]."""
+"""Longest joint motion between two stations, [rad or m]."""
 _MOST_STATIONS = 64
-"""Of one segment."""
+"""Largest number of stations per segment."""
 _FLAT = 1e-9
-"""Difference of singular values, relative to the largest, that is rounding."""
+"""Difference of singular values, relative to the largest, that counts as rounding."""
 _SECTIONS, _NEWTON_STEPS = 30, 6
 _APART = 1e-6
 _GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -30,11 +30,11 @@ class Place:
     """A minimum of the smallest singular value along the path.
 
     Attributes:
-        start: Where, counted in configurations: 2.5 lies halfway between those of index 2 and 3.
-        end: The same, or where it ends if the value stays as it is for a while.
+        start: Position along the path, in configurations: 2.5 lies halfway between those of index 2 and 3.
+        end: Equal to `start`, or the end of the interval if the value is constant for a while.
         q: The configuration at `start`; shape (n,), [rad or m].
-        sigma: The smallest singular value that can be other than zero, there.
-        share: The same over the largest.
+        sigma: The smallest structurally nonzero singular value there.
+        share: `sigma` over the largest singular value.
     """
 
     start: float
@@ -45,14 +45,14 @@ class Place:
 
 
 def places_along(chain: Chain, qs: Array, space: TaskSpace, tolerance: float, threshold: float) -> tuple[Place, ...]:
-    """The minima of the smallest singular value along a path, in its order.
+    """Find the minima of the smallest singular value along a path, in path order.
 
     Args:
         chain: Base and tip.
         qs: The path; shape (N, n), [rad or m].
-        space: The rows that count.
-        tolerance: A singular value counts where it exceeds this times the largest.
-        threshold: Minima of a larger share of the largest singular value are left out.
+        space: The rows of the Jacobian that count.
+        tolerance: A singular value counts if it exceeds this times the largest.
+        threshold: Omit minima above this share of the largest singular value.
     """
     line = _Line(chain, qs, space, structure(chain, space.task, space.reference).rank)
     if line.rank == 0 or len(qs) == 0:
@@ -65,11 +65,11 @@ def places_along(chain: Chain, qs: Array, space: TaskSpace, tolerance: float, th
     starts, ends = stations[first], stations[last]
     below, above = stations[np.maximum(first - 1, 0)], stations[np.minimum(last + 1, len(stations) - 1)]
     starts[points] = ends[points] = line.bottoms(below[points], above[points])
-    # Two valleys beside each other may have the same bottom.
+    # Neighbouring valleys may have the same minimum.
     own = np.append(True, np.diff(starts) > _APART)
     starts, ends = starts[own], ends[own]
     sigmas, largest, least = line.sigmas(starts)
-    # Of one row the smallest value is the largest too: where it is rounding it has vanished.
+    # With one row the smallest value is also the largest: within rounding it counts as zero.
     shares = np.where(sigmas > least, sigmas / np.where(sigmas > least, largest, 1.0), 0.0)
     return tuple(
         Place(float(start), float(end), line.at(start[None])[0], float(sigma), float(share))
@@ -80,13 +80,13 @@ def places_along(chain: Chain, qs: Array, space: TaskSpace, tolerance: float, th
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """Straight motions of the joints from each configuration to the next.
+    """A piecewise linear path in joint space.
 
     Attributes:
         chain: Base and tip.
         qs: The configurations; shape (N, n).
-        space: The rows that count.
-        rank: The rank that the chain can have.
+        space: The rows of the Jacobian that count.
+        rank: Structural rank of the chain.
     """
 
     chain: Chain
@@ -95,20 +95,20 @@ class _Line:
     rank: int
 
     def at(self, s: Array) -> Array:
-        """Configurations at some places; shape (k, n)."""
+        """Configurations at positions s along the path; shape (k,) → (k, n)."""
         segment = self._segments(s)
         following = np.minimum(segment + 1, len(self.qs) - 1)
         part = (s - segment)[:, None]
         return np.asarray((1.0 - part) * self.qs[segment] + part * self.qs[following])
 
     def sigmas(self, s: Array) -> tuple[Array, Array, Array]:
-        """The smallest singular value that can be other than zero, the largest, and what is rounding; (k,) each."""
+        """Smallest structurally nonzero singular values, largest ones, and their rounding; shape (k,) each."""
         Js, least = self.space.with_rounding(self.chain, self.at(s))
         values = np.linalg.svd(Js, compute_uv=False)
         return np.asarray(values[:, self.rank - 1]), np.asarray(values[:, 0]), least
 
     def bottoms(self, low: Array, high: Array) -> Array:
-        """The places of the minima of the smallest singular value between bounds; shape (k,)."""
+        """Find the minima of the smallest singular value between bounds; positions of shape (k,)."""
         if len(low) == 0:
             return low
         bounds = low, high
@@ -127,7 +127,7 @@ class _Line:
         return s
 
     def _newton_step(self, s: Array) -> Array:
-        """The motion along the line that makes the block that vanishes least, to first order."""
+        """Gauss-Newton step along the path that minimises the vanishing block."""
         segment = self._segments(s)
         along = self.qs[np.minimum(segment + 1, len(self.qs) - 1)] - self.qs[segment]
         F, A = vanishing_block(self.chain, self.space, self.rank, self.at(s))
@@ -140,7 +140,7 @@ class _Line:
 
 
 def _stations(qs: Array) -> Array:
-    """The places at which the path is examined, its configurations among them; shape (k,)."""
+    """Positions at which the path is sampled, including its configurations; shape (k,)."""
     strides = np.abs(np.diff(qs, axis=0)).max(axis=1, initial=0.0)
     counts = np.clip(np.ceil(strides / _STEP), 1, _MOST_STATIONS).astype(int)
     parts = [i + np.arange(count) / count for i, count in enumerate(counts)]
@@ -148,7 +148,7 @@ def _stations(qs: Array) -> Array:
 
 
 def _valleys(values: Array, flat: float) -> tuple[Array, Array]:
-    """First and last index of each run of equal values that has higher ones, or nothing, on both sides."""
+    """First and last index of each run of equal values with a higher value, or the end, on both sides."""
     steps = np.diff(values)
     steps = np.where(np.abs(steps) <= flat, 0.0, steps)
     breaks = np.flatnonzero(steps)

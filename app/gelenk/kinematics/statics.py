@@ -1,7 +1,7 @@
-"""Forces at rest: joint torques and the wrench that the tip exerts, and the four subspaces behind the two.
+"""Statics: joint torques, the wrench that the tip exerts, and the four subspaces of the Jacobian between them.
 
-By the principle of virtual work τᵀq̇ = γᵀJq̇ for every q̇, so τ = Jᵀγ: the Jacobian that leads from joint to tip
-velocities leads back from wrenches to torques. The motors of a robot with mass also hold its weight, τ = Jᵀγ + g(q).
+By the principle of virtual work τᵀq̇ = γᵀJq̇ for every q̇, so τ = Jᵀγ: J maps joint to tip velocities, and Jᵀ maps
+wrenches to torques. The motors of a robot with mass also hold its weight, τ = Jᵀγ + g(q).
 """
 
 from dataclasses import dataclass
@@ -21,19 +21,19 @@ from gelenk.model.robot import Robot
 ALL_ROWS: Indices = np.arange(6)
 AT_TIP = WrenchFrame()
 _NUMBERS_AT_ONCE = 1_000_000
-"""Entries of the Jacobians of all bodies that are held in memory at once."""
+"""Largest number of entries of the bodies' Jacobians held in memory at once."""
 
 
 @dataclass(frozen=True, slots=True)
 class StaticsCertificate:
-    """How good an answer is.
+    """Agreement of torques with Pinocchio's.
 
     Attributes:
-        samples: Configurations that were recomputed through Pinocchio.
+        samples: Number of configurations recomputed through Pinocchio.
         max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
             external force), [N m or N].
         max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
-        seed: Of the choice of samples, of q̇ and of a wrench that tries the whole Jacobian.
+        seed: Seed of the sample selection, of q̇ and of a random wrench that tests the whole Jacobian.
     """
 
     samples: int
@@ -51,14 +51,14 @@ class Statics:
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Axes and point of twists and wrenches.
-        rows: Which of their six components count; shape (m,).
-        places: Where the frame is in the base.
-        Js: The rows of the Jacobian there that count; shape (N, m, n).
-        terms: All of its rows, and what they are sums of: what is no more than their rounding is zero; shape (N, 9, n).
-        gravity: In the root's axes, [m/s²]; None where weight is left out.
-        load: On the tip.
-        gravity_torques: g(q); shape (N, n), [N m or N], zero where weight is left out.
-        gravity_scale: Largest term of the sums that these are.
+        rows: Indices of their components that count; shape (m,).
+        places: Poses of this frame in the base.
+        Js: The rows of the Jacobian in this frame that count; shape (N, m, n).
+        terms: All rows, and the terms of the linear ones: values within their rounding are zero; shape (N, 9, n).
+        gravity: Gravity in the root's axes, [m/s²]; None if weight is ignored.
+        load: A payload on the tip.
+        gravity_torques: g(q), zero if weight is ignored; shape (N, n), [N m or N].
+        gravity_scale: Largest term in the sums for g, [N m or N].
     """
 
     robot: Robot
@@ -75,23 +75,23 @@ class Statics:
     gravity_scale: float
 
     def wrench_torques(self, wrenches: Array) -> Array:
-        """Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
+        """Compute Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
         torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
         return torques
 
     def subspaces(self, tolerance: float) -> list[Subspaces]:
-        """The four subspaces at each configuration."""
+        """Compute the four subspaces at each configuration."""
         return [subspaces(J, tolerance, terms) for J, terms in zip(self.Js, self.terms, strict=True)]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Balance:
-    """The wrench of least norm that comes nearest to explaining joint torques.
+    """The least-squares wrenches of minimum norm for given joint torques.
 
     Attributes:
         wrenches: γ; shape (N, m), [N] and [N m].
-        residuals: τ - g - Jᵀγ, which no wrench balances: it accelerates the robot; shape (N, n), [N m or N].
-        splits: The subspaces; ker(Jᵀ) may be added to γ.
+        residuals: τ - g - Jᵀγ, which no wrench balances and which accelerates the robot; shape (N, n), [N m or N].
+        splits: The four subspaces at each configuration; any vector of ker(Jᵀ) may be added to γ.
     """
 
     wrenches: Array
@@ -109,20 +109,20 @@ def statics(
     gravity: Array | None = None,
     load: Load | None = None,
 ) -> Statics:
-    """A robot at rest: its Jacobians where the wrench acts, and what its weight asks of the motors.
+    """Compute the Jacobians of a robot at rest where the wrench acts, and the torques that hold its weight.
 
     Args:
-        robot: The robot; joints that the chain does not have stand at zero, and their links weigh too.
+        robot: The robot; joints off the chain are at zero, and their links have weight too.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Axes and point of the wrench.
-        rows: Components of the wrench that count; shape (m,).
-        gravity: In the axes of the robot's root; shape (3,), [m/s²].
-        load: A payload on the tip; weighs only where there is gravity.
+        rows: Indices of the wrench components that count; shape (m,).
+        gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²]. None to ignore weight.
+        load: A payload on the tip; ignored without gravity.
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        InvalidField: The frame contradicts itself.
+        InvalidField: The fields of the frame are contradictory.
     """
     places, Js, sums = frame_jacobians(robot, chain, qs, frame)
     torques, scale = np.zeros_like(qs), 0.0
@@ -138,12 +138,12 @@ def statics(
 
 
 def balance(still: Statics, torques: Array, tolerance: float) -> Balance:
-    """The wrench behind joint torques: γ = (Jᵀ)#(τ - g), which is J⁻ᵀ(τ - g) of a square regular Jacobian.
+    """Compute the wrench for given joint torques: γ = (Jᵀ)#(τ - g), which is J⁻ᵀ(τ - g) if J is square and regular.
 
     Args:
         still: The robot at rest.
-        torques: Of the motors; shape (N, n), [N m or N].
-        tolerance: A singular value counts where it exceeds this times the largest.
+        torques: Torques of the motors; shape (N, n), [N m or N].
+        tolerance: A singular value counts if it exceeds this times the largest.
     """
     splits = still.subspaces(tolerance)
     wanted = torques - still.gravity_torques
@@ -156,16 +156,16 @@ def balance(still: Statics, torques: Array, tolerance: float) -> Balance:
 def components(
     inside: Array, outside: Array, vector: Array, tolerance: float
 ) -> tuple[Array, Array, tuple[bool, bool]]:
-    """A vector as the sum of two in subspaces that are each other's orthogonal complement.
+    """Split a vector into its components in two complementary orthogonal subspaces.
 
     Args:
-        inside: Orthonormal basis of the first as columns.
-        outside: Of the second.
-        vector: To be split.
-        tolerance: It lies in one of them where the other component is no longer than this times its length.
+        inside: Orthonormal basis of the first subspace as columns.
+        outside: Orthonormal basis of the second subspace as columns.
+        vector: The vector to split.
+        tolerance: The vector lies in one subspace if its other component is at most this times its length.
 
     Returns:
-        Both components, and whether it lies in the first and in the second: a zero vector lies in both.
+        Both components, and whether the vector lies in the first and in the second: a zero vector lies in both.
     """
     first, second = inside @ (inside.T @ vector), outside @ (outside.T @ vector)
     most = tolerance * float(np.linalg.norm(vector))
@@ -173,12 +173,12 @@ def components(
 
 
 def overloaded_joints(robot: Robot, chain: Chain, torques: Array) -> list[list[str]]:
-    """Joints whose torque is beyond the description's effort limit, at each configuration; zero says no limit.
+    """List the joints whose torque exceeds the effort limit, per configuration; a limit of zero means no limit.
 
     Args:
         robot: The robot.
         chain: The chain.
-        torques: Shape (N, n), [N m or N].
+        torques: Joint torques; shape (N, n), [N m or N].
     """
     given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
     limits = np.array([limit or np.inf for limit in given])
@@ -194,12 +194,12 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
 
     Args:
         still: The robot at rest.
-        wrenches: Shape (N, m), [N] and [N m].
-        torques: Weight included; shape (N, n), [N m or N].
-        seed: Of the samples, the joint velocities and a further wrench that tries the whole Jacobian.
+        wrenches: Wrenches at the tip; shape (N, m), [N] and [N m].
+        torques: Joint torques, including weight; shape (N, n), [N m or N].
+        seed: Seed of the sample selection, the joint velocities and a random wrench that tests the whole Jacobian.
 
     Raises:
-        CertificationFailed: They differ by more than rounding.
+        CertificationFailed: The two differ by more than rounding.
     """
     robot, chain, qs = still.robot, still.chain, still.qs
     rows = sampled_rows(len(qs) if len(chain) else 0, seed)
@@ -226,6 +226,6 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
 
 
 def _largest_term(J: Array, wrench: Array, point: Array) -> float:
-    """The largest term on the way from a wrench to torques, here or by way of the moment about the base origin."""
+    """Largest term in computing torques from a wrench, here or through its moment about the base origin."""
     force = float(np.abs(wrench).max(initial=0.0))
     return max(float((np.abs(J.T) @ np.abs(wrench)).max()), force * (1.0 + float(np.abs(point).max())))

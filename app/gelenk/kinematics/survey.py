@@ -1,4 +1,4 @@
-"""The parts of a workspace put together, and certified."""
+"""Assembly of a workspace from the parts of its samples, and its certification."""
 
 import math
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ POINT_COLUMNS = ("x", "y", "z", "measure")
 VOXEL_COLUMNS = ("x", "y", "z", "samples", "best_measure")
 
 _PENDING = 500_000
-"""Rows of tables that wait until they are merged."""
+"""Number of table rows that are collected before they are merged."""
 _RARE = 0.02
-"""Share of the samples that may be alone in their cell, where nearly all cells are to be met [Good1953]."""
+"""Largest share of samples alone in their cell at which nearly all cells count as found [Good1953]."""
 _LATE = 0.1
-"""Of the samples, the last that say whether more of them would find more."""
+"""Share of the samples, the last ones, that shows whether more samples would find more cells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,11 +30,11 @@ class Measures:
     """Yoshikawa's measure over the samples that count.
 
     Attributes:
-        least: The smallest.
-        mean: Their mean.
-        most: The largest.
-        position: Where the tip is there; shape (3,), [m]. None where all measures are zero.
-        joint_positions: The configuration, likewise; shape (n,), [rad or m].
+        least: The smallest measure.
+        mean: The mean measure.
+        most: The largest measure.
+        position: Position of the tip at the largest measure; shape (3,), [m]. None if all measures are zero.
+        joint_positions: Configuration at the largest measure; shape (n,), [rad or m]. None if all measures are zero.
     """
 
     least: float
@@ -46,12 +46,12 @@ class Measures:
 
 @dataclass(frozen=True, slots=True)
 class SurveyCertificate:
-    """How far samples recomputed through Pinocchio are from those that were counted.
+    """Agreement of workspace samples with Pinocchio's results.
 
     Attributes:
-        poses: Positions and orientations.
-        max_jacobian_error: Largest difference of an entry of the Jacobian, [m, rad per rad or m].
-        max_measure_error: Largest difference of a measure from the product of that Jacobian's singular values.
+        poses: Differences of positions and orientations.
+        max_jacobian_error: Largest difference in an entry of the Jacobian, [m, rad per rad or m].
+        max_measure_error: Largest difference of a measure from the product of the Jacobian's singular values.
     """
 
     poses: Certificate
@@ -61,19 +61,19 @@ class SurveyCertificate:
 
 @dataclass(frozen=True, slots=True)
 class Workspace:
-    """What the samples of a chain say about its workspace; the optional ones are None where no sample counts.
+    """The workspace of a chain as found by samples; bounds, reach, measures and late are None if no sample counts.
 
     Attributes:
-        count: Samples that count.
+        count: Number of samples that count.
         bounds: Smallest and largest coordinates; shape (2, 3), [m].
         reach: Smallest and largest distance of the tip from the base's origin, [m].
-        measures: Of the samples that count.
-        voxels: The cells that they fall into.
-        inner: How many of these have a neighbour on every side, also across edges and corners.
-        volume: Between what two values the volume of all that can be reached lies, [m³, m² or m].
+        measures: Measures of the samples that count.
+        voxels: The cells that contain these samples.
+        inner: Number of cells with neighbours on every side, including edges and corners.
+        volume: Lower and upper bound of the volume of the reachable region, [m³, m² or m].
         late: Share of the cells that only the last tenth of the samples found.
-        points: Of each its position and measure, where wanted; shape (count, 4).
-        certificate: How good the samples are.
+        points: Position and measure of each sample; shape (count, 4). None if not requested.
+        certificate: Errors of the samples.
     """
 
     count: int
@@ -88,13 +88,13 @@ class Workspace:
     certificate: SurveyCertificate
 
     def voxel_rows(self, plan: Plan) -> Array:
-        """One row a cell, columns `VOXEL_COLUMNS`; shape (M, 5)."""
+        """Return one row per cell with the columns `VOXEL_COLUMNS`; shape (M, 5)."""
         table = self.voxels
         return np.column_stack((plan.grid.centres(table.keys), table.counts, table.best))
 
 
 class Survey:
-    """Takes the parts of a plan one by one, in the order of the samples."""
+    """A workspace under construction: collects the parts of a plan one by one, in the order of the samples."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
@@ -108,7 +108,7 @@ class Survey:
         self._best = -1
 
     def add(self, part: Part) -> None:
-        """Take a part.
+        """Add the next part.
 
         Raises:
             TooLarge: The samples fall into too many cells.
@@ -127,15 +127,15 @@ class Survey:
             self.merge()
 
     def merge(self) -> VoxelTable:
-        """The cells of the parts so far."""
+        """Merge and return the cells of all parts so far."""
         self._voxels, self._waiting = merged([self._voxels, *self._waiting]), []
         return self._voxels
 
     def result(self, robot: Robot, chain: Chain) -> Workspace:
-        """The result of the whole survey.
+        """Return the workspace from all parts, certified.
 
         Raises:
-            CertificationFailed: Pinocchio's poses, Jacobians or measures differ.
+            CertificationFailed: Poses or Jacobians differ from Pinocchio's, or measures from their recomputation.
         """
         voxels, count, plan = self.merge(), self._count, self._plan
         points = None if self._points is None else self._points[:count]
@@ -162,7 +162,7 @@ class Survey:
         return Measures(least, total / self._count, most, position, q[0])
 
     def _certificate(self, robot: Robot, chain: Chain) -> SurveyCertificate:
-        """Samples spread over all of them, recomputed and compared with what was counted, and with Pinocchio's."""
+        """Recompute some evenly spaced samples, and compare them with the stored ones and with Pinocchio's."""
         plan, total = self._plan, self._plan.sampling.count
         numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
         qs = plan.sampling.chosen(numbers)
@@ -183,16 +183,19 @@ class Survey:
 
 
 def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float, float]:
-    """Between what two values the volume of the region that samples come from lies, [m³, m² or m].
+    """Bound the volume of the region that the samples come from, [m³, m² or m].
 
-    It has the inner cells, and no more than those it meets. Where the samples are too few to meet nearly all of them,
-    twice as large cells tell more. How many are still missing is estimated from those that one or two samples have
-    met [Chao1984]. Without samples there is nothing but the ball that the tip does not leave.
+    The region contains the inner cells, and lies within the cells it meets. If the samples are too few to find nearly
+    all of these, cells of twice the size are used. The number of cells still missing is estimated from those with one
+    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave.
 
     Args:
-        grid: The cells.
-        table: Those that samples have met.
-        farthest: No position is further from the base's origin, [m].
+        grid: The grid of cells.
+        table: The cells that contain samples.
+        farthest: Upper bound of the tip's distance from the base's origin, [m].
+
+    Returns:
+        Lower and upper bound.
     """
     d = grid.dimensions
     if d == 0:
@@ -210,10 +213,10 @@ def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float
 
 
 def _products(plan: Plan, Js: Array) -> tuple[Array, float]:
-    """Products of the singular values of the rows that count, of Jacobians in the base frame; and what they can be.
+    """Products of the singular values of the rows that count, and their scale, from Jacobians in the base frame.
 
     Returns:
-        Shape (N,), and the largest singular value to the power of their number: rounding is a share of that.
+        Shape (N,), and the largest singular value to the power of their number, to which rounding is relative.
     """
     if len(plan.rows) == 0 or Js.shape[2] == 0:
         return np.zeros(len(Js)), 0.0

@@ -1,8 +1,8 @@
-"""The space in which a task moves the tip: the rows of the Jacobian that count, and what a chain can do in them.
+"""The task space of the tip: the rows of the Jacobian that count, and the motions of a chain in them.
 
 A direction can be missing because the arm never has it (a planar arm, or fewer joints than directions) or because it
-is lost at one configuration. The two are distinguished by the structure of the chain: what it can do at random
-configurations, which are almost surely regular.
+is lost at one configuration. The chain's structure distinguishes the two: its motions at random configurations, which
+are almost surely regular.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from gelenk.model.arrays import Array, Flags
 from gelenk.model.chain import Chain
 
 STRUCTURAL_TOLERANCE = 1e-9
-"""Singular value, relative to the largest, above which a direction counts as one that the arm can have."""
+"""Relative singular value above which a direction counts as one in which the arm can move."""
 _TRIALS = 8
 
 
@@ -28,10 +28,10 @@ class TaskSpace:
     """The rows of the Jacobian that count, and the length that makes radians comparable with metres.
 
     Attributes:
-        task: Which directions count, in the order of the rows; m of them.
-        characteristic_length: What angular rows are multiplied by, [m]; None leaves metres and radians mixed.
-        reference: Whose rows they are. `local_world_aligned`: along and about the base's axes, at the tip. `local`:
-            the tip's axes. `world`: the base's axes, of the point of the tip's body that passes the base's origin.
+        task: The m directions that count, in the order of the rows.
+        characteristic_length: Factor of the angular rows, [m]; None leaves metres and radians mixed.
+        reference: Reference of the rows. `local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip.
+            `world`: base axes, at the point of the tip's body that coincides with the base's origin.
     """
 
     task: Task = FULL_POSE
@@ -43,35 +43,35 @@ class TaskSpace:
 
     @cached_property
     def rows(self) -> list[int]:
-        """Which rows of a Jacobian in the reference count, in their order."""
+        """Indices of the rows that count, in the order of the task."""
         return [DIRECTIONS.index(direction) for direction in self.task.directions]
 
     @cached_property
     def turns(self) -> int:
-        """How many of them are angular."""
+        """Number of angular rows."""
         return sum(row >= 3 for row in self.rows)
 
     @cached_property
     def scales(self) -> Array:
-        """The factor of each direction; shape (m,)."""
+        """Factor of each row; shape (m,)."""
         return np.array([1.0 if row < 3 else self.characteristic_length or 1.0 for row in self.rows])
 
     @cached_property
     def is_of_the_geometric_rows(self) -> bool:
-        """Whether singular values are those of the same rows in the base's axes at the tip."""
+        """Whether the same rows in the base's axes at the tip have the same singular values."""
         linear = len(self) - self.turns
         whole_halves = linear in {0, 3} and self.turns in {0, 3}
         return self.reference == "local_world_aligned" or (self.reference == "local" and whole_halves)
 
     def jacobians(self, chain: Chain, qs: Array) -> Array:
-        """J at configurations of shape (N, n); shape (N, m, n)."""
+        """Compute J at configurations of shape (N, n); shape (N, m, n)."""
         return self.picked(jacobians_with_terms(chain, qs, self.reference)[0])
 
     def with_rounding(self, chain: Chain, qs: Array) -> tuple[Array, Array]:
-        """J, shape (N, m, n), and singular values that may be none but rounding of what J is the rest of; (N,).
+        """Compute J, shape (N, m, n), and the level up to which its singular values are rounding, shape (N,).
 
-        What a description's rounded angles make of a direction that the tip has nowhere is taken off: it is large
-        where the others vanish.
+        Rounded angles in a description cause small motion in directions that the tip never has. It is removed, as it
+        would matter where the other directions vanish.
         """
         whole, terms = jacobians_with_terms(chain, qs, self.reference)
         fixed = structure(chain, self.task, self.reference)
@@ -80,29 +80,29 @@ class TaskSpace:
         return np.asarray(Js), rounding(terms) * self.scales.max()
 
     def never(self, fixed: "Structure") -> Array:
-        """An orthonormal basis of the directions that the tip has nowhere, of the scaled rows; shape (m, k)."""
+        """Return an orthonormal basis of the directions that the tip never has, in scaled rows; shape (m, k)."""
         if self.characteristic_length is None:
             return fixed.never
         return np.asarray(np.linalg.qr(fixed.never / self.scales[:, None])[0])
 
     def picked(self, Js: Array) -> Array:
-        """The rows that count of whole Jacobians in the reference; shape (N, 6, n) → (N, m, n)."""
+        """Select and scale the rows that count of full Jacobians; shape (N, 6, n) → (N, m, n)."""
         return np.asarray(Js[:, self.rows] * self.scales[:, None])
 
     def hessians(self, chain: Chain, qs: Array) -> Array:
-        """∂J/∂q of the same: [:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, m, n, n)."""
+        """Compute ∂J/∂q of these rows: [:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, m, n, n)."""
         Hs = hessians_in_reference(chain, qs, self.reference)
         return np.asarray(Hs[:, self.rows] * self.scales[:, None, None])
 
     def twists(self, directions: Array, chain: Chain, q: Array) -> Array:
-        """Directions of the rows, shape (m, k), as unit twists of the tip in the base's axes; shape (6, k)."""
+        """Convert directions in the rows to unit twists of the tip in the base's axes; shape (m, k) → (6, k)."""
         vectors, p = self._in_base_axes(directions / self.scales[:, None], chain, q)
         if self.reference == "world":
             vectors[:3] -= np.cross(p, vectors[3:], axisb=0, axisc=0)
         return np.asarray(vectors / np.linalg.norm(vectors, axis=0))
 
     def wrenches(self, directions: Array, chain: Chain, q: Array) -> Array:
-        """Directions of the rows, shape (m, k), as unit wrenches at the tip in the base's axes; shape (6, k)."""
+        """Convert directions in the rows to unit wrenches at the tip in the base's axes; shape (m, k) → (6, k)."""
         vectors, p = self._in_base_axes(directions * self.scales[:, None], chain, q)
         if self.reference == "world":
             vectors[3:] -= np.cross(p, vectors[:3], axisb=0, axisc=0)
@@ -122,13 +122,13 @@ FULL_SPACE = TaskSpace()
 
 
 def jacobians_with_terms(chain: Chain, qs: Array, reference: Reference) -> tuple[Array, Array]:
-    """Jacobians whose columns are twists in a reference, and these with what their linear rows are sums of.
+    """Compute geometric Jacobians in a reference, and the terms to which their rounding is relative.
 
-    Rounding is relative to the terms: to the tip's distance from the base where z × (p - o) vanishes because the tip is
-    on the axis.
+    The terms are J itself and three rows that scale with the tip's distance from the base, because z × (p - o) rounds
+    at that scale even where it vanishes because the tip is on the axis.
 
     Returns:
-        Shapes (N, 6, n) and (N, 9, n).
+        J, shape (N, 6, n), and the terms, shape (N, 9, n).
     """
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     levers = Js[:, 3:] * (2.0 * np.linalg.norm(positions, axis=1)[:, None, None])
@@ -140,7 +140,7 @@ def jacobians_with_terms(chain: Chain, qs: Array, reference: Reference) -> tuple
 
 
 def hessians_in_reference(chain: Chain, qs: Array, reference: Reference) -> Array:
-    """∂J/∂q of these: [:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n)."""
+    """Compute ∂J/∂q of geometric Jacobians in a reference: [:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n)."""
     Hs = chain_hessians(chain.flat, qs)
     if reference == "local_world_aligned":
         return Hs
@@ -165,12 +165,12 @@ def _turned(rotations: Array, rows: Array) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """Properties of a chain that hold at all but its singular configurations.
+    """Properties of a chain at all but its singular configurations.
 
     Attributes:
-        rank: The rank of J at random configurations.
-        never: Directions that the tip has nowhere, orthonormal, of unscaled rows; shape (m, k).
-        idle: Joint velocities that leave the tip at rest everywhere, orthonormal; shape (n, l).
+        rank: Rank of J at random configurations.
+        never: Orthonormal basis of the directions that the tip never has, in unscaled rows; shape (m, k).
+        idle: Orthonormal basis of the joint velocities that leave the tip at rest everywhere; shape (n, l).
     """
 
     rank: int
@@ -180,8 +180,8 @@ class Structure:
 
 @lru_cache(maxsize=1024)
 def structure(chain: Chain, task: Task, reference: Reference = "local_world_aligned") -> Structure:
-    """The structure of a chain, from random configurations that are the same at each call."""
-    # With one row each, a configuration gives at most one joint velocity that moves the tip.
+    """Find the structure of a chain from random configurations, the same in each call."""
+    # With a single row, each configuration contributes at most one independent joint velocity.
     trials = _TRIALS + 2 * len(chain)
     space = TaskSpace(task, None, reference)
     whole, terms = jacobians_with_terms(chain, random_configurations(chain, trials), reference)
@@ -191,37 +191,37 @@ def structure(chain: Chain, task: Task, reference: Reference = "local_world_alig
     rank = max(subspaces(J, STRUCTURAL_TOLERANCE, everything).rank for J in Js)
     beside = subspaces(_triangle(Js.transpose(1, 0, 2).reshape(m, trials * n).T).T, STRUCTURAL_TOLERANCE, everything)
     below = subspaces(_triangle(Js.reshape(trials * m, n)), STRUCTURAL_TOLERANCE, everything)
-    # What is next to the tolerance may count at one configuration and not in all of them together.
+    # A value near the tolerance may count at one configuration but not in all of them together.
     rank = min(rank, beside.rank, below.rank)
     return Structure(rank, aligned_basis(beside.left_kernel), aligned_basis(below.kernel))
 
 
 def _triangle(rows: Array) -> Array:
-    """R of the decomposition QR: as many columns as these rows, the same kernel and singular values, and few rows."""
+    """R of the QR decomposition: it has fewer rows, but the same kernel and singular values."""
     return np.asarray(np.linalg.qr(rows, mode="r")) if rows.size else rows
 
 
 def random_configurations(chain: Chain, count: int, seed: int = 0) -> Array:
-    """All the way round for turning joints and ±1 m for sliding ones, whatever the limits; shape (count, n)."""
+    """Draw configurations within ±π for revolute and ±1 m for prismatic joints, ignoring limits; shape (count, n)."""
     reach = np.where(slides(chain), 1.0, np.pi)
     return np.random.default_rng(seed).uniform(-reach, reach, (count, len(chain)))
 
 
 def slides(chain: Chain) -> Flags:
-    """Which variables move a sliding joint; shape (n,)."""
+    """Return which variables move a prismatic joint; shape (n,)."""
     sliding = np.zeros(len(chain), dtype=bool)
     sliding[chain.flat.joints[chain.flat.joints[:, 0] == 1, 1]] = True
     return sliding
 
 
 def aligned_basis(basis: Array) -> Array:
-    """An orthonormal basis of the same space, as near to coordinate axes as it goes, largest entries positive."""
+    """Return a basis of the same space, as close to the coordinate axes as possible, with positive largest entries."""
     if basis.size == 0:
         return basis
     left = basis @ basis.T
     vectors = np.empty_like(basis)
     for k in range(basis.shape[1]):
-        # Of equals the first, though rounding makes them differ.
+        # Take the first of equal entries, even if rounding makes them differ.
         column = left[:, int(np.argmax(np.round(np.diag(left), 9)))]
         vectors[:, k] = column / np.linalg.norm(column)
         left = left - np.outer(vectors[:, k], vectors[:, k] @ left)

@@ -1,4 +1,4 @@
-"""Where a chain's tip moves at all: the line, plane or space of its velocities, and how far it can get."""
+"""Directions in which a chain's tip can move: the line, plane or space of its velocities, and its reach."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -13,24 +13,24 @@ from gelenk.model.chain import Chain, FlatChain
 from gelenk.model.errors import counted
 
 _PROBES = 4096
-"""Samples that say how large the workspace is before it is cut into cells."""
+"""Number of samples that estimate the size of the workspace, to choose the cells."""
 _DIRECTIONS = 64
-"""Configurations that say in which directions the tip moves at all."""
+"""Number of configurations that determine in which directions the tip moves at all."""
 _STRUCTURAL = 1e-9
-"""Share of the largest velocity below which a direction is one in which the tip never moves."""
+"""The tip never moves in a direction if its velocity stays below this share of the largest."""
 
 
 class Motion:
-    """The directions in which the tip moves at all, and how far, from some configurations.
+    """The directions in which a chain's tip moves at all, and its reach, from sampled configurations.
 
     Args:
         chain: The chain.
-        sampling: Its configurations.
+        sampling: Configurations of the chain.
     """
 
     def __init__(self, chain: Chain, sampling: Sampling) -> None:
         qs = sampling.configurations(0, min(_PROBES, sampling.count))
-        # Directions are a matter of structure, and a few samples of their own tell them even where one is asked for.
+        # Directions depend on structure only: use separate samples, even if a single configuration is requested.
         probes = replace(sampling, sequence="random", seed=0).configurations(0, _DIRECTIONS)
         self.positions = chain_poses(chain.flat, qs)[0]
         _, self._rotations, self._Js = chain_jacobians(chain.flat, probes)
@@ -44,12 +44,12 @@ class Motion:
 
     @property
     def dimensions(self) -> int:
-        """The dimension of the smallest line, plane or space that holds all velocities of the tip."""
+        """Dimension of the smallest line, plane or space that contains all velocities of the tip."""
         return self._decomposition[1]
 
     @cached_property
     def axes(self) -> Array:
-        """Unit vectors as columns, right-handed, the directions that the tip moves in first; shape (3, 3)."""
+        """Right-handed unit vectors as columns, directions of motion first; shape (3, 3)."""
         left, rank = self._decomposition
         if rank == 2:
             return plane_axes(left[:, 2])
@@ -57,14 +57,14 @@ class Motion:
 
     @cached_property
     def rows(self) -> list[int] | None:
-        """The base's axes that these directions are; None where they lie askew to them."""
+        """Indices of the base's axes that span the directions of motion; None if these are oblique to the axes."""
         still = np.abs(self._velocities[:3]).max(axis=1, initial=0.0)
         moving = np.flatnonzero(still > _STRUCTURAL * max(float(still.max()), np.finfo(float).tiny))
         return moving.tolist() if len(moving) == self.dimensions else None
 
     @cached_property
     def local_dimensions(self) -> int:
-        """Of what the tip keeps to: less than `dimensions` where that is a curve or a surface that is not flat."""
+        """Dimension of the set of positions: less than `dimensions` for a curve or a curved surface."""
         if self.dimensions == 0:
             return 0
         velocities = self._velocities[:3].reshape(3, _DIRECTIONS, -1).transpose(1, 0, 2)
@@ -72,13 +72,13 @@ class Motion:
 
     @property
     def kept_to(self) -> str | None:
-        """`curve` or `surface`, where the tip keeps to one that is not flat."""
+        """`curve` or `surface` if the tip stays on a curved one, else None."""
         if self.local_dimensions == self.dimensions:
             return None
         return "surface" if self.local_dimensions == 2 else "curve"
 
     def notes(self) -> list[str]:
-        """Remarks on the places that the tip reaches."""
+        """Return remarks on the positions that the tip reaches."""
         if self.dimensions == 0:
             return ["the tip does not move"]
         if self.kept_to is None:
@@ -90,7 +90,7 @@ class Motion:
         return [note]
 
     def slice_notes(self, normal: Array) -> list[str]:
-        """Why a slice with this unit normal, shape (3,), has no area, where it has none."""
+        """Explain why a slice with this unit normal, shape (3,), has no area; empty if it has one."""
         crosses = bool(np.abs(normal @ self.axes[:, : self.dimensions]).max(initial=0.0) > _STRUCTURAL)
         left = self.local_dimensions - crosses
         if left >= 2 or self.dimensions == 0:
@@ -99,11 +99,11 @@ class Motion:
         return [f"the slice meets where the tip gets in {what} only: the area of its voxels shrinks with their size"]
 
     def is_singular(self, rows: list[int], turn: Array | None) -> bool:
-        """Whether some of the Jacobian's rows depend on each other wherever the chain is: their measure is zero.
+        """Return whether some rows of the Jacobian are dependent at every configuration, so that their measure is zero.
 
         Args:
-            rows: Which rows count.
-            turn: Along which axes, as columns, shape (3, 3); the base's where None.
+            rows: Indices of the rows.
+            turn: Axes of the rows as columns, shape (3, 3); the base's if None.
         """
         Js = self._Js
         if turn is not None:
@@ -114,14 +114,14 @@ class Motion:
 
     @cached_property
     def turning(self) -> tuple[Array, int]:
-        """Unit vectors as columns, those that the tip turns about first, and how many these are."""
+        """Unit vectors as columns, the tip's rotation axes first, and the number of these; shape (3, 3)."""
         return _span(self._velocities[3:])
 
     def ranks(self, direction_only: bool) -> tuple[int, int]:
-        """Independent velocities of the tip, at most: in position, and in position and orientation together.
+        """Count the independent velocities of the tip: in position, and in position and orientation together.
 
         Args:
-            direction_only: Whether of the orientation the direction of the tip's z axis alone counts.
+            direction_only: Whether only the direction of the tip's z axis counts as orientation.
         """
         Js = self._Js[:, :, self._moves]
         moving = Js[:, :3] / max(self.farthest, np.finfo(float).tiny)
@@ -130,33 +130,33 @@ class Motion:
 
 
 def _largest_rank(matrices: Array) -> int:
-    """Shape (N, m, n)."""
+    """Largest rank of any of the matrices; shape (N, m, n)."""
     scale = float(np.abs(matrices).max(initial=np.finfo(float).tiny))
     return int(np.linalg.matrix_rank(matrices, tol=_STRUCTURAL * scale).max()) if matrices.size else 0
 
 
 def _span(vectors: Array) -> tuple[Array, int]:
-    """Orthonormal columns, those that span the vectors first, shape (3, 3), and how many these are."""
+    """Orthonormal columns, those that span the vectors first, shape (3, 3), and the number of these."""
     left, sigmas, _ = np.linalg.svd(np.hstack((vectors, np.zeros((3, 3)))), full_matrices=False)
     return left, int(np.sum(sigmas > _STRUCTURAL * max(float(sigmas[0]), np.finfo(float).tiny)))
 
 
 def plane_axes(normal: Array) -> Array:
-    """Two unit vectors in a plane and its normal, as columns; right-handed, along the base's axes where these fit.
+    """Return two unit vectors in a plane and its normal as right-handed columns, along the base's axes if possible.
 
-    The second looks upwards: for the plane x z it is z, and the normal changes its sign for that.
+    The second vector's largest component is positive: for the plane x z it is z, and the normal is reversed for that.
     """
     smallest = int(np.argmin(np.abs(normal)))
     u = np.eye(3)[smallest] - normal[smallest] * normal
     u /= np.linalg.norm(u)
     v = np.cross(normal, u)
     sign = 1.0 if v[int(np.argmax(np.abs(v)))] > 0.0 else -1.0
-    # Sums with zero leave no negative zeros.
+    # Adding zero turns -0.0 into 0.0.
     return np.column_stack((u, sign * v, sign * normal)) + 0.0
 
 
 def turned(flat: FlatChain, axes: Array) -> FlatChain:
-    """The chain with a base whose axes are the given columns."""
+    """Return the chain expressed in a base whose axes are the given columns."""
     first = flat.placements[0]
     rotation, position = axes.T @ first[:9].reshape(3, 3), axes.T @ first[9:]
     placements = flat.placements.copy()
@@ -165,7 +165,7 @@ def turned(flat: FlatChain, axes: Array) -> FlatChain:
 
 
 def _farthest(chain: Chain, ranges: Ranges) -> float:
-    """No position of the tip is further from the base's origin, [m]: all lengths in a row."""
+    """Upper bound of the tip's distance from the base's origin, [m]: the sum of all lengths."""
     total = float(np.linalg.norm(chain.flat.placements[:, 9:], axis=1).sum())
     for (prismatic, variable), (multiplier, offset) in zip(chain.flat.joints, chain.flat.drives, strict=True):
         if prismatic:

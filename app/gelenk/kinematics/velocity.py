@@ -1,7 +1,7 @@
-"""How the tip moves when the joints do: twist, acceleration, jerk and snap.
+"""Motion of the tip for given joint motions: twist, acceleration, jerk and snap.
 
-The Jacobian is written as a power series in time, J(q(t)) = Σ J_k tᵏ, by multiplying truncated series along the
-chain; so its derivatives J̇, J̈ and J⃛ are exact. The tip's motion follows by the product rule:
+The Jacobian is expanded as a power series in time, J(q(t)) = Σ J_k tᵏ, by multiplying truncated series along the
+chain, so its derivatives J̇, J̈ and J⃛ are exact. The tip's motion follows by the product rule:
 
     v = J q̇    a = J q̈ + J̇ q̇    jerk = J q⃛ + 2 J̇ q̈ + J̈ q̇    snap = J q⁗ + 3 J̇ q⃛ + 3 J̈ q̈ + J⃛ q̇
 
@@ -23,22 +23,22 @@ from gelenk.model.poses import Poses
 from gelenk.model.robot import Robot
 
 MAX_ORDER = 4
-"""Of the derivatives: snap."""
+"""Highest order of the derivatives: snap."""
 
 _ROOM = 4_000_000
-"""Numbers in the largest intermediate array: larger batches are worked on in parts."""
+"""Largest number of entries in an intermediate array: larger batches are split."""
 
 
 @dataclass(frozen=True, slots=True)
 class TipMotion:
-    """The tip's motion at N configurations, linear before angular; order k is that of q's k-th derivative.
+    """The tip's motion at N configurations, linear before angular; order k belongs to q's k-th derivative.
 
     Attributes:
         poses: T_base_tip.
-        derivatives: Twist, acceleration, jerk, snap, as many as were requested, each of shape (N, 6), [m/sᵏ, rad/sᵏ].
-        spatial_accelerations: Where there is an acceleration; shape (N, 6), [m/s², rad/s²].
-        jacobians: J, J̇, J̈, J⃛ of `local_world_aligned`, one fewer than derivatives, and at least J; (k, N, 6, n).
-        certificate: How far Pinocchio's are from these.
+        derivatives: Twist, acceleration, jerk, snap, as many as rates were given; shape (N, 6) each, [m/sᵏ, rad/sᵏ].
+        spatial_accelerations: Spatial accelerations, None for a twist alone; shape (N, 6), [m/s², rad/s²].
+        jacobians: J, J̇, J̈, J⃛ of `local_world_aligned`, one per derivative; shape (K, N, 6, n).
+        certificate: Largest differences from Pinocchio's derivatives.
     """
 
     poses: Poses
@@ -51,7 +51,7 @@ class TipMotion:
 def tip_motion(
     robot: Robot, chain: Chain, qs: Array, rates: Array, reference: Reference = "local_world_aligned"
 ) -> TipMotion:
-    """Derivatives of the tip's motion, certified.
+    """Compute and certify derivatives of the tip's motion.
 
     Args:
         robot: The robot.
@@ -59,11 +59,11 @@ def tip_motion(
         qs: Configurations; shape (N, n), [rad or m].
         rates: q̇, q̈, q⃛, q⁗, the first one to four of them; shape (K, N, n), [rad/sᵏ or m/sᵏ].
         reference: `local_world_aligned`: derivatives of the tip's position and of its angular velocity, along the
-            base's axes. `local`: the same vectors along the tip's axes. `world`: the linear part is of the point of
-            the tip's body that passes the base's origin, along the base's axes.
+            base's axes. `local`: the same vectors along the tip's axes. `world`: along the base's axes, the linear
+            part for the point of the tip's body that coincides with the base's origin.
 
     Raises:
-        CertificationFailed: Pinocchio's differ.
+        CertificationFailed: Pinocchio's derivatives differ by more than rounding.
     """
     poses = Poses(*chain_poses(chain.flat, qs))
     Js = jacobian_derivatives(chain, qs, rates[:-1])
@@ -77,7 +77,7 @@ def tip_motion(
 
 
 def product_rule(Js: Array, rates: Array) -> tuple[Array, ...]:
-    """Derivatives of the tip's motion from those of J and of q, r⁽ᵏ⁾ = Σ_j (k-1 over j) J⁽ʲ⁾ q⁽ᵏ⁻ʲ⁾; shape (N, 6) each.
+    """Combine derivatives of J and q into those of the tip, r⁽ᵏ⁾ = Σ_j (k-1 over j) J⁽ʲ⁾ q⁽ᵏ⁻ʲ⁾; shape (N, 6) each.
 
     Args:
         Js: J, J̇, …; shape (K, N, 6, n).
@@ -93,9 +93,9 @@ def product_rule(Js: Array, rates: Array) -> tuple[Array, ...]:
 
 
 def spatial_accelerations(derivatives: tuple[Array, ...]) -> Array:
-    """The spatial acceleration (p̈ - ω × ṗ; ω̇) from the twist and the classical (p̈; ω̇); shape (N, 6).
+    """Compute the spatial acceleration (p̈ - ω × ṗ; ω̇) from the twist and the classical (p̈; ω̇); shape (N, 6).
 
-    It is the derivative of the twist's coordinates in the moving tip, turned into the base's axes [Featherstone2008].
+    It is the derivative of the twist's coordinates in the moving tip, rotated into the base's axes [Featherstone2008].
     """
     twists, accelerations = derivatives[:2]
     spatial = accelerations.copy()
@@ -104,7 +104,7 @@ def spatial_accelerations(derivatives: tuple[Array, ...]) -> Array:
 
 
 def in_reference(poses: Poses, derivatives: tuple[Array, ...], reference: Reference) -> tuple[Array, ...]:
-    """Derivatives of `local_world_aligned` seen in another reference, see `tip_motion`; shape (N, 6) each."""
+    """Convert derivatives in `local_world_aligned` to another reference, see `tip_motion`; shape (N, 6) each."""
     if reference == "local":
         return tuple(_turned(poses, derivative) for derivative in derivatives)
     if reference == "world":
@@ -113,12 +113,12 @@ def in_reference(poses: Poses, derivatives: tuple[Array, ...], reference: Refere
 
 
 def jacobian_derivatives(chain: Chain, qs: Array, rates: Array) -> Array:
-    """J and its derivatives in time, of the geometric Jacobian along the base's axes at the tip; exact.
+    """Compute the geometric Jacobian in the base's axes at the tip and its exact time derivatives.
 
     Args:
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
-        rates: q̇, q̈, …: one for each derivative wanted; shape (K - 1, N, n), K - 1 may be 0.
+        rates: q̇, q̈, …, one per requested derivative; shape (K - 1, N, n), K - 1 may be 0.
 
     Returns:
         J, J̇, J̈, …; shape (K, N, 6, n).
@@ -144,7 +144,7 @@ def _jacobian_series(flat: FlatChain, derivatives: Array) -> Array:
     values = flat.drives[:, 0] * (derivatives / factorials[:, None, None])[:, :, variables]
     values[0] += flat.drives[:, 1]
     axes, points, tip = _axes_series(flat, _motion_series(values, slides))
-    # v = z × (p - o) of a turning joint, as a product with the matrix of z.
+    # v = z × (p - o) for a revolute joint, as a product with the matrix [z]×.
     arms = tip[:, :, None] - points
     turning = series_product(_cross_matrices(axes), arms[..., None])[..., 0]
     columns = np.concatenate(
@@ -159,7 +159,7 @@ def _jacobian_series(flat: FlatChain, derivatives: Array) -> Array:
 def _motion_series(values: Array, slides: Flags) -> Array:
     """Each joint's motion about or along its own z as a series of (4, 4); values (K, N, m) → (K, N, m, 4, 4)."""
     orders = len(values)
-    # e = exp(i θ) solves ė = i θ̇ e, which gives its coefficients one after the other.
+    # e = exp(i θ) satisfies ė = i θ̇ e, which gives its coefficients one after another.
     circle = np.zeros(values.shape, dtype=complex)
     circle[0] = np.exp(1j * values[0])
     for k in range(1, orders):
@@ -177,7 +177,7 @@ def _motion_series(values: Array, slides: Flags) -> Array:
 
 
 def _axes_series(flat: FlatChain, motions: Array) -> tuple[Array, Array, Array]:
-    """Of each joint its axis and a point on it, shapes (K, N, m, 3), and the tip's position, shape (K, N, 3)."""
+    """Series of each joint's axis and a point on it, shape (K, N, m, 3), and of the tip's position, shape (K, N, 3)."""
     orders, count, joints = motions.shape[:3]
     placements = np.zeros((joints + 1, 4, 4))
     placements[:, :3, :3] = flat.placements[:, :9].reshape(-1, 3, 3)
@@ -193,7 +193,7 @@ def _axes_series(flat: FlatChain, motions: Array) -> tuple[Array, Array, Array]:
 
 
 def series_product(a: Array, b: Array) -> Array:
-    """The product of two series of matrices, as far as both reach; (K, …, r, s) and (K, …, s, t) → (K, …, r, t)."""
+    """Multiply two truncated series of matrices; shapes (K, …, r, s) and (K, …, s, t) → (K, …, r, t)."""
     product = np.zeros((*a.shape[:-1], b.shape[-1]))
     for k in range(len(a)):
         for j in range(k + 1):
@@ -202,7 +202,7 @@ def series_product(a: Array, b: Array) -> Array:
 
 
 def _blocks(series: Array) -> Array:
-    """A series as the one matrix by which rows of coefficients are multiplied: block (j, k) is coefficient k - j."""
+    """A series as one matrix that multiplies rows of coefficients: block (j, k) is coefficient k - j."""
     orders = len(series)
     padded = np.concatenate((series, np.zeros((1, *series.shape[1:]))))
     blocks = padded[_lags(orders)]  # (K, K, N, m, 4, 4)
@@ -212,13 +212,13 @@ def _blocks(series: Array) -> Array:
 
 @lru_cache(maxsize=8)
 def _lags(orders: int) -> Indices:
-    """Lags k - j where that is no less than 0, else the row of zeros behind the last coefficient; shape (K, K)."""
+    """Lags k - j where these are not negative, else the index of the zero coefficient after the last; shape (K, K)."""
     lags = np.arange(orders) - np.arange(orders)[:, None]
     return np.where(lags < 0, orders, lags)
 
 
 def _cross_matrices(vectors: Array) -> Array:
-    """[v]× with [v]× u = v × u; shape (…, 3) → (…, 3, 3)."""
+    """Matrices [v]× with [v]× u = v × u; shape (…, 3) → (…, 3, 3)."""
     matrices = np.zeros((*vectors.shape, 3))
     x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
     matrices[..., 0, 1], matrices[..., 0, 2] = -z, y
@@ -228,13 +228,13 @@ def _cross_matrices(vectors: Array) -> Array:
 
 
 def _turned(poses: Poses, vectors: Array) -> Array:
-    """Rotate both halves of (N, 6) with the tip's axes."""
+    """Express both halves of vectors (N, 6) in the tip's axes."""
     halves = vectors.reshape(-1, 2, 3) @ poses.rotations
     return halves.reshape(-1, 6)
 
 
 def _at_base_origin(poses: Poses, derivatives: tuple[Array, ...]) -> tuple[Array, ...]:
-    """Of the body's point at the base's origin: p⁽ᵏ⁾ - R⁽ᵏ⁾Rᵀ p, where G = R(t)Rᵀ solves Ġ = [ω]× G from G = 1."""
+    """Derivatives at the base's origin: p⁽ᵏ⁾ - R⁽ᵏ⁾Rᵀ p, where G = R(t)Rᵀ satisfies Ġ = [ω]× G with G(0) = 1."""
     spins = [_cross_matrices(derivative[:, 3:]) / math.factorial(k) for k, derivative in enumerate(derivatives)]
     turns = [np.broadcast_to(np.eye(3), spins[0].shape)]
     results = []
@@ -247,7 +247,7 @@ def _at_base_origin(poses: Poses, derivatives: tuple[Array, ...]) -> tuple[Array
 
 
 def _spatial_in_reference(poses: Poses, spatial: Array, reference: Reference) -> Array:
-    """A spatial acceleration is a twist among twists, and moves to another reference as one does."""
+    """Transform a spatial acceleration to a reference, by the same rule as a twist."""
     if reference == "local":
         return _turned(poses, spatial)
     if reference == "world":

@@ -1,7 +1,7 @@
-"""Cells of equal size that samples fall into: how often, how soon, and how manipulable the best of them is.
+"""Cells of a regular grid that samples fall into: number of samples, first sample and best measure of each cell.
 
-A table holds the cells that were met, and no others, so that its size is that of the workspace and not of a box around
-it. Tables of parts of the samples merge into the table of all of them, whatever the order of the parts.
+A table holds only the cells with samples, so its size depends on the workspace and not on a box around it. Tables of
+parts of the samples merge into the table of all samples, in any order.
 """
 
 import math
@@ -14,24 +14,24 @@ from gelenk.model.arrays import Array, Indices
 from gelenk.model.errors import TooLarge
 
 MAX_VOXELS = 2_000_000
-"""Cells of one table: 64 MB."""
+"""Largest number of cells in a table: 64 MB."""
 MOST_ALONG_AXIS = 1 << 20
-"""Cells to either side of the origin that a key of 21 bits an axis tells apart."""
+"""Number of cells on either side of the origin that a key with 21 bits per axis can distinguish."""
 
 _BITS = 21
 _BALL = (1.0, 2.0, math.pi, 4.0 * math.pi / 3.0)
-"""Volume of the unit ball by dimensions."""
+"""Volume of the unit ball in 0 to 3 dimensions."""
 
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Cells about the points origin + axes · (i, j, k) · size; along the last 3 - dimensions axes there is but one.
+    """A grid of cells centred at origin + axes · (i, j, k) · size; one cell only along the last 3 - dimensions axes.
 
     Attributes:
         origin: Centre of cell (0, 0, 0); shape (3,), [m].
         axes: Unit vectors along the cells' edges, as columns; shape (3, 3).
-        dimensions: Along how many of the axes the cells count: 3 in space, 2 in a plane.
-        size: Edge of a cell, [m].
+        dimensions: Number of axes that are divided into cells: 3 in space, 2 in a plane.
+        size: Edge length of a cell, [m].
     """
 
     origin: Array
@@ -41,24 +41,26 @@ class Grid:
 
     @property
     def cell(self) -> float:
-        """Volume of a cell, [m³], in a plane [m²], on a line [m]; a point has none."""
+        """Volume of a cell, [m³]; area in a plane, [m²]; length on a line, [m]; zero for a point."""
         return self.size**self.dimensions if self.dimensions else 0.0
 
     def most_cells(self, radius: float) -> float:
-        """More cells than meet a ball about any point: those that do lie within one that is a cell's diagonal larger.
+        """Compute an upper bound of the number of cells that meet a ball.
+
+        All these cells lie within a ball that is one cell diagonal larger.
 
         Args:
-            radius: Of the ball, [m].
+            radius: Radius of the ball, [m].
         """
         return _BALL[self.dimensions] * (radius / self.size + math.sqrt(self.dimensions)) ** self.dimensions
 
     def least_size(self, radius: float, most: int) -> float:
-        """The size at which `most_cells` comes to this, [m]; inf where that is too few for any size."""
+        """Return the cell size at which `most_cells` equals `most`, [m]; inf if no size needs so few cells."""
         across = (most / _BALL[self.dimensions]) ** (1.0 / self.dimensions) - math.sqrt(self.dimensions)
         return radius / across if across > 0.0 else math.inf
 
     def keys(self, positions: Array) -> Indices:
-        """The cell of each position, as one number; shape (N, 3) → (N,)."""
+        """Compute the key of the cell of each position; shape (N, 3) → (N,)."""
         places = (positions - self.origin) @ self.axes[:, : self.dimensions]
         indices = np.rint(places / self.size).astype(np.int64) + MOST_ALONG_AXIS
         keys = np.zeros(len(positions), dtype=np.int64)
@@ -67,7 +69,7 @@ class Grid:
         return keys
 
     def centres(self, keys: Indices) -> Array:
-        """The middle of each cell; shape (M,) → (M, 3), [m]."""
+        """Compute the centre of each cell; shape (M,) → (M, 3), [m]."""
         mask = (1 << _BITS) - 1
         shifts = _BITS * np.arange(self.dimensions)
         indices = ((keys[:, None] >> shifts) & mask) - MOST_ALONG_AXIS
@@ -75,35 +77,35 @@ class Grid:
         return centres
 
     def inner(self, keys: Indices) -> Indices:
-        """The cells all of whose neighbours are there, also those across an edge or a corner; shape (M,) → (k,).
+        """Select the cells whose neighbours are all present, including edges and corners; shape (M,) → (k,).
 
-        Cells that meet a region have such ones only where they lie wholly inside it, if what it leaves out is nowhere
-        thinner than two cells.
+        Among the cells that meet a region, the selected ones lie wholly inside it, provided that gaps in the region are
+        nowhere thinner than two cells.
         """
         for step in self._steps():
             keys = keys[np.isin(keys - step, keys) & np.isin(keys + step, keys)]
         return keys
 
     def grown(self, keys: Indices) -> Indices:
-        """The cells and all their neighbours, also those across an edge or a corner; shape (M,) → (k,)."""
+        """Return the cells and all their neighbours, including edges and corners; shape (M,) → (k,)."""
         for step in self._steps():
             keys = np.unique(np.concatenate((keys - step, keys, keys + step)))
         return keys
 
     def _steps(self) -> list[int]:
-        """The difference between the keys of neighbouring cells, along each axis."""
+        """Differences between the keys of neighbouring cells, one per axis."""
         return [1 << (_BITS * axis) for axis in range(self.dimensions)]
 
 
 @dataclass(frozen=True, slots=True)
 class VoxelTable:
-    """The cells that samples have met, by ascending key.
+    """The cells that contain samples, in ascending order of their keys.
 
     Attributes:
-        keys: See `Grid.keys`; shape (M,).
-        counts: How many samples each holds; shape (M,).
-        best: The largest measure of these; shape (M,).
-        first: The number of the first of them; shape (M,).
+        keys: Keys of the cells, see `Grid.keys`; shape (M,).
+        counts: Number of samples in each cell; shape (M,).
+        best: Largest measure in each cell; shape (M,).
+        first: Number of the first sample in each cell; shape (M,).
     """
 
     keys: Indices
@@ -120,28 +122,28 @@ NO_VOXELS = VoxelTable(_NONE, _NONE, np.empty(0), _NONE)
 
 
 def voxel_table(keys: Indices, measures: Array, numbers: Indices) -> VoxelTable:
-    """The cells of some samples.
+    """Collect the cells of some samples.
 
     Args:
-        keys: The cell of each; shape (N,).
-        measures: Of each; shape (N,).
-        numbers: Which sample each is; shape (N,).
+        keys: Key of each sample's cell; shape (N,).
+        measures: Measure of each sample; shape (N,).
+        numbers: Number of each sample; shape (N,).
     """
     return _reduced(keys, np.ones(len(keys), dtype=np.int64), measures, numbers)
 
 
 def coarser(grid: Grid, table: VoxelTable) -> tuple[Grid, VoxelTable]:
-    """The same samples in cells of twice the size; the grid's origin is no centre of one of these any more."""
+    """Merge cells into cells of twice the size; the grid's origin is then no longer the centre of a cell."""
     fields = sum(((1 << _BITS - 1) - 1) << (_BITS * axis) for axis in range(grid.dimensions))
     halved = _reduced((table.keys >> 1) & fields, table.counts, table.best, table.first)
     return replace(grid, size=2.0 * grid.size), halved
 
 
 def merged(tables: Sequence[VoxelTable]) -> VoxelTable:
-    """The cells of all samples of several tables.
+    """Merge several tables into one.
 
     Raises:
-        TooLarge: More than `MAX_VOXELS`.
+        TooLarge: The result has more than `MAX_VOXELS` cells.
     """
     table = _reduced(
         np.concatenate([table.keys for table in tables]),
@@ -155,7 +157,7 @@ def merged(tables: Sequence[VoxelTable]) -> VoxelTable:
 
 
 def _reduced(keys: Indices, counts: Indices, best: Array, first: Indices) -> VoxelTable:
-    """One row a key: counts summed, the largest measure, the smallest number."""
+    """Combine rows with the same key: sum of the counts, largest measure, smallest number."""
     if len(keys) == 0:
         return NO_VOXELS
     order = np.argsort(keys)

@@ -1,4 +1,4 @@
-"""Compile every kernel, or read it from its cache, before the first caller waits for it."""
+"""Warm-up: compile every kernel, or load it from the cache, before the first request needs it."""
 
 import math
 from typing import Any
@@ -30,7 +30,7 @@ from gelenk.model.robot import Robot
 
 
 def warm_up() -> None:
-    """Compute one of everything."""
+    """Run every kernel once, so that all are compiled or loaded."""
     basics()
     for part in PARTS:
         part()
@@ -39,7 +39,7 @@ def warm_up() -> None:
 
 
 def basics() -> None:
-    """Poses, Jacobians, notations and methods in steps, which take seconds: what most requests need, and the parts."""
+    """Run the kernels that most requests and all `PARTS` need: poses, Jacobians, notations, iterative methods."""
     robot, chain, qs = _small_arm()
     poses = forward_kinematics(robot, chain, qs).poses
     jacobians(robot, chain, qs)
@@ -52,7 +52,7 @@ def basics() -> None:
 
 
 def _small_arm() -> tuple[Robot, Chain, Array]:
-    """An arm of our own, from base to tip, and a configuration; shape (1, 3), [rad]."""
+    """Example robot with three joints, its chain, and a configuration; shape (1, 3), [rad]."""
     rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0, 0.1, 0.5) for i in (1, 2, 3)]
     robot = Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
     chain = robot.chain(None, None)
@@ -60,7 +60,7 @@ def _small_arm() -> tuple[Robot, Chain, Array]:
 
 
 def _searches() -> None:
-    """What solves by iteration and by continuation, and derivatives of Jacobians; no closed form."""
+    """Run iterative and continuation solvers, and derivatives of Jacobians; no closed form."""
     robot, chain, qs = _small_arm()
     for representation in ("zyz", "rpy"):
         poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
@@ -73,13 +73,13 @@ def _searches() -> None:
 
 
 def _six_joints() -> Robot:
-    """An arm that is solved by following solutions: three axes parallel, the others skew."""
+    """Example arm that needs continuation: three parallel axes, the others skew."""
     rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)]
     return Robot(describe_dh("warm-up", DhTable("standard", tuple(rows))))
 
 
 def _closed_forms() -> None:
-    """An arm with a free elbow: its kernels are those of every closed form."""
+    """Solve an arm with a free elbow, which uses the kernels of every closed form."""
     alphas = (-0.5, 0.5, 0.5, -0.5, -0.5, 0.5, 0.0)
     lengths = (0.3, 0.0, 0.3, 0.0, 0.3, 0.0, 0.3)
     rows = [
@@ -95,7 +95,7 @@ def _closed_forms() -> None:
 
 
 def _answers() -> None:
-    """Compute answers as requests get them."""
+    """Solve inverse kinematics with the options that requests use."""
     robot, chain, qs = _small_arm()
     poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
     for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):
@@ -106,4 +106,4 @@ def _answers() -> None:
 
 
 PARTS = (_closed_forms, _searches)
-"""After `basics`, each may be compiled by a process of its own; what they leave out takes seconds."""
+"""Parts that separate processes can compile after `basics`; the rest takes seconds."""

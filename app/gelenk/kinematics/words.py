@@ -1,4 +1,4 @@
-"""Names that answers about motions of the tip use, without what computes them."""
+"""Names used in results about motions of the tip, without the code that computes these."""
 
 from typing import Literal, TypeAlias
 

@@ -1,8 +1,7 @@
-"""The workspace of any chain, by samples of its joint space within the limits.
+"""The workspace of any chain, from samples of its joint space within the limits.
 
-A `Plan` holds all that a part of the samples is computed from, so that parts may go to any number of processes. What
-of the tip's positions is requested, a cloud or cells of a grid, is gathered part by part; `Survey` puts the parts
-together.
+A `Plan` holds all the input of a part of the samples, so any number of processes can compute parts. Each part collects
+a point cloud or the cells of a grid from the tip's positions; `Survey` combines the parts.
 """
 
 from collections.abc import Mapping
@@ -23,20 +22,20 @@ from gelenk.model.errors import InvalidField
 Kind: TypeAlias = Literal["cloud", "grid", "dexterity"]
 
 PART = 65_536
-"""Samples that are computed at once: some hundredths of a second."""
+"""Number of samples per part, computed in some hundredths of a second."""
 
 _CELLS = {"cloud": 40, "grid": 40, "dexterity": 14}
-"""Cells along the longest side, unless their size is given."""
+"""Number of cells along the longest side, unless their size is given."""
 
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """A slice of space: what is no further than half the thickness from a plane.
+    """A slice of space: all points within half the thickness of a plane.
 
     Attributes:
-        origin: A point of it, in the base; shape (3,), [m].
-        normal: Unit vector; shape (3,).
-        thickness: [m].
+        origin: A point of the plane, in the base frame; shape (3,), [m].
+        normal: Unit normal of the plane in the base frame; shape (3,).
+        thickness: Thickness of the slice, [m].
     """
 
     origin: Array
@@ -44,24 +43,24 @@ class Plane:
     thickness: float
 
     def holds(self, positions: Array) -> Flags:
-        """Which positions lie in it; shape (N, 3) → (N,)."""
+        """Return which positions lie in the slice; shape (N, 3) → (N,)."""
         flags: Flags = np.abs((positions - self.origin) @ self.normal) <= 0.5 * self.thickness
         return flags
 
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """The request for a workspace.
+    """A request for a workspace.
 
     Attributes:
-        kind: What the result is an array of.
-        samples: How many configurations.
+        kind: Kind of result.
+        samples: Number of configurations.
         sequence: See `Sampling`.
-        seed: Likewise.
-        voxel_size: Edge of a cell, [m]; a share of the workspace's longest side where None.
-        directions: Rows of the Jacobian that the measure counts; None for the translation, as far as the tip moves.
-        plane: To what positions are restricted.
-        ranges: Between what bounds some variables are sampled, instead of their limits.
+        seed: Seed of the samples, see `Sampling`.
+        voxel_size: Edge length of a cell, [m]; None for a fixed share of the workspace's longest side.
+        directions: Directions in the manipulability measure; None for the translations in which the tip moves.
+        plane: Slice to which positions are restricted, if any.
+        ranges: Sampling bounds of some variables, instead of their limits.
     """
 
     kind: Kind = "cloud"
@@ -76,19 +75,19 @@ class Wish:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The input from which another process computes a part of the samples.
+    """The input from which any process can compute a part of the samples.
 
     Attributes:
-        flat: The chain, turned so that the rows that count are rows of its Jacobian.
-        turn: The rotation that takes its positions back to the base, where it was turned; shape (3, 3).
-        rows: Rows of the Jacobian that the measure counts.
+        flat: The chain, rotated if necessary so that the measure uses whole rows of its Jacobian.
+        turn: Rotation that takes the chain's positions back to the base; shape (3, 3). None if not rotated.
+        rows: Rows of the Jacobian in the measure.
         sampling: The configurations.
-        plane: To what positions are restricted.
-        grid: The cells.
-        is_singular: Whether the measure is zero wherever the chain is; what is computed is rounding then.
-        keeps_points: Whether the positions themselves are wanted.
-        extent: No position is further from the base's origin, [m].
-        notes: What was assumed and what is special about the chain, one sentence each.
+        plane: Slice to which positions are restricted, if any.
+        grid: The grid of cells.
+        is_singular: Whether the measure is zero at every configuration, so that computed values are rounding.
+        keeps_points: Whether to keep the positions themselves.
+        extent: Upper bound of the tip's distance from the base's origin, [m].
+        notes: Assumptions, and special properties of the chain, one sentence each.
     """
 
     flat: FlatChain
@@ -104,23 +103,23 @@ class Plan:
 
     @property
     def parts(self) -> int:
-        """How many parts the samples come in."""
+        """Number of parts of the samples."""
         return -(-self.sampling.count // PART)
 
     def measured(self, qs: Array) -> tuple[Array, Array]:
-        """Positions in the base, shape (N, 3), [m], and measures, shape (N,)."""
+        """Compute positions in the base frame, shape (N, 3), [m], and measures, shape (N,)."""
         positions, _, measures = chain_measures(self.flat, qs, self.rows)
         if self.is_singular:
-            # Also where there are no rows or joints: Yoshikawa's product of nothing would be one.
+            # Also without rows or joints, where Yoshikawa's empty product would be one.
             measures = np.zeros(len(qs))
         return (positions if self.turn is None else positions @ self.turn.T), measures
 
 
 def plan(chain: Chain, wish: Wish) -> tuple[Plan, Motion]:
-    """How a workspace is computed, and how the chain's tip moves.
+    """Plan the computation of a workspace; also return how the chain's tip moves.
 
     Raises:
-        InvalidField: A range or the size of the voxels cannot be taken.
+        InvalidField: A range or the voxel size is not allowed.
     """
     ranges = joint_ranges(chain, wish.ranges or {})
     sampling = Sampling(ranges, wish.samples, wish.sequence, wish.seed)
@@ -147,10 +146,10 @@ def plan(chain: Chain, wish: Wish) -> tuple[Plan, Motion]:
 
 
 def _grid(motion: Motion, wish: Wish) -> Grid:
-    """Cells in space, or in the plane that is requested or that the tip stays in.
+    """Cells in space, in the requested plane, or in the plane or line that the tip stays in.
 
     Raises:
-        InvalidField: So many along an axis that they cannot be distinguished.
+        InvalidField: Cells are larger than the arm, or too many along an axis for their keys.
     """
     if wish.plane is not None and motion.dimensions:
         origin, axes, dimensions = wish.plane.origin, plane_axes(wish.plane.normal), 2
@@ -175,7 +174,7 @@ def _grid(motion: Motion, wish: Wish) -> Grid:
 
 
 def _rounded(length: float) -> float:
-    """Two digits of a length."""
+    """Round a length to two digits."""
     return float(f"{length:.1e}")
 
 
@@ -184,15 +183,15 @@ class Part:
     """The results of some of the samples.
 
     Attributes:
-        first: The number of the first of them.
-        points: Of each that counts its position and measure, where wanted; shape (k, 4), [m].
-        voxels: The cells that they fall into.
-        count: How many count.
-        lower: Smallest coordinates; shape (3,), [m], inf where none counts.
-        upper: Largest coordinates likewise, -inf where none counts.
+        first: Number of the first sample.
+        points: Position [m] and measure of each sample that counts; shape (k, 4). None if not requested.
+        voxels: The cells that contain these samples.
+        count: Number of samples that count.
+        lower: Smallest coordinates; shape (3,), [m]. inf if no sample counts.
+        upper: Largest coordinates; shape (3,), [m]. -inf if no sample counts.
         distances: Smallest and largest distance from the base's origin, [m].
         measures: Smallest, largest and sum of the measures.
-        best: The number of the sample of the largest.
+        best: Number of the sample with the largest measure; -1 if no sample counts.
     """
 
     first: int
@@ -207,7 +206,7 @@ class Part:
 
 
 def sampled(job: tuple[Plan, int]) -> Part:
-    """Part number k of a plan; both as one argument, for a process of its own."""
+    """Compute part k of a plan; both come as one argument, for process pools."""
     work, k = job
     first = k * PART
     qs = work.sampling.configurations(first, min(PART, work.sampling.count - first))

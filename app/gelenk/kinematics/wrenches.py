@@ -1,7 +1,7 @@
-"""Where a wrench acts and along which axes its components are: a Jacobian at that point, in these axes.
+"""The point and axes of a wrench, and the Jacobian at that point, in these axes.
 
-A wrench and the twist it is dual to belong to one point and one set of axes, so that γᵀv is a power. The twist is that
-of the tip's body against the base, of its point that passes the given point, so for any of them τ = Jᵀγ.
+A wrench and its dual twist refer to the same point and axes, so γᵀv is a power. The twist is that of the tip's body
+relative to the base, at the body point that coincides with the given point, so τ = Jᵀγ for any point.
 """
 
 from collections.abc import Callable
@@ -26,8 +26,8 @@ class WrenchFrame:
     Attributes:
         reference: `local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, at
             the base origin.
-        expressed_in: Frame whose axes are taken instead.
-        point: Coordinates of the point that is taken instead, in `point_frame`, [m].
+        expressed_in: Frame whose axes replace those of the reference.
+        point: Point that replaces that of the reference, in coordinates of `point_frame`, [m].
         point_frame: Frame of `point`; the tip if None.
     """
 
@@ -37,10 +37,10 @@ class WrenchFrame:
     point_frame: str | None = None
 
     def check(self) -> None:
-        """Refuse what contradicts itself.
+        """Refuse contradictory fields.
 
         Raises:
-            InvalidField: The field, and which other fields it needs or excludes.
+            InvalidField: A field needs or excludes another one.
         """
         if self.expressed_in is not None and self.reference != "local_world_aligned":
             raise InvalidField("expressed_in", "it names the axes itself, so no other `reference` may be given")
@@ -50,7 +50,7 @@ class WrenchFrame:
             raise InvalidField("point_frame", "it needs `point`")
 
     def poses(self, chain: Chain, poses_of: Callable[[str], Poses]) -> Poses:
-        """Point and axes in the base frame, from the poses of frames there."""
+        """Return point and axes in the base frame; `poses_of` gives the poses of a named frame in the base."""
         tip = poses_of(chain.tip_frame)
         points, axes = tip.positions, tip.rotations
         if self.reference != "local":
@@ -66,21 +66,21 @@ class WrenchFrame:
 
 
 def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -> tuple[Poses, Array, Array]:
-    """The pose of a wrench frame, and the Jacobian there.
+    """Compute the pose of a wrench frame, and the Jacobian in it.
 
     Args:
-        robot: The robot; joints that the chain does not have stand at zero.
+        robot: The robot; joints off the chain are at zero.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
         frame: Point and axes.
 
     Returns:
-        Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and what their linear
-        rows are sums of, to which rounding is relative; shape (N, 3, n).
+        Point and axes in the base frame, Jacobians of shape (N, 6, n), linear before angular, and the terms of their
+        linear rows, to which rounding is relative, of shape (N, 3, n).
 
     Raises:
         UnknownFrame: The robot has no such frame.
-        InvalidField: The frame contradicts itself.
+        InvalidField: The fields of the frame are contradictory.
     """
     frame.check()
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
@@ -104,7 +104,7 @@ def frame_jacobians(robot: Robot, chain: Chain, qs: Array, frame: WrenchFrame) -
 
 
 def in_base_axes(places: Poses, rows: Indices, wrenches: Array) -> Array:
-    """Wrenches by their components that count, turned into the axes of the base; shape (N, m) → (N, 6)."""
+    """Expand wrenches to six components and rotate them into the base's axes; shape (N, m) → (N, 6)."""
     full = np.zeros((len(wrenches), 6))
     full[:, rows] = wrenches
     turned: Array = np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6)
