@@ -1,7 +1,7 @@
-"""Composition of frames: R_0_2 = R_0_1 R_1_2, about the axes that moved along or about those that stay.
+"""Composition of frames: R_0_2 = R_0_1 R_1_2, about moving or fixed axes.
 
-T_a_b takes what is written in b to a, and its position is its last *column* (the notes once say row). A further motion
-about the moved axes multiplies from the right, one about the fixed axes from the left. The inverse is Rᵀ with -Rᵀp.
+T_a_b maps coordinates from b to a, and its position is its last *column* (the notes once say row). A further motion
+about the moving axes multiplies from the right, one about the fixed axes from the left. The inverse is Rᵀ with -Rᵀp.
 """
 
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A further motion: a homogeneous transform (4, 4), and whose axes it is written in."""
+    """A further motion: a homogeneous transform (4, 4), about the moving or the fixed axes."""
 
     transform: Array
     about: About
@@ -29,14 +29,14 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Composition:
-    """A sequence of motions.
+    """The result of a sequence of motions.
 
     Attributes:
-        transforms: The frame after each of them, the first one included; shape (4, 4) each.
-        inverse: Of the last one; shape (4, 4).
-        points: Given in the last frame, written in the first; shape (N, 3), [m].
+        transforms: Transform after each motion, the first included; shape (4, 4) each.
+        inverse: Inverse of the last transform; shape (4, 4).
+        points: Points of the last frame, expressed in the reference frame; shape (N, 3), [m].
         inverse_error: Largest entry of T T⁻¹ - I, lengths relative to the largest coordinate.
-        point_error: Largest difference to the points when each motion is applied to them in turn, relative likewise.
+        point_error: Largest difference from the points to which each motion is applied in turn, relative likewise.
     """
 
     transforms: tuple[Array, ...]
@@ -47,15 +47,15 @@ class Composition:
 
 
 def composed(first: Array, further: Sequence[Motion], points: Array) -> Composition:
-    """The frame that a sequence of motions leads to, and points of it written in the first frame.
+    """Compose a sequence of motions, and express points of the last frame in the reference frame.
 
     Args:
         first: The first motion; shape (4, 4).
-        further: The others, in order.
-        points: Shape (N, 3), [m].
+        further: The other motions, in order.
+        points: Points in the last frame; shape (N, 3), [m].
 
     Raises:
-        CertificationFailed: Two ways to the same number differ.
+        CertificationFailed: Two independent computations of a number differ.
     """
     transforms = [first]
     for motion in further:
@@ -76,7 +76,7 @@ def composed(first: Array, further: Sequence[Motion], points: Array) -> Composit
 
 
 def _one_by_one(first: Array, further: Sequence[Motion], points: Array) -> Array:
-    """The points, taken through each motion by itself: from the innermost outwards, without a product of matrices."""
+    """Apply each motion to the points in turn, from the innermost outwards, without multiplying matrices."""
     inner = [motion.transform for motion in further if motion.about == "moving"]
     outer = [motion.transform for motion in further if motion.about == "fixed"]
     for T in (*reversed(inner), first, *outer):

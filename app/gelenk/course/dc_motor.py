@@ -1,7 +1,7 @@
 """The brushed DC motor: steady state, the ends of its torque-speed line, its poles.
 
 v = R i + L i̇ + k_e ω and J ω̇ + b ω = k_t i - τ_L. The load torque is that of a hanging load: it keeps its direction
-whichever way the shaft turns. In SI k_t and k_e are the same number; both are kept, because data sheets give both.
+whichever way the shaft turns. In SI units k_t and k_e are the same number; both are kept because data sheets give both.
 """
 
 import math
@@ -15,22 +15,22 @@ Regime: TypeAlias = Literal["motoring", "standstill", "assisted", "generating", 
 Damping: TypeAlias = Literal["first_order", "overdamped", "critically_damped", "underdamped"]
 
 SAME_CONSTANTS = 1e-6
-"""Relative difference of k_t and k_e above which energy would visibly come from nowhere."""
+"""Relative difference of k_t and k_e above which the energy balance is visibly violated."""
 
 _ROUNDING = 1e-12
 _BALANCE = 1e-9
 _NEXT_TO_NOTHING = 1e-280
-"""Below it, products lose digits for being as small as a double can be."""
+"""Threshold below which products lose digits, because they approach the smallest doubles."""
 _EPSILON = 2.0**-52
 
 
 @dataclass(frozen=True, slots=True)
 class Motor:
-    """A motor with what turns rigidly on its shaft.
+    """A motor, with everything that turns rigidly on its shaft.
 
     Attributes:
         resistance: R > 0, [Ω].
-        inductance: L ≥ 0, [H]; at zero the current follows at once.
+        inductance: L ≥ 0, [H]; at zero the current follows the voltage instantly.
         torque_constant: k_t > 0, [N m/A].
         back_emf_constant: k_e > 0, [V s/rad].
         viscous_friction: b ≥ 0, [N m s/rad].
@@ -46,17 +46,17 @@ class Motor:
 
     @property
     def stiffness(self) -> float:
-        """R b + k_t k_e, [V N m s/rad/A]: what voltage and load are divided by in the steady state."""
+        """R b + k_t k_e, [V N m s/rad/A]: the denominator of speed and current in the steady state."""
         return self.resistance * self.viscous_friction + self.torque_constant * self.back_emf_constant
 
     @property
     def mechanical_time_constant(self) -> float:
-        """τ_m ≈ J R / (R b + k²), [s]: exact where L = 0."""
+        """τ_m ≈ J R / (R b + k_t k_e), [s]: exact if L = 0."""
         return self.inertia * self.resistance / self.stiffness
 
     @property
     def electrical_time_constant(self) -> float:
-        """τ_e = L / R, [s]: exact where the shaft is held."""
+        """τ_e = L / R, [s]: exact if the shaft is held."""
         return self.inductance / self.resistance
 
 
@@ -69,12 +69,12 @@ class OperatingPoint:
         current: i, [A].
         torque: k_t i, [N m].
         electrical_power: V i, [W].
-        shaft_power: τ_L ω, what the load gets, [W].
+        shaft_power: τ_L ω, delivered to the load, [W].
         copper_loss: R i², [W].
         friction_loss: b ω², [W].
-        efficiency: Useful over spent power, where one is useful and the other is spent; None also where k_t and k_e
-            differ, because the powers do not add up then.
-        regime: Which way power flows.
+        efficiency: Output over input power when motoring or generating, else None; also None if k_t and k_e differ,
+            because the powers do not add up then.
+        regime: Direction of power flow.
     """
 
     angular_velocity: float
@@ -89,7 +89,7 @@ class OperatingPoint:
 
 
 def operating_point(motor: Motor, voltage: float, load_torque: float) -> OperatingPoint:
-    """The steady state under a constant voltage, [V], and a constant load torque, [N m].
+    """Compute the steady state under a constant voltage, [V], and a constant load torque, [N m].
 
     ω = (k_t V - R τ_L) / (R b + k_t k_e) and i = (b V + k_e τ_L) / (R b + k_t k_e), which is (V - k_e ω) / R without
     its cancellation.
@@ -117,7 +117,7 @@ def operating_point(motor: Motor, voltage: float, load_torque: float) -> Operati
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """What is left of the two equations at a steady state.
+    """Residuals of the two motor equations at a steady state.
 
     Attributes:
         voltage: V - R i - k_e ω, [V].
@@ -129,10 +129,10 @@ class Balance:
 
 
 def balance(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> Balance:
-    """The steady state put into the equations it comes from.
+    """Insert a steady state into the motor equations and return the residuals.
 
     Raises:
-        CertificationFailed: More than rounding is left.
+        CertificationFailed: A residual exceeds rounding.
     """
     volts = (voltage, -motor.resistance * point.current, -motor.back_emf_constant * point.angular_velocity)
     torques = (motor.torque_constant * point.current, -motor.viscous_friction * point.angular_velocity, -load_torque)
@@ -161,7 +161,7 @@ def _constants_are_one(motor: Motor) -> bool:
 
 
 def _efficiency(regime: Regime, electrical: float, shaft: float) -> float | None:
-    # Constants that are one but for their last digits may leave a motor without losses a little above 1.
+    # Constants that differ in their last digits may put a motor without losses slightly above 1.
     if regime == "motoring" and electrical > 0.0:
         return min(shaft / electrical, 1.0)
     return min(electrical / shaft, 1.0) if regime == "generating" else None
@@ -169,7 +169,7 @@ def _efficiency(regime: Regime, electrical: float, shaft: float) -> float | None
 
 @dataclass(frozen=True, slots=True)
 class TorqueSpeedLine:
-    """The ends of the line τ_L(ω) at a voltage, and the load that takes the most power from it.
+    """The ends and slope of the line τ_L(ω) at a voltage, and its largest shaft power.
 
     Attributes:
         no_load_angular_velocity: ω₀ = k_t V / (R b + k_t k_e), [rad/s].
@@ -189,7 +189,7 @@ class TorqueSpeedLine:
 
 
 def torque_speed_line(motor: Motor, voltage: float) -> TorqueSpeedLine:
-    """The line at a voltage, [V]."""
+    """Compute the torque-speed line at a voltage, [V]."""
     free = motor.torque_constant * voltage / motor.stiffness
     stall = motor.torque_constant * voltage / motor.resistance
     return TorqueSpeedLine(
@@ -204,13 +204,13 @@ def torque_speed_line(motor: Motor, voltage: float) -> TorqueSpeedLine:
 
 @dataclass(frozen=True, slots=True)
 class Modes:
-    """The eigenvalues of the motor's two equations, from (i̇, ω̇) = A (i, ω) + constant.
+    """Eigenvalues of the motor's two equations, from (i̇, ω̇) = A (i, ω) + constant.
 
     Attributes:
         mean: Half the trace of A, [1/s].
-        discriminant: ((a₁₁ - a₂₂) / 2)² + a₁₂ a₂₁, [1/s²]: positive for two real poles, negative for a pair.
-        poles: Slowest first, [1/s]; one where L = 0.
-        damping: What these are.
+        discriminant: ((a₁₁ - a₂₂) / 2)² + a₁₂ a₂₁, [1/s²]: positive for two real poles, negative for a complex pair.
+        poles: Poles, slowest first, [1/s]; one if L = 0.
+        damping: Type of the poles.
     """
 
     mean: float
@@ -220,9 +220,9 @@ class Modes:
 
 
 def modes(motor: Motor) -> Modes:
-    """The exact poles.
+    """Compute the exact poles.
 
-    The slow one of two real poles is det A over the fast one, which does not cancel.
+    The slow one of two real poles is det A over the fast one, which avoids cancellation.
     """
     if motor.inductance == 0.0:
         pole = -1.0 / motor.mechanical_time_constant
@@ -241,13 +241,13 @@ def modes(motor: Motor) -> Modes:
 
 
 def rates(motor: Motor) -> tuple[float, float, float]:
-    """R/L, b/J and √(k_t k_e / (L J)), [1/s]."""
+    """Return R/L, b/J and √(k_t k_e / (L J)), [1/s]."""
     coupling = math.sqrt(motor.torque_constant / motor.inductance * motor.back_emf_constant / motor.inertia)
     return motor.resistance / motor.inductance, motor.viscous_friction / motor.inertia, coupling
 
 
 def motor_warnings(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[str, ...]:
-    """What a reader should know before using the numbers."""
+    """Return warnings about the constants and the operating point, one sentence each."""
     found = []
     if not _constants_are_one(motor):
         found.append(
@@ -272,7 +272,7 @@ def motor_warnings(motor: Motor, voltage: float, load_torque: float, point: Oper
 
 
 def motor_steps(motor: Motor, voltage: float, load_torque: float, point: OperatingPoint) -> tuple[Step, ...]:
-    """The worked solution of the steady state, the ends of the line and the time constants."""
+    """Return the worked solution of the steady state, the ends of the line and the time constants."""
     line, found = torque_speed_line(motor, voltage), modes(motor)
     R, b, k_t, k_e = (
         tex(value)

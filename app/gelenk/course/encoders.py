@@ -1,8 +1,8 @@
-"""Shaft encoders: what a count is worth, and how fine an encoder has to be.
+"""Shaft encoders: the angle of a count, and the encoder that a resolution requires.
 
-An incremental encoder has two channels, A and B, a quarter of a line apart; a counter takes one, two or four counts a
-line (x1, x2, x4). An absolute one reads a code of `bits` digits from as many tracks. Both sit on the motor, so that at
-the load a count is worth 1/N of what it is at the motor.
+An incremental encoder has two channels, A and B, a quarter of a line apart; a counter registers one, two or four counts
+per line (x1, x2, x4). An absolute encoder reads a code of `bits` digits from as many tracks. Both sit on the motor, so
+a count at the load is 1/N of the angle that it is at the motor.
 """
 
 import math
@@ -21,10 +21,10 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """What an encoder with so many counts a turn of the motor can tell.
+    """Resolution of an encoder with a given number of counts per motor turn.
 
     Attributes:
-        counts_per_revolution: Of the motor.
+        counts_per_revolution: Counts per turn of the motor.
         gear_ratio: N = ω_motor / ω_load > 0.
     """
 
@@ -33,20 +33,20 @@ class Scale:
 
     @property
     def motor_resolution(self) -> float:
-        """2π over the counts, [rad]."""
+        """Motor angle per count, 2π over the counts, [rad]."""
         return TURN / self.counts_per_revolution
 
     @property
     def load_resolution(self) -> float:
-        """The same at the load, [rad]."""
+        """Load angle per count, [rad]."""
         return self.motor_resolution / self.gear_ratio
 
     def velocity_quantum(self, sample_period: float) -> float:
-        """2π / (counts · T_s), [rad/s] at the motor: one count more or less in a period, [s]."""
+        """Return 2π / (counts · T_s), the motor speed [rad/s] of one count per sample period T_s [s]."""
         return self.motor_resolution / sample_period
 
     def count_rate(self, angular_velocity: float) -> float:
-        """Counts a second at a speed of the motor, [rad/s]."""
+        """Return the counts per second at a speed of the motor, [rad/s]."""
         return self.counts_per_revolution * abs(angular_velocity) / TURN
 
 
@@ -56,9 +56,9 @@ class Required:
 
     Attributes:
         motor_resolution: That angle at the motor, [rad].
-        counts_per_revolution: Of the motor: the next whole number.
-        bits: Of an absolute encoder.
-        pulses_per_revolution: Lines of an incremental one.
+        counts_per_revolution: Counts per turn of the motor, rounded up.
+        bits: Bits of an absolute encoder.
+        pulses_per_revolution: Lines of an incremental encoder.
     """
 
     motor_resolution: float
@@ -68,9 +68,9 @@ class Required:
 
 
 def required(resolution: float, gear_ratio: float, decoding: Decoding) -> Required:
-    """The encoder needed for a resolution at the load, [rad].
+    """Compute the encoder needed for a resolution at the load, [rad].
 
-    A quotient within rounding of a whole number counts as that: 0.01° are 36000 counts, not 36001.
+    A quotient within rounding of a whole number counts as that number: 0.01° needs 36000 counts, not 36001.
     """
     exact = TURN / (resolution * gear_ratio)
     counts = max(1, math.ceil(exact * (1.0 - _ROUNDING)))
@@ -80,7 +80,7 @@ def required(resolution: float, gear_ratio: float, decoding: Decoding) -> Requir
 
 
 def scale_steps(scale: Scale, how: str) -> tuple[Step, ...]:
-    """The worked resolution; `how` writes the counts of a turn."""
+    """Return the worked resolution; `how` is the formula for the counts per turn."""
     degrees = 360.0 / scale.counts_per_revolution
     at_load = rf"{tex(degrees)}^\circ / {tex(scale.gear_ratio)} = {tex(degrees / scale.gear_ratio)}^\circ"
     return (
@@ -97,7 +97,7 @@ def scale_steps(scale: Scale, how: str) -> tuple[Step, ...]:
 
 
 def required_step(found: Required, decoding: Decoding) -> Step:
-    """The worked search for the coarsest encoder."""
+    """Return the worked solution for the coarsest encoder."""
     n, lines = found.counts_per_revolution, COUNTS_A_LINE[decoding]
     return Step(
         "Encoder needed",

@@ -1,8 +1,8 @@
 """A gear between motor and load: speeds, torques and inertias, seen from either side.
 
-The ratio N is ω_motor / ω_load. Losses are friction between the teeth: a fraction of what is transmitted, always
-against the motion. So a gear of efficiency η, driven from the motor, has the efficiency 2 - 1/η when the load drives;
-at η ≤ 1/2 that is nothing, and the gear locks itself.
+The ratio N is ω_motor / ω_load. Losses are friction between the teeth: a fraction of the transmitted torque, always
+against the motion. So a gear of efficiency η, driven from the motor, has efficiency 2 - 1/η when the load drives; where
+that is zero or less, at η ≤ 1/2, the gear is self-locking.
 """
 
 import math
@@ -16,11 +16,11 @@ PowerFlow: TypeAlias = Literal["motor_to_load", "load_to_motor", "none"]
 
 @dataclass(frozen=True, slots=True)
 class Gear:
-    """A gear.
+    """A gear between motor and load.
 
     Attributes:
         ratio: N = ω_motor / ω_load > 0.
-        efficiency: η in (0, 1], driven from the motor.
+        efficiency: η in (0, 1], when driven from the motor.
     """
 
     ratio: float
@@ -28,20 +28,20 @@ class Gear:
 
     @property
     def back_driving_efficiency(self) -> float:
-        """2 - 1/η; at or below zero the load cannot turn the motor."""
+        """Efficiency when the load drives, 2 - 1/η; at or below zero the load cannot turn the motor."""
         return 2.0 - 1.0 / self.efficiency
 
     @property
     def is_self_locking(self) -> bool:
-        """Whether a load, however large, leaves the motor at rest."""
+        """Whether no load, however large, can turn the motor."""
         return self.back_driving_efficiency <= 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None where not known.
+    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None if unknown.
 
-    Torques are those that the motor gives to the gear and the gear to the load.
+    Torques are those of the motor on the gear and of the gear on the load.
     """
 
     motor_velocity: float | None
@@ -60,9 +60,9 @@ def sides(
     motor_torque: float | None,
     load_torque: float | None,
 ) -> Sides:
-    """Both sides from one speed and one torque, each given at the motor or at the load, or not at all.
+    """Compute both sides from one speed and one torque, each given at the motor or at the load, or omitted.
 
-    The load torque is None where the motor brakes a gear that locks itself: it holds whatever the load is.
+    The load torque is None where the motor brakes a self-locking gear, which holds any load.
     """
     if motor_velocity is None and load_velocity is not None:
         motor_velocity = gear.ratio * load_velocity
@@ -93,7 +93,7 @@ def sides(
 
 
 def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
-    """Which side drives; where a speed or a torque is unknown or zero, the motor, if it pushes at all."""
+    """Return the driving side, by the sign of the power: the motor if the speed is unknown or zero; none without torque."""
     if not torque:
         return "none"
     return "load_to_motor" if velocity and (velocity < 0.0) != (torque < 0.0) else "motor_to_load"
@@ -105,7 +105,7 @@ def _product(velocity: float | None, torque: float | None) -> float | None:
 
 @dataclass(frozen=True, slots=True)
 class Inertias:
-    """What turns, as one inertia on either side, [kg m²].
+    """Rotor and load as one inertia on either side, [kg m²].
 
     Attributes:
         at_motor: J_m + J_L / N².
@@ -113,7 +113,7 @@ class Inertias:
         reflected_load: J_L / N², the load alone seen from the motor.
         reflected_motor: N² J_m, the rotor alone seen from the load.
         optimal_ratio: √(J_L / J_m), with which a given motor torque accelerates the load most.
-        acceleration_share: Acceleration with this ratio over that with the optimal one, same torque, no losses.
+        acceleration_share: Acceleration relative to that with the optimal ratio, at equal torque without losses.
     """
 
     at_motor: float
@@ -125,9 +125,9 @@ class Inertias:
 
 
 def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertias:
-    """Inertias of rotor and load, [kg m²], across a ratio.
+    """Compute the inertias of rotor and load, [kg m²], across a ratio.
 
-    The load's acceleration N τ / (N² J_m + J_L) is largest at N* = √(J_L / J_m), where both count the same.
+    The load's acceleration N τ / (N² J_m + J_L) is largest at N* = √(J_L / J_m), where both contribute equally.
     """
     load, motor = load_inertia / ratio**2, motor_inertia * ratio**2
     optimal = math.sqrt(load_inertia / motor_inertia)
@@ -136,7 +136,7 @@ def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertia
 
 
 def back_driving_note(gear: Gear) -> str:
-    """What happens when the load drives."""
+    """Describe what happens when the load drives the gear."""
     if gear.is_self_locking:
         return (
             "the gear locks itself: driven from the load its friction is more than what is transmitted, so the load "
@@ -151,7 +151,7 @@ def back_driving_note(gear: Gear) -> str:
 
 
 def gear_steps(gear: Gear, found: Sides, inertia: Inertias | None) -> tuple[Step, ...]:
-    """The worked solution."""
+    """Return the worked solution of speeds, torques and inertias."""
     N, eta = tex(gear.ratio), tex(gear.efficiency)
     steps = []
     if found.motor_velocity is not None and found.load_velocity is not None:

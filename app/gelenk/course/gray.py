@@ -1,7 +1,7 @@
-"""Gray code of an absolute encoder: neighbours, the last and the first included, differ in a single track.
+"""Gray code of an absolute encoder: neighbours, including the last and the first, differ in a single track.
 
-A sensor that reads between two positions then shows one of the two, never a third. g = b ⊕ (b ≫ 1); back, each binary
-digit is the exclusive or of all Gray digits from the left up to it.
+A sensor that reads between two positions then shows one of the two, never a third. Encoding is g = b ⊕ (b ≫ 1); to
+decode, each binary digit is the exclusive or of all Gray digits from the left up to it.
 """
 
 from collections.abc import Sequence
@@ -18,12 +18,12 @@ MOST_TABLE_BITS = 8
 
 
 def gray(value: int) -> int:
-    """The Gray code of a number ≥ 0."""
+    """Return the Gray code of a number ≥ 0."""
     return value ^ (value >> 1)
 
 
 def binary(code: int) -> int:
-    """The number ≥ 0 of a Gray code."""
+    """Return the number ≥ 0 that a Gray code stands for."""
     value, shift = code, 1
     while code >> shift:
         value ^= code >> shift
@@ -33,13 +33,13 @@ def binary(code: int) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Position:
-    """A position of the disc.
+    """A position of the encoder's disc.
 
     Attributes:
-        value: Its number, from 0.
-        binary: In binary digits.
-        gray: In Gray code.
-        angle: Of the motor, [rad] in [0, 2π).
+        value: Number of the position, from 0.
+        binary: The number in binary digits.
+        gray: The number in Gray code.
+        angle: Angle of the motor, [rad] in [0, 2π).
     """
 
     value: int
@@ -49,20 +49,20 @@ class Position:
 
 
 def position(value: int, bits: int) -> Position:
-    """The position of a number below 2^bits."""
+    """Return the position of a number below 2^bits."""
     return Position(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
 
 
 def table(bits: int) -> tuple[Position, ...]:
-    """All positions of a disc of at most `MOST_TABLE_BITS` tracks."""
+    """Return all positions of a disc with at most `MOST_TABLE_BITS` tracks."""
     return tuple(position(value, bits) for value in range(1 << bits))
 
 
 def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[Position, ...]:
-    """The positions of codes as they were read, the most significant digit first.
+    """Decode readings, most significant digit first, into positions.
 
     Raises:
-        InvalidField: One has other characters than 0 and 1, or not `bits` of them.
+        InvalidField: A reading has characters other than 0 and 1, or not `bits` of them.
     """
     found = []
     for number, text in enumerate(codes):
@@ -74,7 +74,7 @@ def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple
 
 
 def unwrapped(values: Sequence[int], bits: int) -> list[int]:
-    """Numbers that go on across the end of a turn: each step is taken the shorter way round.
+    """Continue numbers across the end of a turn, taking each step as the shorter of the two rotations.
 
     A step of exactly half a turn counts as backward.
     """
@@ -87,7 +87,7 @@ def unwrapped(values: Sequence[int], bits: int) -> list[int]:
 
 
 def code_step(example: Position) -> Step:
-    """The code of one position, worked."""
+    """Return the worked code of one position."""
     return Step(
         "Gray code",
         "Each digit is compared with its left neighbour: equal gives 0, different gives 1.",

@@ -1,8 +1,8 @@
-"""Links and kinematic pairs, with the joints split at which more than two links meet.
+"""Links and kinematic pairs, with joints of more than two links split.
 
-The notes call a joint coincident where it holds more than two pairs; what counts is more than two *links*: k links at
-one joint are k - 1 pairs. A pair may say at which joint it is, and a list of nodes which links meet there. Pairs that
-a node still needs are added and marked: the commonest mistake in counting is to forget them.
+The notes call a joint coincident if it holds more than two pairs; what counts is more than two *links*: k links at one
+joint are k - 1 pairs. A pair may name its joint, and a list of nodes may give the links that meet there. Pairs that a
+node still needs are added and marked, because forgetting them is the most common mistake in counting.
 """
 
 from collections import Counter
@@ -16,24 +16,24 @@ from gelenk.model.description import Description
 from gelenk.model.errors import InvalidField, listed, quoted
 
 FLOATING = "floating"
-"""What URDF calls a joint that takes no freedom: no pair, and c = 0."""
+"""URDF's name for a joint that removes no freedom: not a pair, and c = 0."""
 _KIND_OF_JOINT = {"continuous": "revolute"}
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A kinematic pair.
+    """A kinematic pair of a mechanism.
 
     Attributes:
-        name: For people.
-        kind: As in `KINDS`.
-        links: The two links, by index.
+        name: Name for people.
+        kind: Key of `KINDS`, or `FLOATING`.
+        links: Indices of the two links.
         order: Low or high; None for `floating`.
         constraints: c.
         freedoms: f = λ - c.
-        joint: The joint it is part of, where it says so.
-        added: Whether it was missing at a joint of more than two links.
-        geometry: Where it is, where that is known.
+        joint: Joint it is part of, if known.
+        added: Whether it was missing at a joint of more than two links, and has been added.
+        geometry: Position and axes, if known.
     """
 
     name: str
@@ -49,12 +49,12 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A joint at which links meet.
+    """A joint where links meet.
 
     Attributes:
-        joint: Its name.
-        links: By name.
-        kind: Of the pairs that are missing there; that of the others, or revolute, where None.
+        joint: Name of the joint.
+        links: Names of the links.
+        kind: Kind of the missing pairs there; if None, that of the other pairs, or revolute.
     """
 
     joint: str
@@ -64,7 +64,7 @@ class Node:
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """A joint of k > 2 links as k - 1 pairs, `added` of which were missing, each with c = `constraints`."""
+    """A joint of k > 2 links as k - 1 pairs, of which `added` were missing, each with c = `constraints`."""
 
     joint: str
     links: int
@@ -75,7 +75,7 @@ class Split:
 
 @dataclass(frozen=True, slots=True)
 class GivenPair:
-    """A pair as it is described: two links by name, its kind, the joint it is part of, and where it is."""
+    """A pair as described: the names of its two links, its kind, the joint it is part of, and its geometry."""
 
     name: str
     link_a: str
@@ -87,7 +87,7 @@ class GivenPair:
 
 @dataclass(frozen=True, slots=True)
 class IdleSpin:
-    """Links that turn about the line through the centres of two spherical joints, and move nothing else thereby."""
+    """Links that can spin about the line through two spherical joints' centres without moving anything else."""
 
     links: tuple[str, ...]
     joints: tuple[str, str]
@@ -98,13 +98,13 @@ class Mechanism:
     """Links joined by pairs.
 
     Attributes:
-        space: Where it moves.
-        links: Names.
-        ground: The link at rest, by index.
-        pairs: After splitting.
-        splits: The joints of more than two links.
-        couplings: Further constraints, one each: joints that follow another one.
-        topology: Of links and pairs.
+        space: Planar or spatial.
+        links: Names of the links.
+        ground: Index of the link at rest.
+        pairs: Pairs after splitting.
+        splits: Joints of more than two links.
+        couplings: Number of joints that follow another one, each a further constraint.
+        topology: Graph of links and pairs.
     """
 
     space: Space
@@ -116,9 +116,9 @@ class Mechanism:
     topology: Topology
 
     def idle_spins(self) -> tuple[IdleSpin, ...]:
-        """The parts that spherical joints at exactly two points hold: each may spin without moving anything else.
+        """Find the parts that spherical joints at exactly two points hold, so that each may spin idly.
 
-        Taking the spherical pairs away leaves the parts; that with the ground counts as at rest.
+        Removing the spherical pairs leaves the parts; the part with the ground counts as at rest.
         """
         balls = [pair for pair in self.pairs if pair.kind == "spherical"]
         rest = [pair.links for pair in self.pairs if pair.kind != "spherical"]
@@ -126,7 +126,7 @@ class Mechanism:
         spins = []
         for part in parts:
             inside = set(part)
-            # A ball whose two links are both of the part holds nothing else.
+            # A spherical joint between two links of the same part does not hold the part.
             holding = [ball for ball in balls if (ball.links[0] in inside) != (ball.links[1] in inside)]
             centres = {(ball.joint is None, ball.joint or ball.name): None for ball in holding}
             if self.ground not in inside and len(centres) == 2:
@@ -138,11 +138,11 @@ class Mechanism:
 def mechanism(
     space: Space, links: Sequence[str], ground: int, given: Sequence[GivenPair], nodes: Sequence[Node] = ()
 ) -> Mechanism:
-    """A mechanism from its description, its coincident joints split.
+    """Build a mechanism from its description, and split its coincident joints.
 
     Raises:
-        InvalidField: A name that is unknown or used twice, a pair of a link with itself, a kind that the space does
-            not have, or a joint with more pairs than its links need.
+        InvalidField: An unknown or duplicate name, a pair of a link with itself, a kind that the space does not have,
+            or a joint with more pairs than its links need.
     """
     index = {name: i for i, name in enumerate(links)}
     if len(index) < len(links):
@@ -156,7 +156,7 @@ def mechanism(
 
 
 def mechanism_of_tree(description: Description) -> Mechanism:
-    """A robot as links and pairs in space: an open tree, each mimic joint with one constraint more."""
+    """Convert a robot to links and pairs in space: an open tree, each mimic joint with one more constraint."""
     index = {link.name: i for i, link in enumerate(description.links)}
     pairs = []
     for joint in description.joints:
@@ -183,7 +183,7 @@ def _of_kind(
     space: Space, name: str, kind: str, links: tuple[int, int], joint: str | None = None, added: bool = False
 ) -> Pair:
     c = KINDS[kind].constraints(space)
-    assert c is not None  # noqa: S101 - `check_kind` has been asked
+    assert c is not None  # noqa: S101 - checked before by `check_kind`
     return Pair(name, kind, links, KINDS[kind].order, c, FREEDOMS[space] - c, joint, added)
 
 
@@ -208,7 +208,7 @@ def _repeated(names: Sequence[str]) -> tuple[str, ...]:
 def _split(
     space: Space, index: dict[str, int], pairs: list[Pair], nodes: Sequence[Node]
 ) -> tuple[list[Pair], list[Split]]:
-    """The pairs with those that joints of more than two links still need, and these joints."""
+    """Return the pairs, with those added that joints of more than two links still need, and the splits."""
     meeting = {node.joint: _node_links(space, index, node, i) for i, node in enumerate(nodes)}
     kinds = {node.joint: node.kind for node in nodes}
     if repeated := _repeated([node.joint for node in nodes]):
@@ -246,7 +246,7 @@ def _node_links(space: Space, index: dict[str, int], node: Node, number: int) ->
 
 
 def _placed(pair: Pair, meeting: dict[str, tuple[int, ...]], number: int) -> Pair:
-    """The pair with the joint it belongs to: the one it names, else the node at which both of its links meet."""
+    """Return the pair with its joint: the one it names, else the only node where both of its links meet."""
     if pair.joint is not None:
         links = meeting.get(pair.joint)
         if links is not None and not set(pair.links) <= set(links):
@@ -263,7 +263,7 @@ def _placed(pair: Pair, meeting: dict[str, tuple[int, ...]], number: int) -> Pai
 
 
 def _missing(joint: str, links: tuple[int, ...], here: list[Pair], numbers: list[int]) -> list[tuple[int, int]]:
-    """The pairs that hold the parts together into which the links at a joint fall."""
+    """Return the pairs needed to connect the separate parts that the pairs at a joint leave of its links."""
     part = {link: link for link in links}
     for pair, number in zip(here, numbers, strict=True):
         first, second = part[pair.links[0]], part[pair.links[1]]

@@ -1,13 +1,13 @@
 """Mobility of a mechanism by the formula of Grübler and Kutzbach: M = λ(n - 1) - Σ c_i.
 
-λ is 3 in the plane and 6 in space, n counts the links with the ground, and the sum is over the j kinematic *pairs*,
-not the joints: a joint at which k links meet is k - 1 pairs. c_i is the i-th pair's (the notes' list has c_j once).
+λ is 3 in the plane and 6 in space, n counts the links including the ground, and the sum is over the j kinematic
+*pairs*, not the joints: a joint where k links meet is k - 1 pairs. c_i is the i-th pair's (c_j once in the notes).
 
-The formula counts and knows no geometry. It is too low where constraints are redundant (a planar linkage counted in
-space, Bennett's, Sarrus'), which nothing in the counts tells, so that M ≤ 0 is answered with a warning. And it counts
-freedoms that move nothing but one bar about itself, which the graph does tell: they are named and taken off.
+The formula ignores geometry. It is too low where constraints are redundant (a planar linkage counted in space,
+Bennett's, Sarrus'), which the counts cannot show, so M ≤ 0 comes with a warning. It also counts freedoms that only spin
+a bar about itself; the graph shows these, so they are named and subtracted.
 
-What is sent has been counted in a second way, by loops: M = Σ f_i - λ L + λ (components - 1).
+Every result is checked by a second count over loops: M = Σ f_i - λ L + λ (components - 1).
 """
 
 from collections import Counter
@@ -25,7 +25,7 @@ Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
 
 @dataclass(frozen=True, slots=True)
 class KindCount:
-    """How many pairs of a kind there are, and the c of each."""
+    """Number of pairs of one kind, and the c of each."""
 
     kind: str
     order: Order | None
@@ -35,7 +35,7 @@ class KindCount:
 
 @dataclass(frozen=True, slots=True)
 class NodeCount:
-    """A joint at which a number of links meet, of a mechanism that is given by its counts."""
+    """A joint where a number of links meet, in a mechanism given by counts alone."""
 
     joint: str
     links: int
@@ -44,14 +44,14 @@ class NodeCount:
 
 @dataclass(frozen=True, slots=True)
 class Tally:
-    """The numbers of the formula.
+    """The numbers in the formula.
 
     Attributes:
-        space: Which λ.
-        links: n, the ground included.
-        kinds: The pairs by kind.
-        splits: The joints of more than two links.
-        couplings: Joints that follow another one, a constraint each.
+        space: Planar or spatial, which gives λ.
+        links: n, including the ground.
+        kinds: Pairs by kind.
+        splits: Joints of more than two links.
+        couplings: Number of joints that follow another one, each a constraint.
     """
 
     space: Space
@@ -62,40 +62,40 @@ class Tally:
 
     @property
     def pairs(self) -> int:
-        """The number j of pairs."""
+        """Number of pairs, j."""
         return sum(kind.count for kind in self.kinds)
 
     @property
     def constraints(self) -> int:
-        """Σ c_i."""
+        """Constraints of all pairs, Σ c_i."""
         return sum(kind.count * kind.constraints for kind in self.kinds)
 
     @property
     def mobility(self) -> int:
-        """M = λ(n - 1) - Σ c_i, couplings taken off."""
+        """M = λ(n - 1) - Σ c_i, minus the couplings."""
         return FREEDOMS[self.space] * (self.links - 1) - self.constraints - self.couplings
 
     @property
     def mobility_without_split(self) -> int | None:
-        """What comes out if the pairs that were missing at joints of many links stay away; None if none was."""
+        """Mobility without the pairs that were added at joints of many links; None if none was added."""
         if not any(split.added for split in self.splits):
             return None
         return self.mobility + sum(split.added * split.constraints for split in self.splits)
 
 
 def tally(found: Mechanism) -> Tally:
-    """The numbers of a mechanism."""
+    """Return the numbers of a mechanism."""
     return Tally(found.space, len(found.links), _by_kind(found.pairs), found.splits, found.couplings)
 
 
 def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: Sequence[NodeCount]) -> Tally:
-    """The numbers of a mechanism of which no more is known than how many pairs of each kind it has.
+    """Return the numbers of a mechanism that is given only by how many pairs of each kind it has.
 
     Args:
-        space: Which λ.
-        links: n, the ground included.
-        counts: Joints by the kind of their pairs, each joint once however many links meet there.
-        nodes: The joints among them at which more than two links meet: k - 2 pairs more, each.
+        space: Planar or spatial, which gives λ.
+        links: n, including the ground.
+        counts: Joints by the kind of their pairs; each joint counts once, however many links meet there.
+        nodes: Those of the joints where more than two links meet; each adds k - 2 pairs.
 
     Raises:
         InvalidField: A kind that the space does not have, or more joints of many links than joints.
@@ -123,17 +123,17 @@ def _counted_split(space: Space, node: NodeCount, kind: str) -> Split:
 
 
 def verdict(mobility: int) -> Verdict:
-    """What a linkage is by its mobility, idle freedoms taken off."""
+    """Classify a linkage by its mobility without idle freedoms."""
     if mobility > 0:
         return "mechanism"
     return "structure" if mobility == 0 else "overconstrained"
 
 
 def certify_mobility(found: Mechanism) -> int:
-    """M counted by loops: each independent loop takes λ from the freedoms of the pairs.
+    """Count M by loops: each independent loop removes λ of the pairs' freedoms.
 
     Raises:
-        CertificationFailed: It is not what the formula gives.
+        CertificationFailed: The result differs from the formula's.
     """
     freedoms, graph = FREEDOMS[found.space], found.topology
     by_pairs = sum(pair.freedoms for pair in found.pairs) - found.couplings
@@ -145,12 +145,12 @@ def certify_mobility(found: Mechanism) -> int:
 
 
 def warnings(counted: Tally, found: Mechanism | None, stands: Posture | None = None) -> list[str]:
-    """What the bare number does not say, one sentence each.
+    """Return what the number alone does not show, one sentence each.
 
     Args:
-        counted: The numbers.
-        found: The mechanism, where more than its numbers is known.
-        stands: Its mobility as it stands, where that is known.
+        counted: The numbers in the formula.
+        found: The mechanism, if more than its numbers is known.
+        stands: Its mobility at the given posture, if known.
     """
     sentences = [_split_sentence(split) for split in counted.splits if split.added and found is not None]
     idle = 0 if found is None else len(found.idle_spins())
@@ -224,7 +224,7 @@ def _graph_sentences(found: Mechanism) -> list[str]:
 
 
 def _rollers(found: Mechanism) -> tuple[str, ...]:
-    """Links pinned to a moving link and touching another one: what a roller on a cam looks like."""
+    """Return links pinned to a moving link and touching another one, as a roller on a cam does."""
     at: dict[int, list[Pair]] = {}
     for pair in found.pairs:
         for link in pair.links:

@@ -1,4 +1,4 @@
-"""The count of a mobility as a lecturer writes it on the board."""
+"""The worked solution of a mobility, as a lecturer writes it on the board."""
 
 from gelenk.course.mechanism import Mechanism
 from gelenk.course.mobility import KindCount, Tally, verdict
@@ -20,12 +20,12 @@ _CHAINS = {
 
 
 def steps(counted: Tally, found: Mechanism | None, stands: Posture | None = None) -> list[Step]:
-    """From the links to the verdict.
+    """Return the worked solution from the links to the verdict.
 
     Args:
-        counted: The numbers.
-        found: The mechanism, where more than its numbers is known.
-        stands: Its mobility as it stands, where that is known.
+        counted: The numbers in the formula.
+        found: The mechanism, if more than its numbers is known.
+        stands: Its mobility at the given posture, if known.
     """
     total = counted.mobility if stands is None else stands.mobility
     idle = 0 if found is None else len(found.idle_spins())

@@ -1,4 +1,4 @@
-"""The exact response of a DC motor to a step of voltage and load, and a second way to it."""
+"""The exact response of a DC motor to a step of voltage and load, and an independent check of it."""
 
 import math
 from dataclasses import dataclass
@@ -17,14 +17,14 @@ _TAYLOR_TERMS = 18
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """Current and speed after a step, and how far a second way is from them.
+    """Current and speed after a step, and their difference from an independent computation.
 
     Attributes:
         currents: i(t), [A]; shape (T,).
         angular_velocities: ω(t), [rad/s]; shape (T,).
-        samples: How many of the times were recomputed by scaling and squaring.
-        current_difference: Largest difference there, [A].
-        angular_velocity_difference: Largest difference there, [rad/s].
+        samples: Number of times at which both were recomputed by scaling and squaring.
+        current_difference: Largest difference of the current there, [A].
+        angular_velocity_difference: Largest difference of the speed there, [rad/s].
     """
 
     currents: Array
@@ -37,17 +37,17 @@ class Response:
 def step_response(
     motor: Motor, voltage: float, load_torque: float, times: Array, initial_current: float, initial_speed: float
 ) -> Response:
-    """Exact response x(t) = x_∞ + e^{A t} (x(0) - x_∞) to voltage and load that are there from t = 0 on.
+    """Compute the exact response x(t) = x_∞ + e^{A t} (x(0) - x_∞) to a voltage and a load applied at t = 0.
 
-    The matrix exponential is written out: for a 2×2 matrix with mean eigenvalue m and discriminant δ = s²,
-    e^{A t} = e^{m t} (cosh(s t) I + sinh(s t)/s (A - m I)), with cos and sin where δ < 0 and t where δ = 0.
+    The matrix exponential is in closed form: for a 2×2 matrix with mean eigenvalue m and discriminant δ = s², e^{A t} =
+    e^{m t} (cosh(s t) I + sinh(s t)/s (A - m I)), with cos and sin where δ < 0 and t where δ = 0.
 
     Args:
         motor: The motor.
         voltage: V, [V].
         load_torque: τ_L, [N m].
-        times: Since the step, ≥ 0, [s]; shape (T,).
-        initial_current: i(0), [A]; without inductance current has no memory, and this is not used.
+        times: Times since the step, ≥ 0, [s]; shape (T,).
+        initial_current: i(0), [A]; not used without inductance, because the current then has no memory.
         initial_speed: ω(0), [rad/s].
 
     Raises:
@@ -70,7 +70,7 @@ def step_response(
 
 
 def _transition(motor: Motor, times: Array) -> tuple[Array, Array, Array]:
-    """Diagonal entries of e^{A t}, and its factor S(t) = e^{m t} sinh(s t)/s of A; each of shape (T,)."""
+    """Return the diagonal entries of e^{A t}, and its factor S(t) = e^{m t} sinh(s t)/s of A; each of shape (T,)."""
     electrical, mechanical, _ = rates(motor)
     half = 0.5 * (electrical - mechanical)
     found = modes(motor)
@@ -90,10 +90,10 @@ def _transition(motor: Motor, times: Array) -> tuple[Array, Array, Array]:
 def _certified(
     motor: Motor, voltage: float, final: OperatingPoint, start: Array, times: Array, currents: Array, speeds: Array
 ) -> Response:
-    """The response, once a few of its times have been recomputed by Taylor's series, scaling and squaring.
+    """Recompute the response at a few of its times by Taylor series, scaling and squaring, and return it.
 
-    In the coordinates i √(L k_t), ω √(J k_e) no motor makes a state longer, so that squaring is safe. Times so long
-    that it would take more than 20 squarings are left out: there rounding would be all that is seen.
+    In the coordinates i √(L k_t), ω √(J k_e) no motor lengthens a state, so squaring is safe. Times that would need
+    more than 20 squarings are left out, because rounding would dominate there.
     """
     if len(start) == 1:
         weights, A = np.ones(1), np.array([[-1.0 / motor.mechanical_time_constant]])
@@ -122,7 +122,7 @@ def _certified(
 
 
 def exponential(A: Array, times: Array) -> Array:
-    """e^{A t} by Taylor's series of A t / 2^k, squared k times; shape (T, n, n)."""
+    """Compute e^{A t} by the Taylor series of A t / 2^k, squared k times; shape (T, n, n)."""
     scaled = A * times[:, None, None]
     largest = float(np.max(np.abs(scaled).sum(axis=(1, 2)), initial=0.0))
     squarings = max(0, math.ceil(math.log2(largest)) + 1) if largest > 0.0 else 0

@@ -1,15 +1,15 @@
-"""An orientation in every notation of the course, with both branches of the Euler triples and what degenerates.
+"""An orientation in every notation of the course, with both branches of the Euler triples and the degenerate cases.
 
-- ZYZ, R = Rz(φ) Ry(θ) Rz(ψ): (φ, θ, ψ) and (φ + π, -θ, ψ + π) are the same. The notes say that where it degenerates
-  "only the sum" is known: that holds at θ = 0; at θ = π it is the difference φ - ψ. And they leave the second branch,
-  θ < 0, out.
+- ZYZ, R = Rz(φ) Ry(θ) Rz(ψ): (φ, θ, ψ) and (φ + π, -θ, ψ + π) are the same. The notes say that in the degenerate case
+  "only the sum" is known: that holds at θ = 0; at θ = π it is the difference φ - ψ. They also omit the second branch, θ
+  < 0.
 - RPY, R = Rz(yaw) Ry(pitch) Rx(roll): (r, p, y) and (r + π, π - p, y + π) are the same. At pitch = π/2 only yaw - roll
   is determined, at -π/2 only yaw + roll.
-- Axis and angle: at 0 there is no axis, at π it is determined except for its sign.
-- Quaternions: q and -q are the same; the one with scalar part ≥ 0 is chosen, and where that is 0 the one whose first
-  other part that is not 0 is positive.
+- Axis and angle: at 0 the axis is undefined, at π it is determined except for its sign.
+- Quaternions: q and -q are the same; the one with scalar part ≥ 0 is chosen, and if that is 0, the one whose first
+  other non-zero part is positive.
 
-Sines and cosines below `DEGENERATE` count as zero. The notations come from `gelenk.model.poses`; what is sent has been
+Sines and cosines below `DEGENERATE` count as zero. The notations come from `gelenk.model.notations`; each result is
 turned back into R by products of elementary rotations, Rodrigues' formula and the quaternion's own product.
 """
 
@@ -30,20 +30,20 @@ from gelenk.model.notations import (
 )
 
 NEARLY_DEGENERATE = 1e-6
-"""A sine or cosine below which the two outer angles are distinguished with less than ten digits."""
+"""Sine or cosine below which fewer than ten digits of the two outer angles are determined."""
 _RECOMPUTED = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
 class Degeneracy:
-    """A notation at which something is not determined.
+    """A degenerate case of a notation, where something is not determined.
 
     Attributes:
         notation: `zyz`, `rpy` or `axis_angle`.
-        case: What makes it so.
-        determined: What still is, as a formula; None where nothing more is.
-        value: Of that, [rad], in (-π, π].
-        chosen: How the representative that is given was chosen.
+        case: Condition under which the notation degenerates.
+        determined: Formula of what is still determined; None if nothing more is.
+        value: Value of that formula, [rad], in (-π, π].
+        chosen: Rule by which the given representative was chosen.
     """
 
     notation: Literal["zyz", "rpy", "axis_angle"]
@@ -55,12 +55,12 @@ class Degeneracy:
 
 @dataclass(frozen=True, slots=True)
 class Triple:
-    """An Euler triple's solutions.
+    """The solutions of an Euler triple.
 
     Attributes:
-        solutions: Both branches, [rad]; the representative alone where it degenerates.
-        conditioning: |sin θ| or |cos pitch|: errors of R grow by its inverse in the outer angles.
-        degeneracy: What degenerates, if anything does.
+        solutions: Both branches, [rad]; the representative alone in a degenerate case.
+        conditioning: |sin θ| or |cos pitch|: errors of R are amplified by its inverse in the outer angles.
+        degeneracy: The degenerate case, if any.
     """
 
     solutions: tuple[tuple[float, float, float], ...]
@@ -73,9 +73,9 @@ class AxisAngle:
     """A rotation by an angle in [0, π] about a unit axis.
 
     Attributes:
-        angle: [rad].
-        axes: One; none at 0; both at π.
-        degeneracy: What degenerates, if anything does.
+        angle: Angle of rotation, [rad].
+        axes: Unit axes: one; none at angle 0; both at π.
+        degeneracy: The degenerate case, if any.
     """
 
     angle: float
@@ -89,12 +89,12 @@ class Notations:
 
     Attributes:
         rotation: R; shape (3, 3).
-        quaternion_xyzw: The one of the two signs that is chosen.
+        quaternion_xyzw: The unit quaternion with the chosen sign.
         rotation_vector: Axis times angle, [rad].
-        axis_angle: The same apart.
+        axis_angle: Axis and angle separately.
         zyz: (φ, θ, ψ), θ ≥ 0 first.
         rpy: (roll, pitch, yaw), pitch in [-π/2, π/2] first.
-        error: The largest entry by which R differs from what the others give.
+        error: Largest deviation of an entry of R when it is recomputed from the other notations.
     """
 
     rotation: Array
@@ -107,16 +107,16 @@ class Notations:
 
     @property
     def degeneracies(self) -> tuple[Degeneracy, ...]:
-        """Of the three notations that can."""
+        """Degenerate cases of ZYZ, RPY and axis-angle at this rotation."""
         found = (self.zyz.degeneracy, self.rpy.degeneracy, self.axis_angle.degeneracy)
         return tuple(one for one in found if one is not None)
 
 
 def notations(R: Array) -> Notations:
-    """A rotation (3, 3) in every notation, recomputed.
+    """Convert a rotation (3, 3) to every notation, and recompute it from each.
 
     Raises:
-        CertificationFailed: A notation does not give the rotation again.
+        CertificationFailed: A notation does not reproduce the rotation.
     """
     Rs = np.ascontiguousarray(R)[None]
     quaternion = _signed(quaternions_xyzw_from_rotations(Rs)[0])
@@ -132,7 +132,7 @@ def notations(R: Array) -> Notations:
 
 
 def wrapped(angle: float) -> float:
-    """The same angle in (-π, π]; one that lies there already comes back as it is."""
+    """Return the same angle in (-π, π]; one already in this interval is returned unchanged."""
     if -math.pi < angle <= math.pi:
         return angle
     reduced = math.remainder(angle, 2.0 * math.pi)
@@ -140,7 +140,7 @@ def wrapped(angle: float) -> float:
 
 
 def _signed(quaternion: Array) -> Array:
-    """The sign that is chosen of the two, parts that count as zero at half a turn made so: none of them is -0."""
+    """Choose the quaternion's sign, after setting parts that count as zero at half a turn to 0; no part is -0."""
     if abs(quaternion[3]) > DEGENERATE:
         return (quaternion if quaternion[3] > 0.0 else -quaternion) + 0.0
     quaternion = np.where(np.abs(quaternion) > DEGENERATE, quaternion, 0.0)
@@ -191,7 +191,7 @@ def _rpy(R: Array) -> Triple:
 
 
 def _recomputed(R: Array, quaternion: Array, vector: Array, turn: AxisAngle, zyz: Triple, rpy: Triple) -> float:
-    """The largest entry by which a notation, turned back into a matrix in another way, differs from R."""
+    """Return the largest deviation from R of a notation that is turned back into a matrix by another method."""
     angle = math.hypot(*vector.tolist())
     again = [_sandwich(quaternion), _sandwich(-quaternion)]
     again.append(about_axis(vector / angle, angle) if angle > 0.0 else np.eye(3))
@@ -205,7 +205,7 @@ def _recomputed(R: Array, quaternion: Array, vector: Array, turn: AxisAngle, zyz
 
 
 def _sandwich(quaternion: Array) -> Array:
-    """The products q e q* for the three unit vectors e, as columns: q multiplies from the left, q* from the right."""
+    """Return q e q* for the three unit vectors e, as columns: q multiplies from the left, q* from the right."""
     x, y, z, w = quaternion.tolist()
     left = np.array([[w, -z, y, x], [z, w, -x, y], [-y, x, w, z], [-x, -y, -z, w]])
     right = np.array([[w, -z, y, -x], [z, w, -x, -y], [-y, x, w, -z], [x, y, z, w]])

@@ -1,8 +1,8 @@
-"""Kinematic pairs: what each kind takes away, in the plane and in space.
+"""Kinematic pairs: the constraints of each kind, in the plane and in space.
 
-A pair of two links leaves f freedoms of the λ that a free body has, λ = 3 in the plane and 6 in space, and takes
-c = λ - f. It is of low order where the links touch in a surface and of high order where they touch in a line or a
-point. The number c belongs to the pair: the i-th pair has c_i.
+Of the λ freedoms of a free body, λ = 3 in the plane and 6 in space, a pair of two links leaves f and removes c = λ - f.
+Its order is low if the links touch in a surface, and high if they touch in a line or a point. The number c belongs to
+the pair: the i-th pair has c_i.
 """
 
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ Space: TypeAlias = Literal["planar", "spatial"]
 Order: TypeAlias = Literal["low", "high"]
 
 FREEDOMS: dict[Space, int] = {"planar": 3, "spatial": 6}
-"""λ: the freedoms of a free body."""
+"""Number of freedoms of a free body, λ."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairKind:
-    """A kind of pair.
+    """A kind of kinematic pair.
 
     Attributes:
         order: Whether the links touch in a surface (low) or in a line or point (high).
-        planar: c with λ = 3, where the plane has such a pair.
-        spatial: c with λ = 6, where space has it.
+        planar: c with λ = 3; None if the plane has no such pair.
+        spatial: c with λ = 6; None if space has no such pair.
     """
 
     order: Order
@@ -30,19 +30,19 @@ class PairKind:
     spatial: int | None
 
     def constraints(self, space: Space) -> int | None:
-        """c; None where this space has no such pair."""
+        """Return c in a space; None if it has no such pair."""
         return self.planar if space == "planar" else self.spatial
 
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """Where a pair is at one posture, in the axes of the ground; what its kind does not need is None.
+    """Position of a pair at one posture, in the axes of the ground; None for what its kind does not need.
 
     Attributes:
-        point: On its axis, its centre or the place of contact, [m].
-        axis: Unit vector: to turn about, to slide along, or normal to the surfaces that touch.
-        second_axis: Unit vector, of a universal joint.
-        pitch: Of a screw, [m/rad].
+        point: Point on its axis, its centre, or its point of contact, [m].
+        axis: Unit vector: axis of rotation, direction of sliding, or normal of the touching surfaces.
+        second_axis: Second axis of a universal joint; unit vector.
+        pitch: Pitch of a screw, [m/rad].
     """
 
     point: tuple[float, float, float] | None = None
@@ -67,7 +67,7 @@ KINDS: dict[str, PairKind] = {
     "point_contact": PairKind("high", None, 1),
     "fixed": PairKind("low", 3, 6),
 }
-"""The course's table. `rolling` is without slip, a universal joint counts as one pair, `fixed` makes two links one."""
+"""The course's table. `rolling` is without slip, a universal joint is one pair, `fixed` makes two links one."""
 
 LETTERS = {
     "R": "revolute",
@@ -78,9 +78,9 @@ LETTERS = {
     "S": "spherical",
     "E": "planar",
 }
-"""The letters by which mechanisms are called, as in 6-UPS."""
+"""Letters in the names of mechanisms, as in 6-UPS."""
 
 
 def allowed_kinds(space: Space) -> tuple[str, ...]:
-    """The kinds of pairs that a space has."""
+    """Return the kinds of pairs that exist in a space."""
     return tuple(name for name, kind in KINDS.items() if kind.constraints(space) is not None)

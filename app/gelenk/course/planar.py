@@ -1,12 +1,12 @@
 """Workspaces of planar arms with revolute joints that turn without limits.
 
-WS₁, the primary workspace, is every point that the tip reaches with at least one orientation φ; WS₂, the secondary
-one, every point that it reaches with all of them. Both are rings around the base, so intervals of its distance r say
-everything; a ring that begins at r = 0 is a disc.
+WS₁, the primary workspace, is every point that the tip reaches with at least one orientation φ; WS₂, the secondary one,
+is every point that it reaches with all of them. Both consist of rings around the base, so intervals of the distance r
+from the base describe them fully; a ring that begins at r = 0 is a disc.
 
-The arm is taken as an arm without its last link, whose own WS₁ is one ring [a, b], and a last link l that can stand in
-any orientation about the wrist: WS₁ is [max(0, a - l, l - b), b + l]. At distance r the wrist goes round a circle of
-radius l, which stays within the ring where r + l ≤ b and |r - l| ≥ a: that is WS₂, in up to two pieces.
+The arm is divided into an arm without its last link, whose own WS₁ is one ring [a, b], and a last link of length l that
+can have any orientation at the wrist: WS₁ is [max(0, a - l, l - b), b + l]. With the tip at r, the wrist moves on a
+circle of radius l, which stays within the ring where r + l ≤ b and |r - l| ≥ a: that is WS₂, in up to two pieces.
 """
 
 import math
@@ -30,13 +30,13 @@ _ORIENTATIONS = 181
 
 @dataclass(frozen=True, slots=True)
 class PlanarWorkspace:
-    """The workspaces of an arm.
+    """The workspaces of a planar arm.
 
     Attributes:
         links: l_1 … l_n ≥ 0, [m].
         wrist: WS₁ of all but the last link, one ring, [m].
         primary: WS₁ as intervals of r, [m].
-        secondary: WS₂ likewise, from the inside out; none, one or two.
+        secondary: WS₂ as intervals of r, [m], from the inside out; none, one or two.
     """
 
     links: tuple[float, ...]
@@ -46,9 +46,9 @@ class PlanarWorkspace:
 
 
 def planar_workspace(links: Sequence[float]) -> PlanarWorkspace:
-    """The exact workspaces of a planar arm of two or three links, [m].
+    """Compute the exact workspaces of a planar arm of two or three links, [m].
 
-    Lengths that differ by rounding alone count as equal: a piece of WS₂ that is a circle or a point is not lost.
+    Lengths that differ only by rounding count as equal, so that a piece of WS₂ that is a circle or a point is not lost.
     """
     tolerance = _ROUNDING * sum(links)
     wrist = (links[0], links[0])
@@ -64,7 +64,7 @@ def _with_link(ring: Interval, length: float, tolerance: float) -> Interval:
 
 
 def _secondary(wrist: Interval, length: float, tolerance: float) -> tuple[Interval, ...]:
-    """Where r + l ≤ b and r ≤ l - a, and where r + l ≤ b and r ≥ l + a; joined where they touch."""
+    """Return the rings where r + l ≤ b and either r ≤ l - a or r ≥ l + a, joined where they touch."""
     inner, outer = wrist
     pieces: list[Interval] = []
     for lower, upper in ((0.0, min(length - inner, outer - length)), (length + inner, outer - length)):
@@ -80,18 +80,18 @@ def _secondary(wrist: Interval, length: float, tolerance: float) -> tuple[Interv
 
 
 def area(rings: Sequence[Interval]) -> float:
-    """Σ π (r_max² - r_min²), [m²]."""
+    """Return the area of rings, Σ π (r_max² - r_min²), [m²]."""
     return sum(math.pi * (outer - inner) * (outer + inner) for inner, outer in rings)
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a point lies relative to a workspace.
+    """Position of a point relative to a workspace.
 
     Attributes:
         location: Inside, outside, or on the boundary within the tolerance.
-        boundary: Radius of the nearest boundary, [m]; None where there is none.
-        distance: To that boundary, positive inside, [m]; None where there is none.
+        boundary: Radius of the nearest boundary, [m]; None for an empty workspace.
+        distance: Distance to that boundary, positive inside, [m]; None for an empty workspace.
     """
 
     location: Location
@@ -100,7 +100,7 @@ class Place:
 
 
 def place(rings: Sequence[Interval], radius: float, tolerance: float) -> Place:
-    """Where a radius, [m], lies relative to rings; the centre of a disc is no boundary."""
+    """Locate a radius, [m], relative to rings; the centre of a disc is not a boundary."""
     bounds = [bound for inner, outer in rings for bound in (inner, outer) if bound > 0.0 or outer == 0.0]
     inside = any(inner <= radius <= outer for inner, outer in rings)
     if not bounds:
@@ -113,10 +113,10 @@ def place(rings: Sequence[Interval], radius: float, tolerance: float) -> Place:
 
 
 def orientations(arm: PlanarWorkspace, x: float, y: float) -> tuple[Interval, ...]:
-    """The orientations φ of the last link with which a point is reached, as closed intervals, [rad].
+    """Return the orientations φ of the last link with which a point is reached, as closed intervals, [rad].
 
-    With ψ = φ - atan2(y, x) the wrist is at the distance ρ² = r² + l² - 2 r l cos ψ, which has to be in its ring; that
-    bounds cos ψ from both sides. An interval begins in (-π, π] and may end beyond π; a whole turn is (-π, π).
+    With ψ = φ - atan2(y, x), the wrist's distance ρ² = r² + l² - 2 r l cos ψ must lie in its ring, which bounds cos ψ
+    from both sides. An interval begins in (-π, π] and may end beyond π; a whole turn is (-π, π).
     """
     length, radius = arm.links[-1], math.hypot(x, y)
     inner, outer = arm.wrist
@@ -143,30 +143,30 @@ def orientations(arm: PlanarWorkspace, x: float, y: float) -> tuple[Interval, ..
 
 
 def _angle(distance: float, nearest: float, farthest: float) -> float:
-    """ψ at which the wrist has a distance, by tan²(ψ/2) = (ρ² - ρ_min²) / (ρ_max² - ρ²)."""
+    """Return ψ at which the wrist has a given distance, by tan²(ψ/2) = (ρ² - ρ_min²) / (ρ_max² - ρ²)."""
     above = (distance - nearest) * (distance + nearest)
     below = (farthest - distance) * (farthest + distance)
     return 2.0 * math.atan2(math.sqrt(max(above, 0.0)), math.sqrt(max(below, 0.0)))
 
 
 def _shifted(lower: float, upper: float) -> Interval:
-    """The interval with its beginning in (-π, π]."""
+    """Shift an interval by whole turns so that it begins in (-π, π]."""
     turns = math.ceil((lower - math.pi) / (2.0 * math.pi))
     return lower - 2.0 * math.pi * turns, upper - 2.0 * math.pi * turns
 
 
 def share(intervals: Sequence[Interval]) -> float:
-    """The part of all orientations that intervals make up; in [0, 1]."""
+    """Return the fraction of all orientations that intervals cover, in [0, 1]."""
     return min(1.0, sum(upper - lower for lower, upper in intervals) / (2.0 * math.pi))
 
 
 def posture(arm: PlanarWorkspace, x: float, y: float, orientation: float) -> Array:
-    """Base, joints and tip with the tip at a point; of two elbows the one to the right; shape (n + 1, 2), [m].
+    """Return base, joints and tip for a tip at a point, with the elbow to the right; shape (n + 1, 2), [m].
 
     Args:
         arm: The arm.
-        x: Of the tip, [m].
-        y: Of the tip, [m].
+        x: x of the tip, [m].
+        y: y of the tip, [m].
         orientation: φ of the last link, one of `orientations`, [rad].
     """
     wrist = np.array([x, y]) - arm.links[-1] * np.array([math.cos(orientation), math.sin(orientation)])
@@ -183,11 +183,11 @@ def posture(arm: PlanarWorkspace, x: float, y: float, orientation: float) -> Arr
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Both workspaces against moving the joints.
+    """Size of a check of both workspaces by trying joint positions.
 
     Attributes:
-        radii: How many distances were tried, none within a thousandth of the reach of a boundary.
-        orientations: How many at each.
+        radii: Number of distances tried, none within a thousandth of the reach from a boundary.
+        orientations: Number of orientations tried at each distance.
     """
 
     radii: int
@@ -195,13 +195,13 @@ class Trial:
 
 
 def tried(arm: PlanarWorkspace) -> Trial:
-    """Try orientations of the last link at distances between and beyond the boundaries.
+    """Check both workspaces by trying orientations of the last link at distances inside and outside their boundaries.
 
-    The wrist's ring is taken from positions of the links before, from folded to stretched; as the wrist's distance is a
-    continuous function of the orientation, its extremes say whether some orientation, and whether all are reached.
+    The wrist's ring comes from positions of the links before it, from folded to stretched. Since the wrist's distance
+    is a continuous function of the orientation, its extremes show whether some or all orientations are reached.
 
     Raises:
-        CertificationFailed: A distance within WS₁ is not reached, one beyond is, or likewise of WS₂.
+        CertificationFailed: A distance within WS₁ is not reached, a distance outside is, or likewise for WS₂.
     """
     reach = sum(arm.links)
     if reach == 0.0:
@@ -225,7 +225,7 @@ def tried(arm: PlanarWorkspace) -> Trial:
 
 
 def workspace_steps(arm: PlanarWorkspace) -> tuple[Step, ...]:
-    """The worked solution: reach, and the circle of the wrist."""
+    """Return the worked solution: the reach, and the circle of the wrist."""
     lengths = ", ".join(rf"l_{number} = {tex(length)}" for number, length in enumerate(arm.links, start=1))
     (inner, outer), last = arm.wrist, len(arm.links)
     total, longest = sum(arm.links), max(arm.links)

@@ -1,7 +1,7 @@
-"""Pulse width modulation: the averages of a switched voltage, and the ripple it leaves on a motor's current.
+"""Pulse width modulation: averages of a switched voltage, and the ripple that it causes in a motor's current.
 
-The voltage is V_s for the time D/f, then zero for (1 - D)/f, while a second switch lets the current go on in either
-direction. A negative average takes an H-bridge: the same pulses with the supply the other way round.
+The voltage is V_s for the time D/f, then zero for (1 - D)/f, while a second switch lets the current continue in either
+direction. A negative average needs an H-bridge: the same pulses with the supply reversed.
 """
 
 import math
@@ -22,7 +22,7 @@ class Pulses:
         supply_voltage: V_s > 0, [V].
         duty: D in [0, 1].
         frequency: f > 0, [Hz].
-        direction: 1, or -1 where an H-bridge turns the supply round.
+        direction: 1, or -1 if an H-bridge reverses the supply.
     """
 
     supply_voltage: float
@@ -32,35 +32,35 @@ class Pulses:
 
     @property
     def high_voltage(self) -> float:
-        """What the motor sees in a pulse, [V]."""
+        """Voltage at the motor during a pulse, ±V_s, [V]."""
         return self.direction * self.supply_voltage
 
     @property
     def average_voltage(self) -> float:
-        """±D V_s, [V]."""
+        """Average voltage, ±D V_s, [V]."""
         return self.duty * self.high_voltage
 
     @property
     def rms_voltage(self) -> float:
-        """√D V_s, [V]."""
+        """Root mean square of the voltage, √D V_s, [V]."""
         return math.sqrt(self.duty) * self.supply_voltage
 
     @property
     def on_time(self) -> float:
-        """D / f, [s]."""
+        """Duration of a pulse, D / f, [s]."""
         return self.duty / self.frequency
 
     @property
     def off_time(self) -> float:
-        """(1 - D) / f, [s]."""
+        """Time between pulses, (1 - D) / f, [s]."""
         return (1.0 - self.duty) / self.frequency
 
 
 def voltage_for_speed(motor: Motor, angular_velocity: float, load_torque: float) -> float:
-    """V = k_e ω + R (b ω + τ_L) / k_t, the average voltage that holds a speed, [V].
+    """Return the average voltage that holds a speed, V = k_e ω + R (b ω + τ_L) / k_t, [V].
 
     Args:
-        motor: The motor; its inductance and inertia do not count.
+        motor: The motor; its inductance and inertia have no effect.
         angular_velocity: ω, [rad/s].
         load_torque: τ_L, [N m].
     """
@@ -69,7 +69,7 @@ def voltage_for_speed(motor: Motor, angular_velocity: float, load_torque: float)
 
 
 def speed_step(motor: Motor, angular_velocity: float, load_torque: float) -> Step:
-    """The worked voltage for a speed."""
+    """Return the worked voltage for a speed."""
     voltage = voltage_for_speed(motor, angular_velocity, load_torque)
     k_t, k_e, R, b = (
         tex(value)
@@ -88,7 +88,7 @@ def speed_step(motor: Motor, angular_velocity: float, load_torque: float) -> Ste
 
 
 def approximate_ripple(pulses: Pulses, inductance: float) -> float:
-    """V_s D (1 - D) / (L f), [A]: the resistance left out; at R = 0 it is exact."""
+    """Return the ripple without resistance, V_s D (1 - D) / (L f), [A]; it is exact at R = 0."""
     return pulses.supply_voltage * pulses.duty * (1.0 - pulses.duty) / (inductance * pulses.frequency)
 
 
@@ -101,7 +101,7 @@ class Ripple:
         lowest: Smallest value in a period, [A].
         highest: Largest value in a period, [A].
         ripple: highest - lowest, [A].
-        closing_error: How far the current is from where it began after one period, [A].
+        closing_error: Deviation of the current from its initial value after one period, [A].
     """
 
     average: float
@@ -112,19 +112,19 @@ class Ripple:
 
 
 def exact_ripple(pulses: Pulses, resistance: float, inductance: float, back_emf: float) -> Ripple:
-    """The current's extremes, from the exponentials of both parts of a period.
+    """Compute the current's extremes from the exponentials of both parts of a period.
 
-    With a = e^{-t_on R/L} and c = e^{-t_off R/L}: highest = (V_s (1 - a)/(1 - a c) - E)/R, lowest =
-    (V_s c (1 - a)/(1 - a c) - E)/R, ripple = V_s (1 - a)(1 - c)/(R (1 - a c)). At D = 0 or 1 nothing switches.
+    With a = e^{-t_on R/L} and c = e^{-t_off R/L}: highest = (V_s (1 - a)/(1 - a c) - E)/R, lowest = (V_s c (1 - a)/(1 -
+    a c) - E)/R, ripple = V_s (1 - a)(1 - c)/(R (1 - a c)). At D = 0 or 1 nothing switches.
 
     Args:
         pulses: The voltage.
         resistance: R > 0, [Ω].
-        inductance: L ≥ 0, [H]; at zero the current follows the voltage.
+        inductance: L ≥ 0, [H]; at zero the current follows the voltage instantly.
         back_emf: E, constant through a period, [V].
 
     Raises:
-        CertificationFailed: One period on from the lowest current is not the lowest current.
+        CertificationFailed: The current does not return to its lowest value after one period.
     """
     still = -back_emf / resistance
     peak = pulses.high_voltage / resistance
@@ -138,7 +138,7 @@ def exact_ripple(pulses: Pulses, resistance: float, inductance: float, back_emf:
     period = -math.expm1(-(pulses.on_time + pulses.off_time) * rate)
     after_pulse = still + peak * (rise / period)
     after_pause = after_pulse - peak * (rise * fall / period)
-    # A step of each differential equation from where the other one ended, written as a relaxation.
+    # Integrate each part of the period from the end of the other, as an exponential approach to its final value.
     there = after_pause + (peak + still - after_pause) * rise
     back = there + (still - there) * fall
     error = max(abs(there - after_pulse), abs(back - after_pause))
@@ -150,7 +150,7 @@ def exact_ripple(pulses: Pulses, resistance: float, inductance: float, back_emf:
 
 
 def pwm_warnings(pulses: Pulses, ripple: Ripple | None) -> tuple[str, ...]:
-    """What a reader should know before building it."""
+    """Return warnings to consider before building the circuit, one sentence each."""
     found = []
     if pulses.direction < 0:
         found.append("the average voltage is negative: that takes an H-bridge, which turns the supply round")
@@ -167,7 +167,7 @@ def pwm_warnings(pulses: Pulses, ripple: Ripple | None) -> tuple[str, ...]:
 
 
 def pwm_steps(pulses: Pulses, inductance: float | None, ripple: Ripple | None) -> tuple[Step, ...]:
-    """The worked solution of averages, times and ripple."""
+    """Return the worked solution of averages, times and ripple."""
     D, V, f = tex(pulses.duty), tex(pulses.supply_voltage), tex(pulses.frequency)
     high = tex_factor(pulses.high_voltage)
     steps = [

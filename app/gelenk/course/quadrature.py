@@ -1,7 +1,7 @@
-"""Quadrature: the counts and the direction in a sequence of samples of channels A and B.
+"""Quadrature decoding: the counts and the direction in a sequence of samples of channels A and B.
 
-Forward, A leads B: 00 → 10 → 11 → 01 → 00, written as AB. Between two samples one channel may change. Where both do, a
-sample was missed: the shaft has moved by two quarters of a line, in an unknown direction.
+Forward, A leads B: 00 → 10 → 11 → 01 → 00, written as AB. At most one channel may change between two samples. If both
+change, a sample was missed: the shaft has moved by two quarters of a line, in an unknown direction.
 """
 
 import re
@@ -20,17 +20,17 @@ Direction: TypeAlias = Literal["forward", "backward", "none"]
 _SEPARATORS = re.compile(r"[\s,;]+")
 _SHOWN = 12
 
-# Quarter of a line of the state 2 A + B: 00, 10, 11, 01 are 0, 1, 2, 3.
+# Quarter of a line for each state 2 A + B: 00, 10, 11 and 01 are quarters 0, 1, 2 and 3.
 _QUARTER = np.array([0, 3, 1, 2])
 
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """What was read from the channels, one entry a sample.
+    """Samples read from the channels.
 
     Attributes:
-        states: 2 A + B; shape (S,).
-        index: Z; shape (S,), or None where it was not read.
+        states: 2 A + B of each sample; shape (S,).
+        index: Z of each sample; shape (S,), or None if it was not read.
     """
 
     states: Indices
@@ -38,14 +38,14 @@ class Samples:
 
 
 def read_samples(text: str, field: str) -> Samples:
-    """Samples from text such as "00 10 11 01", or "001 100 110" with the index channel Z as a third digit.
+    """Parse samples such as "00 10 11 01", or "001 100 110" with the index channel Z as a third digit.
 
     Args:
-        text: One group of digits a sample; spaces, commas or semicolons between.
-        field: What to call it in an error.
+        text: One group of digits per sample, separated by spaces, commas or semicolons.
+        field: Name of the field in an error.
 
     Raises:
-        InvalidField: There is none, one has other characters, or they differ in length.
+        InvalidField: The text has no sample, other characters, or samples of different lengths.
     """
     groups = [group for group in _SEPARATORS.split(text) if group]
     if not groups:
@@ -58,7 +58,7 @@ def read_samples(text: str, field: str) -> Samples:
 
 
 def _fault(groups: Sequence[str], width: int) -> str:
-    """What is wrong with the first group that is none."""
+    """Describe what is wrong with the first invalid group."""
     for number, group in enumerate(groups):
         if len(group) not in {2, 3} or not set(group) <= {"0", "1"}:
             shown = "".join(c if c.isprintable() else "�" for c in group[:_SHOWN])
@@ -73,9 +73,9 @@ class IndexPulse:
     """A rise of channel Z, once a turn.
 
     Attributes:
-        sample: Where it rises.
-        count: The count there.
-        count_error: How far the count since the first pulse is from whole turns; None where a turn is not known.
+        sample: Index of the sample where Z rises.
+        count: Count at that sample.
+        count_error: Deviation of the count since the first pulse from whole turns; None if a turn is unknown.
     """
 
     sample: int
@@ -85,14 +85,14 @@ class IndexPulse:
 
 @dataclass(frozen=True, slots=True)
 class Decoded:
-    """What the samples tell.
+    """The result of decoding samples.
 
     Attributes:
-        counts: Since the first sample; shape (S,).
-        direction: Of the whole, by the last count.
-        reversals: How often the direction of motion changes.
+        counts: Count at each sample, since the first one; shape (S,).
+        direction: Overall direction, by the last count.
+        reversals: Number of changes of direction.
         illegal: Samples at which both channels have changed; shape (K,).
-        pulses: Of channel Z, in order.
+        pulses: Rises of channel Z, in order.
     """
 
     counts: Indices
@@ -103,16 +103,16 @@ class Decoded:
 
 
 def decoded(samples: Samples, decoding: Decoding, counts_per_revolution: int | None) -> Decoded:
-    """Counts, direction and faults of a sequence.
+    """Decode the counts, direction and faults of a sequence of samples.
 
-    x4 counts each change of a channel, x2 those of A, x1 the edge of A between 00 and 10 alone, up when it rises and
-    down when it falls there: so a shaft that trembles on an edge counts up and down and stays where it is. An illegal
-    change counts nothing.
+    x4 counts each change of a channel, x2 those of A, x1 only the edge of A between 00 and 10, up when it rises and
+    down when it falls there: so a shaft that trembles on an edge counts up and down without drifting. An illegal change
+    counts nothing.
 
     Args:
-        samples: What was read.
+        samples: Samples of the channels.
         decoding: Which changes count.
-        counts_per_revolution: Of the encoder, for the index pulses.
+        counts_per_revolution: Counts per turn of the encoder, to check the index pulses.
     """
     quarters = _QUARTER[samples.states]
     moved = (np.diff(quarters) + 1) % 4 - 1
@@ -144,5 +144,5 @@ def _pulses(index: Flags | None, counts: Indices, counts_per_revolution: int | N
 
 
 def register(count: int, bits: int) -> int:
-    """What a counter of so many bits shows: it begins again at 0 after 2^bits - 1, and at 2^bits - 1 below 0."""
+    """Return what a counter with a number of bits shows: it wraps from 2^bits - 1 to 0, and from 0 to 2^bits - 1."""
     return count % (1 << bits)

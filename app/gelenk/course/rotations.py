@@ -1,4 +1,4 @@
-"""Single rotations of the course, from an axis or a coordinate, and how far a matrix is from being one."""
+"""Rotations of the course, about an axis or a coordinate axis, and how far a matrix is from a rotation."""
 
 import math
 from collections.abc import Sequence
@@ -12,20 +12,20 @@ from gelenk.model.errors import InvalidField
 
 AxisName: TypeAlias = Literal["x", "y", "z"]
 DEGENERATE = 1e-14
-"""A sine or cosine below which a notation degenerates: rounding leaves some 1e-16, and no more than this is lost."""
+"""Sine or cosine below which a notation counts as degenerate, at an error of that size; rounding is some 1e-16."""
 
 
 @dataclass(frozen=True, slots=True)
 class Validation:
-    """How far a matrix is from a rotation.
+    """Deviation of a matrix from a rotation.
 
     Attributes:
         orthogonality_error: ‖RᵀR - I‖, Frobenius.
-        determinant: +1 of a rotation, -1 of a reflection.
+        determinant: +1 for a rotation, -1 for a reflection.
         distance: ‖R - nearest rotation‖, Frobenius.
         is_reflection: Whether the determinant is negative.
         is_unique: Whether one rotation is nearer than all others.
-        nearest: That rotation; shape (3, 3).
+        nearest: The nearest rotation; shape (3, 3).
     """
 
     orthogonality_error: float
@@ -37,10 +37,10 @@ class Validation:
 
 
 def unit_axis(direction: Sequence[float], field: str) -> Array:
-    """The unit vector (3,) of a direction of any length.
+    """Return the unit vector (3,) along a direction of any length.
 
     Raises:
-        InvalidField: It has none.
+        InvalidField: The direction is zero.
     """
     given = np.array(direction)
     largest = float(np.abs(given).max())
@@ -52,7 +52,7 @@ def unit_axis(direction: Sequence[float], field: str) -> Array:
 
 
 def elementary(axis: AxisName, angle: float) -> Array:
-    """Rx, Ry or Rz of an angle [rad], positive counter-clockwise; shape (3, 3). Only Ry has the minus below."""
+    """Return Rx, Ry or Rz of an angle [rad], counter-clockwise; shape (3, 3). Only Ry has its minus sign below."""
     c, s = math.cos(angle), math.sin(angle)
     if axis == "x":
         return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
@@ -62,20 +62,20 @@ def elementary(axis: AxisName, angle: float) -> Array:
 
 
 def about_axis(axis: Array, angle: float) -> Array:
-    """Rodrigues: R = I + sin θ [r]× + (1 - cos θ) [r]×² about a unit axis r (3,), [rad]; shape (3, 3)."""
+    """Return Rodrigues' R = I + sin θ [r]× + (1 - cos θ) [r]×² about a unit axis r (3,), θ in [rad]; shape (3, 3)."""
     x, y, z = axis.tolist()
     K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    # 1 - cos θ loses its digits near 0, 2 sin² θ/2 does not.
+    # 1 - cos θ loses digits near 0, 2 sin²(θ/2) does not.
     R: Array = np.eye(3) + math.sin(angle) * K + 2.0 * math.sin(0.5 * angle) ** 2 * K @ K
     return R
 
 
 def validated(matrix: Array) -> Validation:
-    """How far a matrix (3, 3) is from a rotation, and which one is nearest: U diag(1, 1, det UVᵀ) Vᵀ [Umeyama1991]."""
+    """Measure how far a matrix (3, 3) is from the nearest rotation, U diag(1, 1, det UVᵀ) Vᵀ [Umeyama1991]."""
     U, sigma, Vt = np.linalg.svd(matrix)
     sign = round(float(np.linalg.det(U @ Vt)))
     R = U @ np.diag([1.0, 1.0, float(sign)]) @ Vt
-    # Turning about the axis of the smallest σ costs in proportion to σ₂ ± σ₃.
+    # Turning about the axis of the largest σ costs least, in proportion to σ₂ ± σ₃.
     gap = sigma[1] + sign * sigma[2]
     return Validation(
         float(np.linalg.norm(matrix.T @ matrix - np.eye(3))),

@@ -1,11 +1,11 @@
-"""Mobility at one posture: what the formula cannot know, from where the axes lie.
+"""Mobility at one posture, from the positions of the axes, which the formula ignores.
 
-A pair leaves its f freedoms as twists (v, ω), linear first, in the axes of the ground; what it forbids are the λ - f
-combinations of velocities that all of them are orthogonal to. Those of all pairs, written for the twists of all links
-but the ground, are Σc equations, of which r are independent: M = λ(n - 1) - r, and Σc - r constraints are redundant.
+A pair allows its f freedoms as twists (v, ω), linear first, in the axes of the ground; it forbids the λ - f
+combinations of velocities that are orthogonal to all of them. For the twists of all links but the ground, all pairs
+together give Σc equations, of which r are independent: M = λ(n - 1) - r, and Σc - r constraints are redundant.
 
-This counts velocities. At a singular posture, as of a four-bar stretched to a line, it is more than the number of
-freedoms that the linkage has on the way.
+This counts velocities. At a singular posture, such as a four-bar stretched to a line, it exceeds the number of freedoms
+that the linkage has elsewhere.
 """
 
 from collections.abc import Sequence
@@ -19,13 +19,13 @@ from gelenk.model.arrays import Array
 from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge, quoted
 
 MAX_LINKS = 64
-"""Most links: the time of the decomposition grows with their cube."""
+"""Largest number of links: the time of the decomposition grows with its cube."""
 
 _PLANE = [0, 1, 5]
-"""Of a twist in the plane: v_x, v_y and ω_z."""
+"""Components of a twist in the plane: v_x, v_y and ω_z."""
 _DIRECTIONS = 1e-9
 _NOISE = 1e-13
-"""Singular values of no more than this, relative to the largest, are rounding whatever tolerance is requested."""
+"""Singular values up to this, relative to the largest, count as rounding whatever tolerance is requested."""
 _ROUNDING = 1e-11
 _NEEDS: dict[str, tuple[str, ...]] = {
     "revolute": ("point", "axis"),
@@ -48,20 +48,20 @@ _WHERE: dict[str, str] = {
     "second_axis": "only a universal joint has a second axis; this pair is {kind}",
     "pitch": "only a screw has a pitch; this pair is {kind}",
 }
-"""What is said of a field that a pair does not need; a point says where any pair is."""
+"""Reason for refusing a field that a kind of pair does not need; every kind may have a point."""
 
 
 @dataclass(frozen=True, slots=True)
 class Posture:
-    """The mobility of a linkage as it stands.
+    """The mobility of a linkage at one posture.
 
     Attributes:
         mobility: λ(n - 1) - r.
         redundant: Σc - r, constraints that others imply.
         output: Freedoms of the requested link.
-        smallest_counted: Smallest singular value of the equations that counts for r; None where r = 0.
-        largest_neglected: Largest one that does not; None where all count.
-        residual: Largest part of a relative velocity, of the motions that are left, that a pair does not allow.
+        smallest_counted: Smallest singular value of the equations that counts for r; None if r = 0.
+        largest_neglected: Largest one that does not; None if all count.
+        residual: Largest part of a relative velocity that a pair does not allow, among the possible motions.
     """
 
     mobility: int
@@ -73,18 +73,18 @@ class Posture:
 
 
 def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture | None:
-    """The mobility as the linkage stands; None where its pairs say nothing of where they are.
+    """Compute the mobility at the given posture; None if no pair has a position.
 
     Args:
         found: The mechanism.
-        output: A link by index whose freedoms are wanted.
-        tolerance: A singular value counts where it exceeds this times the largest.
+        output: Index of a link whose freedoms are wanted.
+        tolerance: A singular value counts if it exceeds this times the largest, or this if the largest is below 1.
 
     Raises:
-        InvalidField: A pair leaves out what says where it is, gives what its kind does not have, leaves the plane, or
-            has axes that are not two.
+        InvalidField: A pair lacks a value that its kind needs, has one that its kind does not have, leaves the plane,
+            or has axes that are not independent.
         TooLarge: More than `MAX_LINKS` links.
-        CertificationFailed: A motion that is left is not one that the pairs allow.
+        CertificationFailed: The pairs do not allow one of the possible motions.
     """
     if not any(pair.geometry for pair in found.pairs):
         return None
@@ -93,7 +93,7 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
     twists = _freedoms(found)
     equations = _equations(found, twists)
     size = FREEDOMS[found.space] * (len(found.links) - 1)
-    # Of more equations than unknowns the triangular factor says the same in fewer rows.
+    # With more equations than unknowns, the triangular factor is equivalent and has fewer rows.
     _, sigma, Vt = np.linalg.svd(np.linalg.qr(equations, mode="r") if len(equations) > size else equations)
     tolerance = max(tolerance, _NOISE)
     rank = int(np.sum(sigma > tolerance * max(float(sigma.max(initial=0.0)), 1.0)))
@@ -108,7 +108,7 @@ def posture(found: Mechanism, output: int | None, tolerance: float) -> Posture |
 
 
 def _freedoms(found: Mechanism) -> list[Array]:
-    """Of each pair the twists that it leaves, shape (λ, f), lengths relative to the linkage's size."""
+    """Return the twists that each pair allows, shape (λ, f), with lengths relative to the linkage's size."""
     complete = [_complete(found, pair, number) for number, pair in enumerate(found.pairs)]
     points = np.array([geometry.point for geometry in complete if geometry.point is not None]).reshape(-1, 3)
     centre = points.mean(axis=0) if len(points) else np.zeros(3)
@@ -128,7 +128,7 @@ def _freedoms(found: Mechanism) -> list[Array]:
 
 
 def _complete(found: Mechanism, pair: Pair, number: int) -> Geometry:
-    """Where a pair is; one that was added is where the others of its joint are."""
+    """Return the complete position of a pair; an added pair takes that of another pair at its joint."""
     geometry = pair.geometry
     if geometry is None and pair.added:
         others = [one.geometry for one in found.pairs if one.joint == pair.joint and one.kind == pair.kind]
@@ -154,7 +154,7 @@ def _complete(found: Mechanism, pair: Pair, number: int) -> Geometry:
 
 
 def _refuse_out_of_plane(complete: Sequence[Geometry], size: float) -> None:
-    """Refuse points at different heights, and slots, guides and normals that lead out of x y.
+    """Refuse points at different heights, and slots, guides and normals that lead out of the x y plane.
 
     Raises:
         InvalidField: The first of them.
@@ -170,7 +170,7 @@ def _refuse_out_of_plane(complete: Sequence[Geometry], size: float) -> None:
 
 
 def _twists(kind: str, geometry: Geometry, centre: Array, size: float) -> Array:
-    """The freedoms of a pair as columns (v, ω); shape (6, f)."""
+    """Return the freedoms of a pair as columns (v, ω); shape (6, f)."""
     p = (np.array(geometry.point or centre) - centre) / size
     a, b = np.array(geometry.axis or (0.0, 0.0, 0.0)), np.array(geometry.second_axis or (0.0, 0.0, 0.0))
     turn = _turn(p, a)
@@ -199,7 +199,7 @@ def _twists(kind: str, geometry: Geometry, centre: Array, size: float) -> Array:
 
 
 def _turn(point: Array, axis: Array) -> Array:
-    """A rotation about an axis through a point, as the velocity of what passes the origin, and ω."""
+    """Return the twist of a rotation about an axis through a point: the velocity at the origin, and ω."""
     return np.concatenate((np.cross(point, axis), axis))
 
 
@@ -208,13 +208,13 @@ def _along_tangent(normal: Array) -> Array:
 
 
 def _across(axis: Array) -> Array:
-    """Two directions orthogonal to an axis and to each other; shape (2, 3)."""
+    """Return two directions orthogonal to an axis and to each other; shape (2, 3)."""
     directions: Array = np.linalg.svd(axis[None])[2][1:]
     return directions
 
 
 def _equations(found: Mechanism, twists: Sequence[Array]) -> Array:
-    """What the pairs forbid: rows on the twists of all links but the ground; shape (Σc, λ(n - 1))."""
+    """Return the constraints of all pairs, as rows on the twists of all links but the ground; shape (Σc, λ(n - 1))."""
     freedoms = FREEDOMS[found.space]
     columns = freedoms * len(found.links)
     rows: list[Array] = [np.zeros((0, columns))]
@@ -229,7 +229,7 @@ def _equations(found: Mechanism, twists: Sequence[Array]) -> Array:
 
 
 def _output(found: Mechanism, motions: Array, link: int, tolerance: float) -> int:
-    """In how many ways a link moves, of the motions that are possible; shape (M, λ(n - 1))."""
+    """Return the number of a link's freedoms among the possible motions, of shape (M, λ(n - 1))."""
     if link == found.ground or not len(motions):
         return 0
     freedoms = FREEDOMS[found.space]
@@ -239,7 +239,7 @@ def _output(found: Mechanism, motions: Array, link: int, tolerance: float) -> in
 
 
 def _residual(found: Mechanism, twists: Sequence[Array], motions: Array, tolerance: float) -> float:
-    """How far the motions that are left are from what each pair allows: least squares on its own freedoms."""
+    """Return how far the possible motions deviate from what each pair allows, by least squares on its freedoms."""
     if not len(motions):
         return 0.0
     freedoms, worst = FREEDOMS[found.space], 0.0

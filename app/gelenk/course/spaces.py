@@ -1,8 +1,8 @@
-"""Joint space and task space: n joints against the m numbers that a task sets.
+"""Joint space and task space: n joints and the m numbers that a task prescribes.
 
-Solutions of the inverse problem need n ≥ m. Two notions are kept apart that the notes mix: a robot with n = m has
-finitely many solutions, its branches; only n > m is redundancy, with infinitely many and an internal motion of n - m
-dimensions (at a singular posture of more).
+Solutions of the inverse problem need n ≥ m. Two notions that the notes mix are kept apart: a robot with n = m has
+finitely many solutions, its branches; only n > m is redundancy, with infinitely many solutions and an internal motion
+of n - m dimensions (more at a singular posture).
 """
 
 from dataclasses import dataclass
@@ -12,18 +12,18 @@ TaskName: TypeAlias = Literal["xy", "xy_phi", "xyz", "pose"]
 Solutions: TypeAlias = Literal["none", "finite", "infinite"]
 
 DIMENSIONS: dict[TaskName, int] = {"xy": 2, "xy_phi": 3, "xyz": 3, "pose": 6}
-"""m: a position in the plane, with its angle, a position in space, a pose."""
+"""Dimension m of each task: a position in the plane, the same with its angle, a position in space, a pose."""
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A kind of task for a chain.
+    """A kind of task for a chain of n joints.
 
     Attributes:
-        task: Which.
+        task: Name of the task.
         dimension: m.
         redundancy: n - m.
-        solutions: How many there are for a task at random, by the counts alone.
+        solutions: Number of solutions of a generic task, from n and m alone.
     """
 
     task: TaskName
@@ -33,7 +33,7 @@ class Task:
 
 
 def tasks(n: int) -> tuple[Task, ...]:
-    """Every kind of task, for a chain of n joints."""
+    """Return every kind of task, for a chain of n joints."""
     return tuple(Task(name, m, n - m, _solutions(n - m)) for name, m in DIMENSIONS.items())
 
 

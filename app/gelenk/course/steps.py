@@ -1,4 +1,4 @@
-"""A worked solution: formulas as the lecture writes them, each with the numbers put in."""
+"""Worked solutions: formulas as the lecture writes them, with the numbers substituted."""
 
 import math
 from dataclasses import dataclass
@@ -11,9 +11,9 @@ class Step:
     """A section of a worked solution.
 
     Attributes:
-        title: What is found here.
-        text: Why so, in a sentence or two.
-        latex: Formulas, each to stand on a line of its own.
+        title: Name of the quantity or the stage of the solution.
+        text: Explanation in a sentence or two.
+        latex: Formulas, each for a line of its own.
     """
 
     title: str
@@ -22,7 +22,7 @@ class Step:
 
 
 def tex(value: float) -> str:
-    """A number for a formula, to ten digits, with a power of ten where it is very large or small."""
+    """Format a number for a formula, to ten digits, with a power of ten if it is very large or small."""
     mantissa, _, exponent = f"{value:.{_SHOWN_DIGITS}g}".partition("e")
     if not exponent:
         return mantissa
@@ -30,5 +30,5 @@ def tex(value: float) -> str:
 
 
 def tex_factor(value: float) -> str:
-    """A number for a product: in brackets where it is negative."""
+    """Format a number as a factor in a product, in brackets if it is negative."""
     return tex(value) if math.copysign(1.0, value) > 0 else f"({tex(value)})"

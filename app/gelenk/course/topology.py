@@ -1,7 +1,7 @@
-"""Links and pairs as a graph: what hangs together, which pairs lie on a loop, how many loops are independent.
+"""Links and pairs as a graph: connected parts, pairs on loops, and the number of independent loops.
 
-A link is a node, a pair is an edge; two pairs between the same links are a loop. A spanning forest holds all but L of
-the pairs, each of the others closes one loop: L = j - n + (number of components).
+A link is a node, a pair is an edge; two pairs between the same links are a loop. A spanning forest holds all pairs but
+L, each of which closes one loop: L = j - n + (number of components).
 """
 
 from collections.abc import Sequence
@@ -14,13 +14,13 @@ ChainKind: TypeAlias = Literal["open", "closed", "mixed"]
 
 @dataclass(frozen=True, slots=True)
 class Topology:
-    """What a graph of links and pairs is like.
+    """Properties of a graph of links and pairs.
 
     Attributes:
-        components: Links by index, one tuple a connected part, each in ascending order.
+        components: Indices of the links in each connected part, in ascending order.
         loops: L, the number of independent loops: pairs beyond a spanning forest.
-        bridges: Pairs by index that lie on no loop.
-        pendants: Links by index that a single pair holds.
+        bridges: Indices of the pairs that lie on no loop.
+        pendants: Indices of the links that a single pair holds.
     """
 
     components: tuple[tuple[int, ...], ...]
@@ -30,14 +30,14 @@ class Topology:
 
     @property
     def chain(self) -> ChainKind:
-        """Closed if each link is joined to each other by two ways that share no pair, open without any loop."""
+        """Closed if two paths without a common pair join any two links, open without loops, else mixed."""
         if self.loops == 0:
             return "open"
         return "closed" if len(self.components) == 1 and not self.bridges else "mixed"
 
 
 def topology(count: int, edges: Sequence[Edge]) -> Topology:
-    """The topology of `count` links, joined by pairs."""
+    """Compute the topology of `count` links, joined by pairs."""
     depths, parents, through, roots = _spanning_forest(count, edges)
     members: dict[int, list[int]] = {}
     for node, root in enumerate(roots):
@@ -55,7 +55,7 @@ def topology(count: int, edges: Sequence[Edge]) -> Topology:
 
 
 def _spanning_forest(count: int, edges: Sequence[Edge]) -> tuple[list[int], list[int], list[int | None], list[int]]:
-    """Of each node: its depth, its parent (itself for a root), the edge that leads there, and its root."""
+    """Return for each node its depth, its parent (itself for a root), the edge from the parent, and its root."""
     beside: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(edges):
         beside[a].append((b, number))
@@ -78,7 +78,7 @@ def _spanning_forest(count: int, edges: Sequence[Edge]) -> tuple[list[int], list
 
 
 def _covered(depths: list[int], parents: list[int], closing: Sequence[Edge]) -> set[int]:
-    """The nodes whose edge to the parent lies on a loop, each found once: known stretches are leapt over."""
+    """Return the nodes whose edge to the parent lies on a loop, each found once: known stretches are skipped."""
     covered: set[int] = set()
     leap = list(range(len(depths)))
 
