@@ -93,7 +93,7 @@ def sides(
 
 
 def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
-    """Return the driving side, by the sign of the power: the motor if the speed is unknown or zero; none without torque."""
+    """Return the driving side by the sign of the power: the motor at unknown or zero speed, none without torque."""
     if not torque:
         return "none"
     return "load_to_motor" if velocity and (velocity < 0.0) != (torque < 0.0) else "motor_to_load"

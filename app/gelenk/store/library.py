@@ -114,10 +114,7 @@ class Library:
         self._lock = threading.Lock()
 
     def prepare(self) -> None:
-        """Remove what interrupted writers left, and refresh the index; a read-only folder stays unchanged.
-
-        This may take long: others can write meanwhile.
-        """
+        """Remove what interrupted writers left, and refresh the index; others can write meanwhile."""
         if not self.uploads.is_dir():
             return
         try:
