@@ -1,18 +1,18 @@
-"""The worked solution of a DH table, as a lecturer writes it: symbols first, numbers to every one of them after.
+"""The worked solution of a DH table, as a lecturer writes it: first in symbols, then in numbers.
 
-- `algebra`: polynomials in sines and cosines of sums of joint angles; nothing is simplified by search.
+- `algebra`: polynomials in sines and cosines of sums of joint angles; it does not search for simplifications.
 - `table`: a table in exact terms: which angles are multiples of π/2, which parameters are symbols.
-- `transforms`: A_i and T_0_i, parallel axes taken together, so that their angles appear as sums.
+- `transforms`: A_i and T_0_i; angles about parallel axes appear as sums.
 - `jacobian`: the columns z × p, and the square block that has a determinant.
 - `factors`: a determinant as the product that a textbook prints.
 - `singular`: the configurations at which a factor vanishes.
 - `lagrangian`: the equations of motion of a planar arm.
 - `typeset`: LaTeX and plain text.
-- `legend`: what the symbols stand for.
-- `texts`: what goes into the symbolic part and comes out of it, as plain data.
-- `symbolic`: all of it for one table, as text and as values at samples; it knows neither NumPy nor Pinocchio.
+- `legend`: the meaning of the symbols.
+- `texts`: input and output of the symbolic part, as plain data.
+- `symbolic`: the symbolic part for one table, as text and as values at samples; it uses neither NumPy nor Pinocchio.
 - `numeric`: the same quantities at given configurations, from the table's own product of transforms.
-- `check`: formulas against numbers.
+- `check`: compares formulas with numbers.
 - `steps`: the solution in the order of the lecture.
-- `worked`: all of it together.
+- `worked`: puts all parts together.
 """

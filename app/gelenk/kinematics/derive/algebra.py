@@ -20,11 +20,11 @@ ROOT, MASS, GRAVITY, LENGTH, VARIABLE, CONSTANT, TRIGONOMETRIC, RATE = range(8)
 """Kinds of atoms, in the order in which a product is written."""
 
 MAX_TERMS = 4000
-"""More terms than this make a polynomial unreadable."""
+"""Maximum number of terms: a longer polynomial is unreadable."""
 
 
 class TooManyTerms(Exception):
-    """A polynomial has grown beyond what anyone would read."""
+    """A polynomial has become too long to be read."""
 
 
 class Atom(NamedTuple):
@@ -32,8 +32,8 @@ class Atom(NamedTuple):
 
     Attributes:
         kind: One of the kinds above.
-        indices: Of the row, or of the angle.
-        name: What it is, such as "a", "q", "c" and "s".
+        indices: Index of the row, or indices of the angle.
+        name: Name of the quantity, such as "a", "q", "c" and "s".
     """
 
     kind: int
@@ -43,11 +43,11 @@ class Atom(NamedTuple):
 
 Monomial: TypeAlias = tuple[tuple[Atom, int], ...]
 Group: TypeAlias = Callable[[int], int]
-"""The number of the group of parallel axes that a joint angle belongs to."""
+"""Maps the index of a joint angle to the number of its group of parallel axes."""
 
 
 class Polynomial:
-    """A sum of monomials with exact coefficients; no zero among them. Never changed once made."""
+    """A sum of monomials with exact coefficients, none of them zero. It never changes."""
 
     __slots__ = ("terms",)
 
@@ -89,18 +89,18 @@ class Polynomial:
 
     @property
     def atoms(self) -> set[Atom]:
-        """All atoms that occur."""
+        """All atoms that occur in it."""
         return {atom for monomial in self.terms for atom, _ in monomial}
 
     @property
     def constant(self) -> Fraction | None:
-        """Its value where it is a rational number, else None."""
+        """The value if it is a rational number, else None."""
         if not self.terms:
             return Fraction(0)
         return self.terms.get(()) if len(self.terms) == 1 else None
 
     def value(self, values: Mapping[Atom, float]) -> float:
-        """Its value where the atoms have these."""
+        """Evaluate the polynomial with these values of the atoms."""
         result = 0.0
         for monomial, factor in self.terms.items():
             product = float(factor)
@@ -110,7 +110,7 @@ class Polynomial:
         return result
 
     def size(self, values: Mapping[Atom, float]) -> float:
-        """The sum of its terms' magnitudes: rounding of its value grows with it."""
+        """Return the sum of its terms' magnitudes: the rounding error of its value grows with it."""
         return sum(
             abs(float(factor)) * math.prod(abs(values[atom]) ** power for atom, power in monomial)
             for monomial, factor in self.terms.items()
@@ -119,11 +119,11 @@ class Polynomial:
 
 Vector: TypeAlias = tuple[Polynomial, Polynomial, Polynomial]
 Matrix: TypeAlias = tuple[Vector, Vector, Vector]
-"""Row by row."""
+"""A 3×3 matrix, row by row."""
 
 
 def number(value: int | Fraction) -> Polynomial:
-    """A constant."""
+    """Return a constant polynomial."""
     return Polynomial({(): Fraction(value)} if value else {})
 
 
@@ -131,17 +131,17 @@ ZERO, ONE = number(0), number(1)
 
 
 def symbol(atom: Atom) -> Polynomial:
-    """An atom alone."""
+    """Return an atom as a polynomial."""
     return Polynomial({((atom, 1),): Fraction(1)})
 
 
 def total(polynomials: Iterable[Polynomial]) -> Polynomial:
-    """Their sum."""
+    """Return the sum of polynomials."""
     return collected(term for polynomial in polynomials for term in polynomial)
 
 
 def collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Polynomial:
-    """The polynomial of these terms, equal monomials added up."""
+    """Return the polynomial of these terms, with equal monomials added up."""
     sums: dict[Monomial, Fraction] = {}
     for monomial, factor in terms:
         value = sums.get(monomial, Fraction(0)) + factor
@@ -153,7 +153,7 @@ def collected(terms: Iterable[tuple[Monomial, Fraction]]) -> Polynomial:
 
 
 def monomial_product(left: Monomial, right: Monomial) -> Monomial:
-    """The product, its atoms in order."""
+    """Return the product of two monomials, its atoms in order."""
     if not left or not right:
         return left or right
     powers = dict(left)
@@ -163,7 +163,7 @@ def monomial_product(left: Monomial, right: Monomial) -> Monomial:
 
 
 def angle_sum(left: Angle, right: Angle, sign: int = 1) -> Angle:
-    """Left + sign · right."""
+    """Return left + sign · right."""
     counts: dict[int, int] = {}
     for angle, factor in ((left, 1), (right, sign)):
         for index in angle:
@@ -172,7 +172,7 @@ def angle_sum(left: Angle, right: Angle, sign: int = 1) -> Angle:
 
 
 def cosine(angle: Angle, quarters: int = 0) -> Polynomial:
-    """cos(angle + quarters · π/2)."""
+    """Return cos(angle + quarters · π/2)."""
     if quarters % 4 == 1:
         return -sine(angle)
     if quarters % 4 == 2:
@@ -185,7 +185,7 @@ def cosine(angle: Angle, quarters: int = 0) -> Polynomial:
 
 
 def sine(angle: Angle, quarters: int = 0) -> Polynomial:
-    """sin(angle + quarters · π/2)."""
+    """Return sin(angle + quarters · π/2)."""
     if quarters % 4:
         return cosine(angle, quarters - 1)
     if not angle:
@@ -196,50 +196,50 @@ def sine(angle: Angle, quarters: int = 0) -> Polynomial:
 
 
 def dot(left: Sequence[Polynomial], right: Sequence[Polynomial]) -> Polynomial:
-    """Scalar product."""
+    """Return the scalar product."""
     return total(x * y for x, y in zip(left, right, strict=True))
 
 
 def cross(left: Vector, right: Vector) -> Vector:
-    """Vector product."""
+    """Return the vector product."""
     (a, b, c), (x, y, z) = left, right
     return b * z - c * y, c * x - a * z, a * y - b * x
 
 
 def product(left: Matrix, right: Matrix) -> Matrix:
-    """Product of two matrices."""
+    """Return the product of two matrices."""
     columns = tuple(zip(*right, strict=True))
     rows = [(dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])) for row in left]
     return rows[0], rows[1], rows[2]
 
 
 def applied(matrix: Matrix, vector: Vector) -> Vector:
-    """Matrix times vector."""
+    """Return matrix times vector."""
     return dot(matrix[0], vector), dot(matrix[1], vector), dot(matrix[2], vector)
 
 
 def column(matrix: Matrix, index: Literal[0, 1, 2]) -> Vector:
-    """A column of a matrix."""
+    """Return a column of a matrix."""
     return matrix[0][index], matrix[1][index], matrix[2][index]
 
 
 def plus(left: Vector, right: Vector) -> Vector:
-    """Sum of two vectors."""
+    """Return the sum of two vectors."""
     return left[0] + right[0], left[1] + right[1], left[2] + right[2]
 
 
 def minus(left: Vector, right: Vector) -> Vector:
-    """Difference of two vectors."""
+    """Return the difference of two vectors."""
     return left[0] - right[0], left[1] - right[1], left[2] - right[2]
 
 
 def scaled(factor: Polynomial, vector: Vector) -> Vector:
-    """A vector times a polynomial."""
+    """Return a vector times a polynomial."""
     return factor * vector[0], factor * vector[1], factor * vector[2]
 
 
 def derivative(polynomial: Polynomial, index: int, *, slides: bool = False) -> Polynomial:
-    """∂/∂ϑ of joint `index`; where it slides ∂/∂q, and its angle is a constant."""
+    """Return ∂/∂ϑ of joint `index`; with `slides` ∂/∂q of a prismatic joint, whose angle is constant."""
     kind = VARIABLE if slides else TRIGONOMETRIC
     return collected(
         (monomial_product(monomial_without(monomial, atom), (rest,) if rest else ()), factor * scale)
@@ -251,12 +251,12 @@ def derivative(polynomial: Polynomial, index: int, *, slides: bool = False) -> P
 
 
 def monomial_without(monomial: Monomial, atom: Atom) -> Monomial:
-    """The monomial less all powers of an atom."""
+    """Return a monomial without any power of an atom."""
     return tuple(item for item in monomial if item[0] != atom)
 
 
 def _derivatives(atom: Atom, power: int, index: int) -> list[tuple[tuple[Atom, int] | None, int]]:
-    """The derivative of atom^power, where it has one; powers of a sine or cosine are one here."""
+    """Return the derivative of atom^power, [] if it is zero; sines and cosines may only have the power 1."""
     if atom.kind == VARIABLE and atom.indices == (index,):
         return [((atom, power - 1) if power > 1 else None, power)]
     rate = sum((1 if i > 0 else -1) for i in atom.indices if abs(i) == index) if atom.kind == TRIGONOMETRIC else 0
@@ -268,9 +268,9 @@ def _derivatives(atom: Atom, power: int, index: int) -> list[tuple[tuple[Atom, i
 
 
 def reduced(polynomial: Polynomial, group: Group) -> Polynomial:
-    """The same function with at most one sine or cosine a group of parallel axes in each term, and s_α² = 1 - c_α².
+    """Return the same function with at most one sine or cosine per group in each term, and s_α² = 1 - c_α².
 
-    This form is unique, so that it is zero only where the function is.
+    A group holds parallel axes. This form is unique: it is zero only if the function is.
     """
     return collected(
         (monomial, factor * scale)
@@ -303,7 +303,7 @@ def _is_reduced(atom: Atom, power: int) -> bool:
 
 
 def _constants(items: Sequence[tuple[Atom, int]]) -> list[tuple[Monomial, Fraction]]:
-    """√n² = n, and sin² = 1 - cos² of a constant angle."""
+    """Apply √n² = n, and sin² = 1 - cos² of a constant angle."""
     terms: list[tuple[Monomial, Fraction]] = [((), Fraction(1))]
     for atom, power in items:
         if _is_reduced(atom, power):
@@ -322,7 +322,7 @@ def _constants(items: Sequence[tuple[Atom, int]]) -> list[tuple[Monomial, Fracti
 
 
 def _merged(atoms: Sequence[Atom]) -> list[tuple[Monomial, Fraction]]:
-    """A product of sines and cosines of sums in one group, as a sum of single ones."""
+    """Return a product of sines and cosines of sums in one group, as a sum of single ones."""
     waves: dict[tuple[Angle, str], Fraction] = {(atoms[0].indices, atoms[0].name): Fraction(1)}
     for atom in atoms[1:]:
         sums: dict[tuple[Angle, str], Fraction] = {}
@@ -340,7 +340,7 @@ def _merged(atoms: Sequence[Atom]) -> list[tuple[Monomial, Fraction]]:
 
 
 def _wave(angle: Angle, name: str, atom: Atom, sign: int) -> tuple[Angle, str, int]:
-    """One of the two waves of twice a product: sum or difference of the angles, sine or cosine, and its factor.
+    """Return one of the two waves of twice a product: its angle, whether sine or cosine, and its factor.
 
     2 cos x cos y = cos(x+y) + cos(x-y),  2 sin x sin y = cos(x-y) - cos(x+y),
     2 sin x cos y = sin(x+y) + sin(x-y),  2 cos x sin y = sin(x+y) - sin(x-y).

@@ -1,4 +1,4 @@
-"""Formulas against the numbers of the table itself: one that differs by more than rounding is left out."""
+"""Comparison of formulas with the numbers of the table itself: one that differs by more than rounding is left out."""
 
 import logging
 from collections.abc import Sequence
@@ -17,19 +17,19 @@ logger = logging.getLogger("gelenk")
 TOLERANCE = 1e-9
 """Allowed difference of formulas and numbers, absolute and relative to the largest number compared."""
 ROUNDING = 1e-13
-"""Allowed difference relative to the terms that add up, though they may cancel: of a formula's value, of an entry."""
+"""Allowed difference relative to the terms that add up to a formula's value, or to an entry, even if they cancel."""
 SINGULAR = 1e-6
 """Smallest singular value, relative to the largest, below which a configuration counts as singular."""
 
 
 @dataclass(frozen=True, slots=True)
 class FormulaCertificate:
-    """How far formulas and numbers are apart.
+    """Result of comparing formulas with numbers.
 
     Attributes:
         samples: Configurations at which every matrix, the Jacobian and its determinant were compared.
-        max_error: Largest difference of an entry of those that are given.
-        seed: Of the choice of samples.
+        max_error: Largest difference of an entry of the formulas that are given.
+        seed: Random seed of the samples.
     """
 
     samples: int
@@ -39,24 +39,24 @@ class FormulaCertificate:
 
 @dataclass(slots=True)
 class Checks:
-    """What the checks of a solution find.
+    """Collects the results of the checks of a solution.
 
     Attributes:
         worst: Largest difference of the formulas that hold.
-        notes: One each formula that is left out.
+        notes: One note per formula that is left out.
     """
 
     worst: float
     notes: list[str]
 
     def left_out(self, failure: CertificationFailed, instead: str = "it is left out") -> None:
-        """Log a formula that fails, which is an error of the program, and note that it is left out."""
+        """Log a formula that fails, which is an error in the program, and note that it is left out."""
         difference = f"by {failure.error:.3g}, more than {failure.tolerance:.3g}"
         logger.error("derived formula left out: %s differs from the numbers %s", failure.quantity, difference)
         self.notes.append(f"{failure.quantity} failed the comparison with numbers ({difference}): {instead}")
 
     def holds(self, quantity: str, formulas: Sequence[object | None], numbers: Sequence[Array]) -> bool:
-        """Whether a formula has the values of the numbers at all samples; one that is not written out does."""
+        """Check whether a formula has the numbers' values at all samples; one that is not written out passes."""
         if any(formula is None for formula in formulas):
             return True
         worst = 0.0
@@ -72,12 +72,12 @@ class Checks:
 
 
 def checked_formulas(found: Formulas, solutions: Sequence[NumericSolution], checks: Checks) -> Formulas:
-    """Transforms and Jacobian without those formulas that differ from the numbers.
+    """Return transforms and Jacobian without the formulas that differ from the numbers.
 
     Args:
-        found: With values at samples.
-        solutions: The numbers there.
-        checks: Takes what is found.
+        found: Formulas, with values at samples.
+        solutions: Numbers at the samples.
+        checks: Collects the results.
     """
     values, size = found.values, range(len(found.rows))
     rows = [checks.holds(f"A_{i + 1}", [v.rows[i] for v in values], [s.rows[i] for s in solutions]) for i in size]
@@ -102,16 +102,16 @@ def checked_formulas(found: Formulas, solutions: Sequence[NumericSolution], chec
 def checked_singularities(
     singular: Singularities, solutions: Sequence[NumericSolution], table: DhTable, checks: Checks
 ) -> tuple[Singularities, list[float | None]]:
-    """The determinant and where it vanishes without what differs from the numbers; the latter at each example.
+    """Return the determinant's formulas that agree with the numbers, and the smallest singular value at each example.
 
-    The smallest singular value of the block at an example shows that a condition is solved rightly. Where it is not,
-    the factor remains, for the determinant holds, and is not solved.
+    The block must be singular at the example of a condition, which shows that the condition is solved correctly. If it
+    is not, the factor remains, since the determinant holds, but is not solved.
 
     Args:
-        singular: With values at samples.
-        solutions: The numbers there.
-        table: As the formulas read it.
-        checks: Takes what is found.
+        singular: Formulas, with values at samples.
+        solutions: Numbers at the samples.
+        table: Table as the formulas read it.
+        checks: Collects the results.
     """
     if singular.block is None or not _determinant_holds(singular, solutions, table, checks):
         return replace(singular, legend=[], formula=None, factors=[], conditions=[], values=[], sizes=[]), []
@@ -138,7 +138,7 @@ def _determinant_holds(
     for value, size, solution in zip(singular.values, singular.sizes, solutions, strict=False):
         numbers = solution.block(block.rows, block.frame)
         norms = np.linalg.norm(numbers, axis=0)
-        bound = float(np.prod(norms))  # Hadamard's: rounding grows with it
+        bound = float(np.prod(norms))  # Hadamard's bound: rounding grows with it
         rounded = float(np.prod(norms + ROUNDING * _scales(solution, table))) - bound
         error = abs(value - float(np.linalg.det(numbers)))
         tolerance = TOLERANCE * bound + rounded + ROUNDING * size
@@ -151,7 +151,7 @@ def _determinant_holds(
 
 
 def _scales(solution: NumericSolution, table: DhTable) -> Array:
-    """How large the terms are that add up to each column of the Jacobian; shape (n,), [m per rad or m]."""
+    """Return the sizes of the terms that add up to each column of the Jacobian; shape (n,), [m per rad or m]."""
     steps = [float(np.linalg.norm(A[:3, 3])) for A in solution.rows]
     first, tool = (0 if table.convention == "standard" else 1), float(np.linalg.norm(table.tool[:3, 3]))
     arms = [sum(steps[i + first :]) + tool for i in range(len(steps))]
@@ -159,7 +159,7 @@ def _scales(solution: NumericSolution, table: DhTable) -> Array:
 
 
 def _at_example(condition: ConditionText, singular: Singularities, table: DhTable) -> Array | None:
-    """The singular values of the block at a condition's example; None where there is none."""
+    """Return the singular values of the block at a condition's example; None without an example."""
     if condition.example is None or singular.block is None:
         return None
     solution = numeric_solution(table, np.array(condition.example))

@@ -1,8 +1,8 @@
-"""A polynomial of joint angles as the product that a textbook prints.
+"""Factorisation of a polynomial of joint angles into the product that a textbook prints.
 
-Three ways, from the cheapest: what all terms share; factors in different variables, for which the table of
-coefficients has rank one; and, for what is left, factors of a polynomial in the tangents of the half angles, over
-which the sum of two squares is no longer in the way. Each product is multiplied out and compared before it is taken.
+Three methods, the cheapest first: what all terms share; factors in different variables, for which the table of
+coefficients has rank one; and, for the rest, factors of a polynomial in the tangents of the half angles, in which the
+identity s² + c² = 1 is no longer in the way. Each product is multiplied out and compared before it is accepted.
 """
 
 from collections import Counter
@@ -35,16 +35,16 @@ from gelenk.kinematics.derive.typeset import monomial_quotient, shared_number
 Degrees: TypeAlias = tuple[int, ...]
 
 MAX_FACTORED_TERMS = 60
-"""Terms beyond which a polynomial is not searched for factors with common variables."""
+"""Maximum number of terms of a polynomial that is searched for factors with common variables."""
 MAX_FACTORED_ANGLES = 4
 
 
 def factorised(polynomial: Polynomial, group: Group) -> tuple[Fraction, list[Polynomial]]:
-    """A number and factors whose product is the polynomial; a factor stands as often as its power.
+    """Return a number and factors whose product is the polynomial; a factor occurs as often as its power.
 
     Args:
-        polynomial: Reduced, not zero.
-        group: The group of parallel axes of a joint angle.
+        polynomial: Reduced polynomial, not zero.
+        group: Returns the group of parallel axes of a joint angle.
 
     Returns:
         The number, and the factors: atoms first, then sums with whole coefficients without a common divisor, the first
@@ -73,9 +73,9 @@ def factorised(polynomial: Polynomial, group: Group) -> tuple[Fraction, list[Pol
 
 
 def without_multiples(polynomial: Polynomial) -> tuple[Fraction, Polynomial]:
-    """A number times a polynomial, sin 2x and cos 2x written by sin x and cos x where that is shorter.
+    """Return a number and a polynomial; sin 2x and cos 2x are written with sin x and cos x if that is shorter.
 
-    cos 2x is 2 cos² x - 1 or 1 - 2 sin² x; what is shortest of the three is taken.
+    cos 2x is 2 cos² x - 1 or 1 - 2 sin² x; the shortest of the three is taken.
     """
     options = [polynomial, _doubled(polynomial, "c"), _doubled(polynomial, "s")]
     best = min(options, key=len)
@@ -103,7 +103,7 @@ def _doubled_monomial(monomial: Monomial, square: str) -> Polynomial:
 
 
 def _shared(polynomial: Polynomial) -> tuple[Fraction, list[Atom], Polynomial]:
-    """The number and the atoms that all terms share, and what is left, its first coefficient positive."""
+    """Return the number and the atoms that all terms share, and the rest, whose first coefficient is positive."""
     terms = polynomial.terms
     powers = [dict(monomial) for monomial in terms]
     common = {atom: min(power.get(atom, 0) for power in powers) for atom in powers[0]}
@@ -117,7 +117,7 @@ def _shared(polynomial: Polynomial) -> tuple[Fraction, list[Atom], Polynomial]:
 
 
 def _halved(atom: Atom) -> tuple[Atom, Atom] | None:
-    """The sine and the cosine of half the angle of a sine: sin 2x = 2 sin x cos x."""
+    """Return sine and cosine of half the angle of a sine, as sin 2x = 2 sin x cos x; None if there is no such half."""
     counts = Counter(atom.indices)
     if atom.kind != TRIGONOMETRIC or atom.name != "s" or any(count % 2 for count in counts.values()):
         return None
@@ -126,14 +126,14 @@ def _halved(atom: Atom) -> tuple[Atom, Atom] | None:
 
 
 def _slot(atom: Atom, group: Group) -> tuple[int, int] | None:
-    """What an atom varies with: a group of joint angles or a prismatic variable; None where it is constant."""
+    """Return what an atom varies with: a group of joint angles or a prismatic variable; None if it is constant."""
     if atom.kind == TRIGONOMETRIC:
         return (0, group(abs(atom.indices[0])))
     return (1, atom.indices[0]) if atom.kind == VARIABLE else None
 
 
 def _separated(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
-    """Two factors without a common variable, the second with all constants; None where there are none."""
+    """Return two factors without a common variable, the second with all constants; None if there are none."""
     slots = sorted({slot for atom in polynomial.atoms if (slot := _slot(atom, group))})
     for count in range(1, len(slots) + 1):
         for chosen in combinations(slots, count):
@@ -145,9 +145,9 @@ def _separated(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
 
 
 def separated(polynomial: Polynomial, is_inside: Callable[[Atom], bool]) -> list[Polynomial] | None:
-    """Two factors, one with some of the atoms and one with the others; None where there are none.
+    """Return two factors, one with some of the atoms and one with the others; None if there are none.
 
-    The table of coefficients, a row each product of the others, has rank one then.
+    If there are, the table of coefficients, with a row for each product of the other atoms, has rank one.
     """
     table: dict[Monomial, dict[Monomial, Fraction]] = {}
     for monomial, factor in polynomial:
@@ -167,7 +167,7 @@ def separated(polynomial: Polynomial, is_inside: Callable[[Atom], bool]) -> list
 
 
 def _searched(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
-    """Factors that share variables, by way of half angles; None where there are none, or the search would be long."""
+    """Return factors that share variables, by half angles; None if there are none, or the search would be long."""
     angles = sorted({abs(i) for atom in polynomial.atoms if atom.kind == TRIGONOMETRIC for i in atom.indices})
     if (
         _is_irreducible(polynomial)
@@ -189,11 +189,11 @@ def _searched(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
 
 
 def _is_irreducible(polynomial: Polynomial) -> bool:
-    """Whether it is plain that there are no factors.
+    """Check whether the polynomial obviously has no factors.
 
-    A length that stands in one term alone makes the polynomial linear in it, so that a factor would divide what stands
-    beside it. With two such lengths it would divide both; sines and cosines of different angles, without multiples,
-    have no common factor, nor have the sine and the cosine of one.
+    If a length occurs in only one term, the polynomial is linear in it, so that a factor would divide the rest of this
+    term. With two such lengths it would divide both rests; sines and cosines of different angles, without multiples,
+    have no common factor, nor have the sine and the cosine of one angle.
     """
     where: dict[Atom, list[Monomial]] = {}
     for monomial in polynomial.terms:
@@ -213,7 +213,7 @@ class _HalfAngles:
     """A polynomial in t_k = tan(ϑ_k/2) over powers of 1 + t_k², and its factors as functions of the angles again.
 
     The degree 2N_k of the denominator in t_k counts: what the numerator lacks in degree is a zero at ϑ_k = π, where
-    t_k is infinite. A factor of odd degree has half the period and no form in ϑ_k: it goes together with others.
+    t_k is infinite. A factor of odd degree has twice the period and no form in ϑ_k: it is combined with others.
     """
 
     def __init__(self, polynomial: Polynomial, angles: Sequence[int], group: Group) -> None:
@@ -233,7 +233,7 @@ class _HalfAngles:
         self._numerator = self._half(polynomial)
 
     def factors(self) -> list[Polynomial]:
-        """The factors up to a number; what the denominator cancels is left out."""
+        """Return the factors up to a number, without those that the denominator cancels."""
         items: list[tuple[Degrees, Any]] = []
         squares = [self._tangents[k] ** 2 + 1 for k in self._angles]
         lacking = {k: 2 * self._degrees[k] for k in self._angles}
@@ -248,7 +248,7 @@ class _HalfAngles:
         return [part for part in self._paired(items) if len(part) > 1 or () not in part.terms]
 
     def _paired(self, items: list[tuple[Degrees, Any]]) -> list[Polynomial]:
-        """Those of even degree alone, the others in the smallest sets of even degree, short products first."""
+        """Return factors of even degree alone, the others in the smallest sets of even degree, short products first."""
         done = [self._whole([item]) for item in items if not any(degree % 2 for degree in item[0])]
         rest = [item for item in items if any(degree % 2 for degree in item[0])]
         while rest:
@@ -292,7 +292,7 @@ class _HalfAngles:
         return result
 
     def _whole(self, items: Sequence[tuple[Degrees, Any]]) -> Polynomial:
-        """The product of some factors as a function of the angles; their degrees are even together."""
+        """Return the product of some factors as a function of the angles; the sums of their degrees are even."""
         product = reduce(lambda left, right: left * right, (factor for _, factor in items), self._ring.one)
         totals = [sum(column) for column in zip(*(degrees for degrees, _ in items), strict=True)]
         result = Polynomial({})
@@ -309,7 +309,7 @@ class _HalfAngles:
 
 
 def _shared_sign(polynomial: Polynomial) -> Polynomial:
-    """Without the number that all terms share."""
+    """Divide by the number that all terms share."""
     scale = shared_number(polynomial)
     return Polynomial({monomial: factor / scale for monomial, factor in polynomial})
 
@@ -319,7 +319,7 @@ def _angle(atom: Atom) -> tuple[int, ...]:
 
 
 def _half_powers(k: int, power: int, degree: int) -> Polynomial:
-    """sin(ϑ/2)^power · cos(ϑ/2)^(degree - power) as a polynomial in cos ϑ and sin ϑ; the degree is even."""
+    """Return sin(ϑ/2)^power · cos(ϑ/2)^(degree - power) as a polynomial in cos ϑ and sin ϑ; the degree is even."""
     half = number(Fraction(1, 2))
     c, s = cosine((k,)), sine((k,))
     result = s * half if power % 2 else ONE

@@ -1,11 +1,12 @@
 """The geometric Jacobian in symbols, and the square block of it that has a determinant.
 
-Column of a revolute joint: z × p_EE over z, of a prismatic one: z over 0; z its axis, p_EE from its frame to the tip.
+The column of a revolute joint is z × p_EE over z, that of a prismatic one z over 0; z is its axis, and p_EE leads from
+its frame to the tip.
 
-A determinant of a block does not depend on the axes it is written in, and, where the block holds the whole motion,
-not on the point whose velocity is meant either. So it is worked out in the frame and for the point that leave the
-block triangular in as small parts as there are: then it is the product of small determinants. With a spherical wrist
-that point is where its axes meet (decoupling), with three parallel axes the frame is one of theirs.
+The determinant of a block does not depend on the axes in which it is written, nor, if the block holds the whole
+motion, on the point whose velocity is meant. So it is computed in the frame and for the point that make the block
+triangular with the smallest parts: then it is the product of small determinants. With a spherical wrist that point is
+where its axes meet (decoupling), with three parallel axes the frame is one of theirs.
 """
 
 from collections.abc import Sequence
@@ -36,10 +37,10 @@ Grid: TypeAlias = list[list[Polynomial]]
 
 ROW_NAMES = ("v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z")
 LARGEST_PART = 4
-"""Rows of a part without zeros to speak of beyond which its determinant is not worked out in symbols."""
+"""Maximum number of rows of a part with few zeros whose determinant is computed in symbols."""
 MAX_RELATIVE_TERMS = 200
 MAX_MINOR_TERMS = 400
-"""Terms of a minor beyond which the determinant would not come out short."""
+"""Maximum number of terms of a minor: beyond that the determinant would not be short."""
 _NOUGHT = 1e-9
 _SAMPLES = 3
 
@@ -50,7 +51,7 @@ class Column:
 
     Attributes:
         axis: z of the joint.
-        arm: From the joint's frame to the tip; None for a prismatic joint, where it does not count.
+        arm: Vector from the joint's frame to the tip; None for a prismatic joint, where it does not count.
         linear: Velocity of the tip.
         angular: Angular velocity.
     """
@@ -67,8 +68,8 @@ class Block:
 
     Attributes:
         kind: The whole Jacobian, the rows that ever move, the linear or the angular rows.
-        rows: Which of the six rows.
-        frame: The axes in which these rows are meant; only with whole triples of rows it does not matter.
+        rows: Indices of its rows, 0 to 5.
+        frame: Frame in whose axes these rows are written; it only matters without whole triples of rows.
     """
 
     kind: Kind
@@ -86,7 +87,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """Where a determinant is worked out: axes, the point (None: the tip), the parts, and the sign of their order."""
+    """How a determinant is computed: axes, point (None: the tip), parts, and the sign of their order."""
 
     frame: int
     point: int | None
@@ -95,19 +96,19 @@ class Setting:
 
 
 def columns(table: Table, frames: Sequence[Transform], tip: Vector) -> list[Column]:
-    """The columns in the axes of the frames' common base.
+    """Return the columns in the axes of the frames' common base.
 
-    The linear part of a revolute joint is ∂p/∂ϑ, which is the vector product as a textbook simplifies it: that the two
-    are one function is checked here, term by term.
+    The linear part of a revolute joint is ∂p/∂ϑ, the vector product as a textbook simplifies it: that the two are the
+    same function is checked here, term by term.
 
     Args:
         table: The table.
         frames: T_0_0 … T_0_n.
-        tip: Position of the tip in 0.
+        tip: Position of the tip in frame 0.
 
     Raises:
-        TooManyTerms: The check has more terms than anyone would read.
-        ArithmeticError: The two differ, which they never do.
+        TooManyTerms: The check has too many terms.
+        ArithmeticError: The two differ, which never happens.
     """
     found = []
     for row in table.rows:
@@ -126,9 +127,9 @@ def columns(table: Table, frames: Sequence[Transform], tip: Vector) -> list[Colu
 
 
 class Structure:
-    """Where the entries of the Jacobian vanish for every configuration, in any frame and for any point.
+    """Finds entries of the Jacobian that vanish for every configuration, in any frame and for any point.
 
-    Asked of a few configurations and lengths drawn at random: an entry that vanishes at all of them vanishes always.
+    It checks a few configurations and lengths drawn at random: an entry that vanishes at all of them vanishes always.
     """
 
     def __init__(self, table: Table, frames: Sequence[Transform], tip: Vector) -> None:
@@ -137,16 +138,16 @@ class Structure:
 
     @property
     def frames(self) -> range:
-        """The numbers of all frames."""
+        """Numbers of all frames."""
         return range(len(self._table.rows) + 1)
 
     def pattern(self, frame: int, point: int | None) -> Pattern:
-        """Which entries differ from zero; (6, n)."""
+        """Return which entries differ from zero; (6, n)."""
         matrices = [self.matrix(sample, frame, point) for sample in range(_SAMPLES)]
         return [[any(abs(m[i][j]) > _NOUGHT for m in matrices) for j in range(len(matrices[0][0]))] for i in range(6)]
 
     def matrix(self, sample: int, frame: int, point: int | None) -> list[list[float]]:
-        """The Jacobian at a sample, in the axes of a frame, of a point (None: the tip); (6, n)."""
+        """Return the Jacobian at a sample, in the axes of a frame, for a point (None: the tip); (6, n)."""
         rotations, positions = self._samples[sample]
         target = positions[-1] if point is None else positions[point]
         result: list[list[float]] = [[] for _ in range(6)]
@@ -162,7 +163,7 @@ class Structure:
         return result
 
     def is_regular(self, rows: Sequence[int], frame: int) -> bool:
-        """Whether the block of these rows is regular somewhere."""
+        """Check whether the block of these rows is regular at a sample."""
         for sample in range(_SAMPLES):
             matrix = self.matrix(sample, frame, None)
             if abs(_determinant([matrix[i] for i in rows])) > _NOUGHT:
@@ -173,7 +174,7 @@ class Structure:
 def _sampled(
     table: Table, frames: Sequence[Transform], tip: Vector, random: Random
 ) -> tuple[list[list[list[float]]], list[list[float]]]:
-    """Rotations and positions of all frames, and the tip's position last; lengths and angles at random."""
+    """Return rotations and positions of all frames, the tip's position last; lengths and angles are random."""
     atoms = {atom for frame in frames for row in frame.rows for entry in row for atom in entry.atoms}
     atoms |= {atom for entry in tip for atom in entry.atoms}
     q = tuple(random.uniform(-3.0, 3.0) for _ in table.rows)
@@ -187,7 +188,7 @@ def _sampled(
 
 
 def _determinant(matrix: list[list[float]]) -> float:
-    """By elimination."""
+    """Compute a determinant by elimination."""
     rows, result = [list(row) for row in matrix], 1.0
     for i in range(len(rows)):
         pivot = max(range(i, len(rows)), key=lambda k: abs(rows[k][i]))
@@ -203,11 +204,11 @@ def _determinant(matrix: list[list[float]]) -> float:
 
 
 def square_block(table: Table, structure: Structure) -> Block | None:
-    """The block whose determinant tells the singular configurations; None where no block is square.
+    """Return the block whose determinant shows the singular configurations; None if no block is square.
 
     With six joints it is the whole Jacobian; else the rows that ever differ from zero, if they are as many as the
     joints (a planar arm with its orientation, a SCARA); else the linear ones of these, else the angular ones. A block
-    that is singular everywhere is passed over where another is left.
+    that is singular everywhere is skipped if another one is left.
     """
     n = len(table.rows)
     if n == 6:
@@ -225,7 +226,7 @@ def square_block(table: Table, structure: Structure) -> Block | None:
 
 
 def best_setting(structure: Structure, block: Block, size: int) -> Setting | None:
-    """The axes and the point that leave the smallest parts; None where a part must vanish identically."""
+    """Return the axes and the point that give the smallest parts; None if a part must vanish identically."""
     is_free = block.kind in {"full", "linear", "angular"} and len(block.rows) in {3, 6}
     frames = structure.frames if is_free else (block.frame,)
     points: Sequence[int | None] = (None, *structure.frames) if block.kind in {"full", "moving"} else (None,)
@@ -247,9 +248,9 @@ def best_setting(structure: Structure, block: Block, size: int) -> Setting | Non
 
 
 def triangular_parts(pattern: Pattern, rows: tuple[int, ...], cols: tuple[int, ...]) -> list[Part] | None:
-    """The parts on the diagonal of the finest block triangular order; None where the determinant must vanish.
+    """Return the parts on the diagonal of the finest block triangular order; None if the determinant must vanish.
 
-    Columns that differ from zero in as many rows as they are split off with these.
+    A set of columns that differ from zero in as many rows as it has columns is split off with these rows.
     """
     for count in range(1, len(cols)):
         for chosen in combinations(cols, count):
@@ -267,13 +268,13 @@ def triangular_parts(pattern: Pattern, rows: tuple[int, ...], cols: tuple[int, .
 
 
 def parity(order: Sequence[int]) -> int:
-    """The sign of a permutation."""
+    """Return the sign of a permutation."""
     inversions = sum(x > y for x, y in combinations(order, 2))
     return -1 if inversions % 2 else 1
 
 
 def relative_jacobian(table: Table, setting: Setting) -> Grid:
-    """The Jacobian in the axes and of the point of a setting; (6, n).
+    """Return the Jacobian in the axes and for the point of a setting; (6, n).
 
     Raises:
         TooManyTerms: An entry is too long.
@@ -302,10 +303,10 @@ def relative_jacobian(table: Table, setting: Setting) -> Grid:
 
 
 def determinant(matrix: Grid, part: Part, table: Table) -> Polynomial:
-    """The determinant of a part, reduced, by expansion along its columns.
+    """Return the determinant of a part, reduced, by expansion along its columns.
 
     Raises:
-        TooManyTerms: It, or a minor, is too long.
+        TooManyTerms: The determinant, or a minor, is too long.
     """
     if len(part.rows) > LARGEST_PART:
         raise TooManyTerms

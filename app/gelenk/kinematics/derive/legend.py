@@ -1,4 +1,4 @@
-"""What every symbol of the formulas stands for."""
+"""The meaning of every symbol in the formulas."""
 
 from collections.abc import Iterable
 
@@ -9,7 +9,7 @@ from gelenk.kinematics.derive.typeset import Notation, Text, decimal, joined
 
 
 def legend(entries: Iterable[Polynomial], table: Table, notation: Notation) -> list[Entry]:
-    """Every symbol that occurs, the parameters before the variables before the sines and cosines."""
+    """Return an entry for every symbol that occurs: parameters, then variables, then sines and cosines."""
     atoms = {atom for entry in entries for atom in entry.atoms}
     found, told = list[Entry](), set[tuple[object, ...]]()
     for atom in sorted(atoms):
@@ -29,7 +29,7 @@ def legend(entries: Iterable[Polynomial], table: Table, notation: Notation) -> l
 
 
 def _entry(atom: Atom, table: Table, notation: Notation) -> list[Entry]:
-    """One symbol, or both of an angle."""
+    """Return the entry of a symbol, or both entries of an angle."""
     value = table.values.get(atom)
     if atom.kind == TRIGONOMETRIC:
         if notation.style == "full" or len(set(atom.indices)) < len(atom.indices):
@@ -50,7 +50,7 @@ def _entry(atom: Atom, table: Table, notation: Notation) -> list[Entry]:
 
 
 def _twist_entries(index: int, table: Table, notation: Notation) -> list[Entry]:
-    """A twist that is no special angle, or its cosine and sine where these are symbols of their own."""
+    """Return the entry of a twist that is no special angle, or in the short style its cosine and sine."""
     alpha = Text(rf"\alpha_{{{index}}}", f"alpha{index}")
     row = index if table.is_standard else index + 1
     if notation.style == "full":

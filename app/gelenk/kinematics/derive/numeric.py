@@ -9,7 +9,7 @@ from gelenk.model.arrays import Array
 from gelenk.model.dh import DhTable
 
 RANK_TOLERANCE = 1e-10
-"""A singular value counts where it exceeds this times the largest."""
+"""A singular value counts if it exceeds this times the largest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +18,7 @@ class NumericColumn:
 
     Attributes:
         axis: z of the joint; shape (3,).
-        arm: From the joint's frame to the tip; shape (3,), [m].
+        arm: Vector from the joint's frame to the tip; shape (3,), [m].
         linear: Velocity of the tip; shape (3,), [m per rad or m].
         angular: Angular velocity; shape (3,), [rad per rad or m].
     """
@@ -31,7 +31,7 @@ class NumericColumn:
 
 @dataclass(frozen=True, slots=True)
 class NumericSolution:
-    """Everything at one configuration.
+    """All quantities at one configuration.
 
     Attributes:
         q: The configuration; shape (n,), [rad or m].
@@ -39,10 +39,10 @@ class NumericSolution:
         frames: T_0_1 … T_0_n; each of shape (4, 4).
         frames_in_base: T_base_0 … T_base_n; each of shape (4, 4).
         tip: T_base_tool; shape (4, 4).
-        columns: Of the Jacobian.
-        jacobian: Shape (6, n).
-        singular_values: Largest first.
-        rank: Singular values that count.
+        columns: Columns of the Jacobian.
+        jacobian: Geometric Jacobian in the axes of the base; shape (6, n).
+        singular_values: Singular values, largest first.
+        rank: Number of singular values that count.
     """
 
     q: Array
@@ -56,22 +56,22 @@ class NumericSolution:
     rank: int
 
     def block(self, rows: Sequence[int], frame: int) -> Array:
-        """Some rows of the Jacobian, in the axes of a frame."""
+        """Return some rows of the Jacobian, in the axes of a frame."""
         R = self.frames_in_base[frame][:3, :3].T
         turned: Array = np.vstack((R @ self.jacobian[:3], R @ self.jacobian[3:]))[list(rows)]
         return turned
 
     def determinant(self, rows: Sequence[int], frame: int) -> float:
-        """The determinant of such a block."""
+        """Return the determinant of a block of rows, in the axes of a frame."""
         return float(np.linalg.det(self.block(rows, frame)))
 
 
 def numeric_solution(table: DhTable, q: Array) -> NumericSolution:
-    """Everything at one configuration.
+    """Compute all quantities at one configuration.
 
     Args:
-        table: Every row with a variable of its own.
-        q: Shape (n,), [rad or m].
+        table: Table in which every row has a variable of its own.
+        q: Joint positions; shape (n,), [rad or m].
     """
     values = [float(value) for value in q]
     rows = [row.transform(value, table.convention) for row, value in zip(table.joints, values, strict=True)]
@@ -90,7 +90,7 @@ def numeric_solution(table: DhTable, q: Array) -> NumericSolution:
 
 
 def _tips(table: DhTable, rows: Sequence[Array]) -> list[Array]:
-    """The tip in the frame of each joint's axis, [m]: no long way to it and back that would round a short one off."""
+    """Return the tip in the frame of each joint's axis, [m]; from the tip backwards, which keeps rounding small."""
     points = [table.tool[:3, 3]]
     for A in reversed(rows):
         points.append(A[:3, :3] @ points[-1] + A[:3, 3])

@@ -1,7 +1,8 @@
 """The configurations at which a factor of a determinant vanishes.
 
 A factor in one sine and cosine, A c + B s + C, is solved for its angle; one that is linear in a prismatic variable for
-that; anything else stays an equation. Each gets a configuration that fulfils it, all other joints drawn at random.
+that variable; any other stays an equation. Each gets a configuration that fulfils it, all other joints drawn at
+random.
 """
 
 import math
@@ -21,7 +22,7 @@ _DRAWS = 200
 _STEPS = 64
 _HALVINGS = 60
 _REACH = 2.0
-"""Range of a prismatic variable that is looked through for a zero, [m]."""
+"""Range of a prismatic variable in which a zero is searched for, [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,10 +45,10 @@ class Condition:
     """A factor that vanishes.
 
     Attributes:
-        kind: Solved for a variable, left as an equation, or never met with these lengths.
+        kind: Solved for a variable, left as an equation, or never fulfilled with these lengths.
         factor: The factor.
-        solutions: Where it is solved.
-        example: A configuration that fulfils it, [rad or m]; None where none was found.
+        solutions: Solutions, if it is solved.
+        example: A configuration that fulfils it, [rad or m]; None if none was found.
     """
 
     kind: Kind
@@ -58,7 +59,7 @@ class Condition:
 
 @dataclass(frozen=True, slots=True)
 class _Wave:
-    """A cos ϑ + B sin ϑ + C of one angle."""
+    """The form A cos ϑ + B sin ϑ + C of one angle."""
 
     angle: Angle
     cosine: Polynomial
@@ -67,7 +68,7 @@ class _Wave:
 
 
 def condition(factor: Polynomial, table: Table, notation: Notation) -> Condition | None:
-    """When a factor vanishes; None where it depends on no joint."""
+    """Return when a factor vanishes; None if it depends on no joint."""
     moving = {atom for atom in factor.atoms if _moves(atom, table)}
     if not moving:
         return None
@@ -84,7 +85,7 @@ def condition(factor: Polynomial, table: Table, notation: Notation) -> Condition
 
 
 def _moves(atom: Atom, table: Table) -> bool:
-    """Whether an atom depends on a joint: the angle of a prismatic row is a constant."""
+    """Check whether an atom depends on a joint; the angle of a prismatic row is constant."""
     return atom.kind == VARIABLE or (
         atom.kind == TRIGONOMETRIC and any(table.rows[abs(i) - 1].is_revolute for i in atom.indices)
     )
@@ -109,7 +110,7 @@ def _as_wave(factor: Polynomial, moving: set[Atom]) -> _Wave | None:
 
 
 def _of_wave(wave: _Wave, table: Table, notation: Notation) -> tuple[Solution, ...] | None:
-    """The solutions; None where the wave vanishes everywhere with these lengths."""
+    """Return the solutions; None if the wave vanishes everywhere with these lengths."""
     atoms = wave.cosine.atoms | wave.sine.atoms | wave.constant.atoms
     values = table.atom_values(tuple(0.0 for _ in table.rows), atoms)
     a, b, c = wave.cosine.value(values), wave.sine.value(values), wave.constant.value(values)
@@ -127,7 +128,7 @@ def _of_wave(wave: _Wave, table: Table, notation: Notation) -> tuple[Solution, .
 
 
 def _angles(wave: _Wave, a: float, b: float, c: float) -> tuple[float, float]:
-    """Where a cos ϑ + b sin ϑ + c vanishes, case by case as `_formulas` has it."""
+    """Return where a cos ϑ + b sin ϑ + c vanishes, in the same cases as `_formulas`."""
     if not wave.constant and not wave.cosine:
         return 0.0, math.pi
     if not wave.constant and not wave.sine:
@@ -143,7 +144,7 @@ def _angles(wave: _Wave, a: float, b: float, c: float) -> tuple[float, float]:
 
 
 def _formulas(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
-    """R cos(ϑ - φ) = -C with r² = A² + B² and φ = atan2(B, A), solved for ϑ."""
+    """Solve R cos(ϑ - φ) = -C with R² = A² + B² and φ = atan2(B, A) for ϑ, as formulas."""
     if not wave.constant and not wave.cosine:
         return Text("0", "0"), Text(r"\pi", "pi")
     if not wave.constant and not wave.sine:
@@ -167,14 +168,14 @@ def _formulas(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
 
 
 def _quotient(top: Text, bottom: Text) -> Text:
-    """A fraction; a single symbol needs no brackets."""
+    """Write a fraction; a single symbol needs no brackets."""
     above, below = (text.plain if re.fullmatch(r"-?\w+", text.plain) else f"({text.plain})" for text in (top, bottom))
     sign = "-" if re.fullmatch(r"-\w+", top.plain) else ""
     return Text(rf"{sign}\frac{{{top.latex.removeprefix(sign)}}}{{{bottom.latex}}}", f"{above}/{below}")
 
 
 def _size_and_phase(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
-    """R and φ of A cos ϑ + B sin ϑ = r cos(ϑ - φ) as formulas; no φ where there is no sine."""
+    """Return R and φ of A cos ϑ + B sin ϑ = R cos(ϑ - φ) as formulas; φ is empty without a sine."""
     if not wave.sine:
         return notation.text(wave.cosine), Text("", "")
     if not wave.cosine:
@@ -189,7 +190,7 @@ def _size_and_phase(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
 
 
 def _as_line(factor: Polynomial, moving: set[Atom]) -> tuple[Atom, Polynomial, Polynomial] | None:
-    """K · q + C of one prismatic variable: q, k and C."""
+    """Return q, k and C if the factor is k · q + C with one prismatic variable q, else None."""
     if len(moving) != 1:
         return None
     (variable,) = moving
@@ -208,7 +209,7 @@ def _as_line(factor: Polynomial, moving: set[Atom]) -> tuple[Atom, Polynomial, P
 def _of_line(
     variable: Atom, slope: Polynomial, constant: Polynomial, table: Table, notation: Notation
 ) -> tuple[Solution, ...] | None:
-    """The solution; none where the slope is nought with these lengths, None where the constant is so too."""
+    """Return the solution; () if the slope is zero with these lengths, None if the constant is zero too."""
     values = table.atom_values(tuple(0.0 for _ in table.rows), slope.atoms | constant.atoms)
     k, c = slope.value(values), constant.value(values)
     if not k:
@@ -220,7 +221,7 @@ def _of_line(
 
 
 def _placed(solution: Solution, table: Table) -> tuple[float, ...]:
-    """A configuration with this value, the other joints drawn at random."""
+    """Return a configuration with this value, the other joints drawn at random."""
     q = list(_drawn(table, Random(0)))  # noqa: S311
     *others, last = solution.variables
     rest = solution.value - sum(q[abs(i) - 1] * (1 if i > 0 else -1) for i in others)
@@ -230,12 +231,12 @@ def _placed(solution: Solution, table: Table) -> tuple[float, ...]:
 
 
 def _drawn(table: Table, random: Random) -> tuple[float, ...]:
-    """A configuration away from the usual singular ones."""
+    """Draw a configuration away from the usual singular ones."""
     return tuple(random.uniform(0.3, 1.3) * random.choice((-1, 1)) for _ in table.rows)
 
 
 def _found(factor: Polynomial, table: Table) -> tuple[float, ...] | None:
-    """A configuration at which the factor changes its sign, searched along one joint after the other."""
+    """Return a configuration at which the factor changes its sign, searched for along one joint after the other."""
     indices = sorted({abs(i) for atom in factor.atoms if _moves(atom, table) for i in atom.indices})
     random = Random(0)  # noqa: S311
     for _ in range(_DRAWS // max(1, len(indices))):
@@ -274,6 +275,6 @@ def _bisected(value: Callable[[float], float], low: float, high: float, at_low: 
 
 
 def _principal(angle: float) -> float:
-    """The same angle in (-π, π]."""
+    """Return the same angle in (-π, π]."""
     turned = math.remainder(angle, 2 * math.pi)
     return math.pi if turned <= -math.pi + 1e-12 else turned + 0.0

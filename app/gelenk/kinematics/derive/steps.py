@@ -1,4 +1,4 @@
-"""The worked solution in the order of the lecture: short words, and the formulas they speak of."""
+"""The worked solution in the order of the lecture: short texts, and the formulas that they refer to."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ _ROWS = (r"v_{x}", r"v_{y}", r"v_{z}", r"\omega_{x}", r"\omega_{y}", r"\omega_{z
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A section of the solution: what is done, in words, and the formulas, each to stand on a line of its own."""
+    """A section of the solution: a title, the step in words, and formulas, each on a line of its own."""
 
     title: str
     text: str
@@ -19,7 +19,7 @@ class Step:
 
 
 def steps(convention: str, found: Formulas, singular: Singularities | None) -> list[Step]:
-    """The solution in sections: table, A_i, position, pose, Jacobian, determinant, singular configurations."""
+    """Return the solution in sections: table, A_i, position, pose, Jacobian, determinant, singular configurations."""
     standard = convention == "standard"
     told = [_table(standard, found), _rows(standard, found), _position(found), _pose(found), _jacobian(standard, found)]
     if singular is not None and singular.block is not None:
@@ -121,7 +121,7 @@ def _determinant(singular: Singularities) -> Step | None:
 
 
 def which_block(singular: Singularities) -> str:
-    """Which block of the Jacobian has the determinant, and why that one."""
+    """Say which block of the Jacobian has the determinant, and why that one."""
     block = singular.block
     if block is None:
         return "No block of the Jacobian is square."

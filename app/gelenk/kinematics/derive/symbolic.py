@@ -1,8 +1,8 @@
-"""The symbolic part of a worked solution: one table in, formulas out, and what they are at samples.
+"""The symbolic part of a worked solution: formulas of one table, and their values at samples.
 
-Both functions take and give plain data, so that they can run in another process, and both remember their last
-results. The values at the samples come from the very polynomials that are written out: the caller compares them
-with the numbers of the table itself.
+Both functions take and return plain data, so that they can run in another process, and both cache their last results.
+The values at the samples come from the very polynomials that are written out: the caller compares them with the
+numbers of the table itself.
 """
 
 import math
@@ -49,12 +49,12 @@ from gelenk.kinematics.derive.transforms import MAX_ENTRY_TERMS, Transform, befo
 from gelenk.kinematics.derive.typeset import MatrixText, Notation, Text, decimal, joined, multiple_of_pi
 
 MAX_FACTOR_TERMS = 40
-"""Terms of a factor of a determinant beyond which it is not written out."""
+"""Maximum number of terms of a factor of a determinant: a longer one is not written out."""
 
 
 @lru_cache(maxsize=16)
 def formulas(question: Question) -> Formulas:
-    """Transforms and Jacobian of a table in symbols."""
+    """Return transforms and Jacobian of a table in symbols."""
     table = read_table(question.table)
     notation = _notation(question, table)
     rows, frames = row_transforms(table), frames_from(table, 0)[1:]
@@ -83,7 +83,7 @@ def formulas(question: Question) -> Formulas:
 
 @lru_cache(maxsize=16)
 def singularities(question: Question) -> Singularities:
-    """The determinant of a table's square block, and the configurations at which it vanishes."""
+    """Return the determinant of a table's square block, and the configurations at which it vanishes."""
     table = read_table(question.table)
     notation = _notation(question, table)
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
@@ -124,10 +124,10 @@ def _notation(question: Question, table: Table) -> Notation:
 
 
 def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]]:
-    """The determinant as a number and factors; nothing but zero where it vanishes identically.
+    """Return the determinant as a number and factors; zero without factors if it vanishes identically.
 
     Raises:
-        TooManyTerms: It is too long, as a whole or in one of its factors.
+        TooManyTerms: The determinant, or one of its factors, is too long.
     """
     matrix = relative_jacobian(table, setting)
     number_before, found = Fraction(setting.sign), list[Polynomial]()
@@ -149,7 +149,7 @@ def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]
 
 
 def _order(factor: Polynomial) -> tuple[bool, bool, list[Atom]]:
-    """Lengths, then variables and single sines and cosines, then sums."""
+    """Return the sort key of a factor: lengths, then variables and single sines and cosines, then sums."""
     atoms = sorted(factor.atoms)
     return len(factor) > 1, any(atom.kind == TRIGONOMETRIC for atom in atoms), atoms
 
@@ -159,7 +159,7 @@ def _shown(transform: Transform) -> Transform | None:
 
 
 def _columns(table: Table, tip: Transform) -> list[Column] | None:
-    """The Jacobian's columns in the axes of the base; None where they are too long."""
+    """Return the Jacobian's columns in the axes of the base; None if they are too long."""
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     try:
         found = columns(table, frames, tip.position)
@@ -169,10 +169,10 @@ def _columns(table: Table, tip: Transform) -> list[Column] | None:
 
 
 def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixText] | None:
-    """A_1 (A_2 ( … (A_n p))), the tip's position brought from the last frame to the first, one matrix at a time.
+    """Return A_1 (A_2 ( … (A_n p))): the tip's position in each frame from the last to the first, one matrix at a time.
 
     Raises:
-        ArithmeticError: It ends elsewhere than the product of matrices from left to right, which it never does.
+        ArithmeticError: The result differs from the product of matrices from left to right, which never happens.
     """
     point, found = table.tool.position, [notation.vector(table.tool.position)]
     try:
@@ -188,7 +188,7 @@ def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixText]
 
 
 def _parameters(table: Table, notation: Notation) -> list[tuple[Text, Text, Text, Text]]:
-    """a, alpha, d and theta of each row as the formulas read them."""
+    """Return a, alpha, d and theta of each row as the formulas read them."""
     found = []
     for row, numbers in zip(table.rows, table.as_read.rows, strict=True):
         link = row.index if table.is_standard else row.index - 1

@@ -44,7 +44,7 @@ _EXACT: tuple[tuple[float, Polynomial], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class RowNumbers:
-    """A row of the table as it came; lengths [m], angles [rad]."""
+    """A row of the table as given; lengths [m], angles [rad]."""
 
     is_revolute: bool
     a: float
@@ -55,7 +55,7 @@ class RowNumbers:
 
 @dataclass(frozen=True, slots=True)
 class TableNumbers:
-    """A table as it came, fit to be sent to another process and to be a key."""
+    """A table as given, fit to be sent to another process and to be a key."""
 
     convention: Literal["standard", "modified"]
     rows: tuple[RowNumbers, ...]
@@ -65,7 +65,7 @@ class TableNumbers:
 
 @dataclass(frozen=True, slots=True)
 class Twist:
-    """A constant turn about x: `quarters` of π/2 where it is one, and its cosine and sine in any case."""
+    """A constant turn about x: its cosine and sine, and `quarters` if it is a multiple of π/2."""
 
     quarters: int | None
     cosine: Polynomial
@@ -74,17 +74,17 @@ class Twist:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row in exact terms; of a prismatic joint `d` holds the variable.
+    """A row in exact terms; for a prismatic joint `d` contains the variable.
 
     Attributes:
-        index: From 1.
+        index: Number of the row, from 1.
         is_revolute: Whether the joint turns.
         a: Length along x.
         d: Length along z.
         twist: Turn about x.
-        angle: ϑ_i, or nothing where a prismatic joint's angle is a multiple of π/2.
-        quarters: Multiples of π/2 that are added to it.
-        offset: What ϑ_i holds beside the variable, [rad].
+        angle: ϑ_i; empty if a prismatic joint's angle is a multiple of π/2.
+        quarters: Multiples of π/2 to add to it.
+        offset: Constant part of ϑ_i besides the variable, [rad].
     """
 
     index: int
@@ -111,13 +111,13 @@ class Table:
     """The table in exact terms.
 
     Attributes:
-        is_standard: The convention; else modified.
+        is_standard: Whether the convention is standard, else modified.
         rows: The rows.
         base: T_base_0.
         tool: T_n_tool.
-        values: What each symbol stands for, [m], or the cosine or sine of an angle.
+        values: Value of each symbol, [m], or the cosine or sine of an angle.
         groups: The group of parallel axes of each row's angle, by index.
-        remarks: What was read as something else.
+        remarks: Notes on numbers that were read as something else.
         as_read: The numbers that the exact terms stand for.
     """
 
@@ -131,15 +131,15 @@ class Table:
     as_read: TableNumbers
 
     def group(self, index: int) -> int:
-        """The group of parallel axes that a joint angle belongs to."""
+        """Return the group of parallel axes that a joint angle belongs to."""
         return self.groups[index]
 
     def axis_frame(self, index: int) -> int:
-        """The frame whose z is the axis of joint `index` (from 1)."""
+        """Return the frame whose z is the axis of joint `index` (from 1)."""
         return index - 1 if self.is_standard else index
 
     def atom_values(self, q: tuple[float, ...], atoms: set[Atom]) -> dict[Atom, float]:
-        """What atoms are at a configuration, [rad or m]."""
+        """Return the values of atoms at a configuration, [rad or m]."""
         angles = {row.index: q[row.index - 1] * row.is_revolute + row.offset for row in self.rows}
         result = dict(self.values)
         for atom in atoms - result.keys():
@@ -184,7 +184,7 @@ class _Reader:
         return Twist(None, symbol(cosine_atom), symbol(sine_atom)), value
 
     def angle(self, is_revolute: bool, index: int, value: float) -> tuple[Angle, int, float, float]:
-        """ϑ_i, its multiples of π/2, what it holds beside the variable, and the number that θ_i was read as."""
+        """Return ϑ_i, its multiples of π/2, its constant part, and the number that θ_i was read as."""
         steps = round(value / (math.pi / 2))
         exact = steps * math.pi / 2
         if abs(value - exact) > ANGLE_TOLERANCE:
@@ -230,7 +230,7 @@ IDENTITY: Matrix = ((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE))
 
 
 def exact_number(value: float) -> Polynomial | None:
-    """0, ±1/2, ±√2/2, ±√3/2 or ±1, where the value is one of them to rounding."""
+    """Return 0, ±1/2, ±√2/2, ±√3/2 or ±1 if the value is one of them up to rounding, else None."""
     for magnitude, polynomial in _EXACT:
         if abs(abs(value) - magnitude) <= ROTATION_TOLERANCE:
             return polynomial if value >= 0 else -polynomial
@@ -238,14 +238,14 @@ def exact_number(value: float) -> Polynomial | None:
 
 
 def _read_as(exact: Polynomial | None, value: float) -> float:
-    """The number that an entry of a rotation was read as."""
+    """Return the number that an entry of a rotation was read as."""
     return value if exact is None else exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
 
 
 def read_table(numbers: TableNumbers) -> Table:
-    """The table in exact terms.
+    """Return the table in exact terms.
 
-    Lengths that are zero vanish, equal ones in different rows stay different symbols. In a modified table a and α
+    Lengths that are zero vanish; equal lengths in different rows stay different symbols. In a modified table a and α
     carry the index of the link before the joint, as Craig writes them.
     """
     reader, standard = _Reader(), numbers.convention == "standard"
@@ -268,7 +268,7 @@ def read_table(numbers: TableNumbers) -> Table:
 
 
 def _groups(rows: list[Row], standard: bool) -> dict[int, int]:
-    """Rows whose axes are parallel to the one before share its group."""
+    """Return the group of each row; a row whose axis is parallel to the one before shares its group."""
     groups, group = {}, 0
     for before, row in zip([None, *rows], rows, strict=False):
         twist = before.twist if standard and before else None if standard else row.twist

@@ -1,4 +1,4 @@
-"""What goes into the symbolic part of a worked solution and comes out of it: plain data, fit for another process."""
+"""Input and output of the symbolic part of a worked solution: plain data, fit for another process."""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -19,8 +19,8 @@ class Question:
     Attributes:
         table: The table.
         style: `short` for c_{12}, `full` for cos(q_1 + q_2).
-        keeps_symbols: Whether lengths stay symbols; else their values stand in the formulas.
-        samples: Configurations at which the formulas are evaluated as well, [rad or m].
+        keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
+        samples: Configurations at which the formulas are also evaluated, [rad or m].
     """
 
     table: TableNumbers
@@ -31,7 +31,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A symbol and what it stands for: a value, or words."""
+    """A symbol and its meaning: a value, or words."""
 
     symbol: Text
     meaning: Text
@@ -40,7 +40,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class ColumnText:
-    """A column of the Jacobian, each part three entries; `arm` is None for a prismatic joint."""
+    """A column of the Jacobian, each part with three entries; `arm` is None for a prismatic joint."""
 
     axis: MatrixText
     arm: MatrixText | None
@@ -50,7 +50,7 @@ class ColumnText:
 
 @dataclass(frozen=True, slots=True)
 class Values:
-    """Everything at one sample."""
+    """All matrices at one sample."""
 
     rows: list[Grid]
     frames: list[Grid | None]
@@ -60,22 +60,22 @@ class Values:
 
 @dataclass(frozen=True, slots=True)
 class Formulas:
-    """Transforms and Jacobian.
+    """Transforms and Jacobian as text.
 
     Attributes:
         as_read: The numbers that the formulas stand for.
-        remarks: What was read as something else.
+        remarks: Notes on numbers that were read as something else.
         legend: All symbols in order of appearance.
         parameters: a, alpha, d, theta of each row.
-        rows: A_1 … A_n; None where one failed its check.
-        frames: T_0_1 … T_0_n; None where one is too long.
-        tip: T_base_tool likewise.
-        chain: What the tip's position is in each frame, from n to 0, right to left; None where one is too long.
-        position: Of the tip, three entries.
-        rotation: Of the tip.
-        columns: Of the Jacobian in the base's axes; None where the tip is too long.
+        rows: A_1 … A_n; None for one that failed its check.
+        frames: T_0_1 … T_0_n; None for one that is too long.
+        tip: T_base_tool; None if it is too long.
+        chain: Position of the tip in each frame, from n to 0, from right to left; None if one is too long.
+        position: Position of the tip, three entries.
+        rotation: Rotation of the tip.
+        columns: Columns of the Jacobian in the base's axes; None if the tip is too long.
         jacobian: All columns as a matrix.
-        values: At each sample.
+        values: Values at each sample.
     """
 
     as_read: TableNumbers
@@ -118,14 +118,14 @@ class Singularities:
     """The determinant of the square block and where it vanishes.
 
     Attributes:
-        block: Which block; None where none is square.
-        setting: Where it was worked out; None where it was not.
+        block: The block; None if none is square.
+        setting: How its determinant was computed; None if it was not.
         legend: Symbols beyond those of the formulas.
-        formula: As a product; None where there is no block or it is too long.
-        factors: Of the product, beside its number.
-        conditions: One each factor that depends on a joint.
-        values: At each sample.
-        sizes: How large the terms are that add up to these.
+        formula: The determinant as a product; None without a block, or if it is too long.
+        factors: Factors of the product, besides its number.
+        conditions: One per factor that depends on a joint.
+        values: Values of the determinant at each sample.
+        sizes: Sizes of the terms that add up to these values.
     """
 
     block: Block | None

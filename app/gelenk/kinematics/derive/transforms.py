@@ -1,8 +1,8 @@
 """A_i and T_0_i in symbols.
 
-A frame is kept as R = G · Rz(φ): turns about parallel axes only add to φ, and G takes part in a product when the next
-axis points elsewhere. So a sum of angles appears as one sine and cosine, and no product of those of parallel axes ever
-does: what comes out is what a textbook prints.
+A frame is stored as R = G · Rz(φ): turns about parallel axes only add to φ, and G is multiplied only when the next
+axis points elsewhere. So a sum of angles appears as one sine and cosine, and products of those of parallel axes never
+occur: the result is what a textbook prints.
 """
 
 from collections.abc import Callable, Sequence
@@ -32,7 +32,7 @@ from gelenk.kinematics.derive.algebra import (
 from gelenk.kinematics.derive.table import IDENTITY, Pose, Row, Table, Twist
 
 MAX_ENTRY_TERMS = 64
-"""Terms of an entry beyond which a matrix stays numeric."""
+"""Maximum number of terms of an entry: beyond that a matrix stays numeric."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,19 +44,19 @@ class Transform:
 
     @property
     def rows(self) -> list[list[Polynomial]]:
-        """The homogeneous matrix, (4, 4)."""
+        """Homogeneous matrix, (4, 4)."""
         upper = [[*row, p] for row, p in zip(self.rotation, self.position, strict=True)]
         return [*upper, [ZERO, ZERO, ZERO, number(1)]]
 
     @property
     def largest(self) -> int:
-        """Terms of its largest entry."""
+        """Number of terms of the largest entry."""
         return max(len(entry) for row in self.rows for entry in row)
 
 
 @dataclass(frozen=True, slots=True)
 class Moving:
-    """A frame on its way along a chain: R = turned · Rz(angle + quarters · π/2)."""
+    """A frame that moves along a chain: R = turned · Rz(angle + quarters · π/2)."""
 
     turned: Matrix = IDENTITY
     angle: Angle = ()
@@ -64,18 +64,18 @@ class Moving:
     position: Vector = (ZERO, ZERO, ZERO)
 
     def turn_z(self, angle: Angle, quarters: int, sign: Literal[1, -1]) -> "Moving":
-        """Times Rz(± angle)."""
+        """Multiply by Rz(± angle)."""
         return Moving(
             self.turned, angle_sum(self.angle, angle, sign), (self.quarters + sign * quarters) % 4, self.position
         )
 
     def slide_z(self, d: Polynomial) -> "Moving":
-        """Times Tz(d)."""
+        """Multiply by Tz(d)."""
         moved = plus(self.position, scaled(d, column(self.turned, 2))) if d else self.position
         return Moving(self.turned, self.angle, self.quarters, moved)
 
     def slide_x(self, a: Polynomial) -> "Moving":
-        """Times Tx(a)."""
+        """Multiply by Tx(a)."""
         if not a:
             return self
         c, s = cosine(self.angle, self.quarters), sine(self.angle, self.quarters)
@@ -83,7 +83,7 @@ class Moving:
         return Moving(self.turned, self.angle, self.quarters, plus(self.position, along))
 
     def turn_x(self, twist: Twist, sign: Literal[1, -1]) -> "Moving":
-        """Times Rx(± α); half a turn changes the sign of the angles to come, and nothing else need be multiplied."""
+        """Multiply by Rx(± α); half a turn only changes the sign of the angles, and nothing is multiplied out."""
         if twist.quarters == 0:
             return self
         if twist.quarters == 2:
@@ -95,26 +95,26 @@ class Moving:
 
     @property
     def rotation(self) -> Matrix:
-        """R."""
+        """Rotation matrix R."""
         c, s = cosine(self.angle, self.quarters), sine(self.angle, self.quarters)
         return product(self.turned, ((c, -s, ZERO), (s, c, ZERO), (ZERO, ZERO, number(1))))
 
     def along(self, row: Row, standard: bool) -> "Moving":
-        """Times A_i."""
+        """Multiply by A_i."""
         if standard:
             about_z = self.turn_z(row.angle, row.quarters, 1).slide_z(row.d)
             return about_z.slide_x(row.a).turn_x(row.twist, 1)
         return self.turn_x(row.twist, 1).slide_x(row.a).turn_z(row.angle, row.quarters, 1).slide_z(row.d)
 
     def back(self, row: Row, standard: bool) -> "Moving":
-        """Times the inverse of A_i."""
+        """Multiply by the inverse of A_i."""
         if standard:
             about_x = self.turn_x(row.twist, -1).slide_x(-row.a)
             return about_x.slide_z(-row.d).turn_z(row.angle, row.quarters, -1)
         return self.slide_z(-row.d).turn_z(row.angle, row.quarters, -1).slide_x(-row.a).turn_x(row.twist, -1)
 
     def transform(self, group: Group) -> Transform:
-        """The pose so far."""
+        """Return the pose so far."""
         return Transform(_reduced_matrix(self.rotation, group), _reduced_vector(self.position, group))
 
 
@@ -122,12 +122,12 @@ Step: TypeAlias = Callable[[Moving, Row, bool], Moving]
 
 
 def row_transforms(table: Table) -> list[Transform]:
-    """A_1 … A_n."""
+    """Return A_1 … A_n."""
     return [Moving().along(row, table.is_standard).transform(table.group) for row in table.rows]
 
 
 def frames_from(table: Table, start: int, most: int = MAX_ENTRY_TERMS) -> list[Transform | None]:
-    """T_start_0 … T_start_n; None where an entry has more than `most` terms, and beyond."""
+    """Return T_start_0 … T_start_n; None where an entry has more than `most` terms, and beyond."""
     forward = _journey(table, table.rows[start:], Moving.along, most)
     backward = _journey(table, tuple(reversed(table.rows[:start])), Moving.back, most)
     return [*reversed(backward), Moving().transform(table.group), *forward]
@@ -148,21 +148,21 @@ def _journey(table: Table, rows: Sequence[Row], step: Step, most: int) -> list[T
 
 
 def before(pose: Pose, transform: Transform, group: Group) -> Transform:
-    """Pose · transform."""
+    """Return pose · transform."""
     rotation = product(pose.rotation, transform.rotation)
     position = plus(pose.position, applied(pose.rotation, transform.position))
     return Transform(_reduced_matrix(rotation, group), _reduced_vector(position, group))
 
 
 def behind(transform: Transform, pose: Pose, group: Group) -> Transform:
-    """Transform · pose."""
+    """Return transform · pose."""
     rotation = product(transform.rotation, pose.rotation)
     position = plus(transform.position, applied(transform.rotation, pose.position))
     return Transform(_reduced_matrix(rotation, group), _reduced_vector(position, group))
 
 
 def difference(left: Vector, right: Vector, group: Group) -> Vector:
-    """Left - right, reduced."""
+    """Return left - right, reduced."""
     return _reduced_vector(minus(left, right), group)
 
 

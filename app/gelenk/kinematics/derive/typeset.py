@@ -1,8 +1,8 @@
 """Polynomials and matrices as LaTeX and as plain text.
 
 A sum is written factor by factor in the order of the axes: what all terms share stands before a bracket, then the
-terms are collected by the sines and cosines of the first group of parallel axes, and within each bracket by the next
-one: c_1 (a_2 c_2 + a_3 c_23). The plain text is an expression of Python and of most computer algebra systems.
+terms are collected by the sines and cosines of the first group of parallel axes, and within each bracket by those of
+the next one: c_1 (a_2 c_2 + a_3 c_23). The plain text is valid in Python and in most computer algebra systems.
 """
 
 import math
@@ -47,7 +47,7 @@ _MOVING = {
 
 
 class Text(NamedTuple):
-    """The same in both notations."""
+    """A formula in both notations."""
 
     latex: str
     plain: str
@@ -66,9 +66,9 @@ class Notation:
 
     Attributes:
         style: `short` writes c_{12}, `full` cos(q_1 + q_2).
-        group: The group of parallel axes of a joint angle.
-        offset_angles: Indices of angles ϑ_i that hold more than the variable q_i alone.
-        numbers: Values in place of symbols; empty where these stay.
+        group: Returns the group of parallel axes of a joint angle.
+        offset_angles: Indices of angles ϑ_i that consist of more than the variable q_i.
+        numbers: Values to put in place of symbols; empty to keep the symbols.
         has_commas: Whether indices of a sum are separated: with ten joints c_{1,2} is not c_{12}.
     """
 
@@ -79,11 +79,11 @@ class Notation:
     has_commas: bool = False
 
     def text(self, polynomial: Polynomial) -> Text:
-        """A polynomial."""
+        """Write a polynomial."""
         return self._product((), Fraction(1), self.numbered(polynomial))
 
     def bracketed(self, polynomial: Polynomial) -> Text:
-        """A polynomial as a factor of a product: a sum stands in brackets, and without a sign before it."""
+        """Write a polynomial as a factor of a product: a sum, or a term with a minus, stands in brackets."""
         polynomial = self.numbered(polynomial)
         text = self._product((), Fraction(1), polynomial)
         if len(polynomial) == 1 and not text.plain.startswith("-"):
@@ -91,19 +91,19 @@ class Notation:
         return Text(rf"\left({text.latex}\right)", f"({text.plain})")
 
     def matrix(self, rows: Sequence[Sequence[Polynomial]]) -> MatrixText:
-        """A matrix of polynomials."""
+        """Write a matrix of polynomials."""
         texts = [[self.text(entry) for entry in row] for row in rows]
         body = r" \\ ".join(" & ".join(text.latex for text in row) for row in texts)
         return MatrixText(rf"\begin{{bmatrix}} {body} \end{{bmatrix}}", [[text.plain for text in row] for row in texts])
 
     def vector(self, entries: Sequence[Polynomial]) -> MatrixText:
-        """A column of polynomials."""
+        """Write a column of polynomials."""
         return self.matrix([[entry] for entry in entries])
 
     def factors(self, factor: Fraction, factors: Sequence[Polynomial]) -> Text:
-        """A product: the number and everything of one term as one, then the sums in brackets.
+        """Write a product: the number and all factors of one term together, then the sums in brackets.
 
-        Roots of numbers are gathered here: in factors apart they would not meet.
+        Roots of numbers are combined here: in separate factors they would not meet.
         """
         counts = Counter(self.numbered(part) for part in factors)
         single, sums = number(factor), list[Text]()
@@ -129,11 +129,11 @@ class Notation:
         )
 
     def variables(self, indices: Sequence[int]) -> Text:
-        """A sum of the joints' variables themselves."""
+        """Write a sum of the joints' variables themselves."""
         return replace(self, offset_angles=()).angle(indices)
 
     def atom(self, atom: Atom) -> Text:
-        """An atom by its symbol."""
+        """Write an atom by its symbol."""
         index = ",".join(str(i) for i in atom.indices)
         if atom.kind == TRIGONOMETRIC:
             return self._wave(atom)
@@ -152,7 +152,7 @@ class Notation:
         return Text(f"{letter}_{{{subscript}}}", f"{letter}{subscript}")
 
     def angle(self, indices: Sequence[int]) -> Text:
-        """A sum of joint angles."""
+        """Write a sum of joint angles."""
         latex, plain = "", ""
         for index in sorted(set(indices), key=abs):
             count, sign = indices.count(index), "-" if index < 0 else "+"
@@ -163,7 +163,7 @@ class Notation:
         return Text(latex, plain)
 
     def angle_name(self, index: int) -> Text:
-        """q_i, or ϑ_i where the angle holds more."""
+        """Write q_i, or ϑ_i if the angle consists of more than the variable."""
         if index in self.offset_angles:
             return Text(rf"\vartheta_{{{index}}}", f"theta{index}")
         return Text(f"q_{{{index}}}", f"q{index}")
@@ -185,7 +185,7 @@ class Notation:
         return Text(f"{atom.name}_{{{latex}}}", f"{atom.name}{plain}")
 
     def numbered(self, polynomial: Polynomial) -> Polynomial:
-        """The same with values in place of symbols, where these are wanted."""
+        """Put values in place of symbols, if values are wanted."""
         if not self.numbers:
             return polynomial
         terms = []
@@ -198,7 +198,7 @@ class Notation:
         return collected(terms)
 
     def _product(self, before: Monomial, factor: Fraction, polynomial: Polynomial) -> Text:
-        """The product of all three."""
+        """Write the product of a monomial, a number and a polynomial."""
         if not polynomial:
             return Text("0", "0")
         content, shared, rest = _taken_out(polynomial, exact=not self.numbers)
@@ -214,7 +214,7 @@ class Notation:
         return Text(rf"{text.latex} \left({inner.latex}\right)", f"{text.plain}*({inner.plain})")
 
     def _sum(self, polynomial: Polynomial) -> Text:
-        """Collected by the first group of parallel axes that occurs."""
+        """Write a sum, collected by the first group of parallel axes that occurs."""
         latex, plain = "", ""
         for before, part in self._parts(polynomial):
             text = self._product(before, Fraction(1), part)
@@ -227,7 +227,7 @@ class Notation:
         return Text(latex, plain)
 
     def _parts(self, polynomial: Polynomial) -> list[tuple[Monomial, Polynomial]]:
-        """Sines and cosines of the first group with what stands beside them; what is constant comes first."""
+        """Return the sines and cosines of the first group with their coefficients; constants come first."""
         waves = [atom for atom in polynomial.atoms if atom.kind == TRIGONOMETRIC]
         if not waves:
             return [((), Polynomial({monomial: factor})) for monomial, factor in sorted(polynomial)]
@@ -249,7 +249,7 @@ class Notation:
         return atom.kind == TRIGONOMETRIC and self.group(abs(atom.indices[0])) == group
 
     def monomial(self, factor: Fraction, monomial: Monomial) -> Text:
-        """A number times powers of atoms."""
+        """Write a number times powers of atoms."""
         sign, size = "-" if factor < 0 else "", abs(factor)
         powers = [(self.atom(atom), power) for atom, power in monomial]
         latex = [text.latex if power == 1 else _power(text.latex, power) for text, power in powers]
@@ -261,7 +261,7 @@ class Notation:
         return Text(sign + " ".join(latex), sign + "*".join(plain))
 
     def number(self, value: Fraction) -> Text:
-        """A number: exact where symbols stand for what was measured, decimal where their values stand."""
+        """Write a number: exactly if lengths are symbols, as a decimal if their values stand in the formula."""
         if value.denominator == 1:
             return Text(str(value), str(value))
         if not self.numbers:
@@ -271,14 +271,14 @@ class Notation:
 
 
 def decimal(value: float) -> Text:
-    """The shortest decimal that is this double."""
+    """Write the shortest decimal that is this double."""
     plain = repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
     mantissa, _, exponent = plain.partition("e")
     return Text(rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else plain, plain)
 
 
 def _without_squared_roots(polynomial: Polynomial) -> Polynomial:
-    """The same with √n² = n."""
+    """Apply √n² = n."""
     terms = []
     for monomial, factor in polynomial:
         kept: Monomial = ()
@@ -292,7 +292,7 @@ def _without_squared_roots(polynomial: Polynomial) -> Polynomial:
 
 
 def multiple_of_pi(value: float) -> Text | None:
-    """A twelfth of π, or a multiple of it, as such; None where the value is none."""
+    """Write a multiple of π/12 with π; return None if the value is no such multiple."""
     fraction = Fraction(round(value / math.pi * 12), 12)
     if abs(value - float(fraction) * math.pi) > 1e-12 * max(1.0, abs(value)):
         return None
@@ -306,7 +306,7 @@ def multiple_of_pi(value: float) -> Text | None:
 
 
 def joined(first: Text, second: Text) -> Text:
-    """A sum of two; nought is left out, and a sign of the second becomes the sum's."""
+    """Write a sum of two; zero is left out, and a minus of the second becomes the sum's."""
     if first.plain == "0" or second.plain == "0":
         return first if second.plain == "0" else second
     if second.plain.startswith("-"):
@@ -319,7 +319,7 @@ def _has_waves(terms: Mapping[Monomial, Fraction]) -> bool:
 
 
 def _power(latex: str, power: int) -> str:
-    """x² with the exponent where it belongs: cos²(x), c_2², (cos α)²."""
+    """Write a power with the exponent where it belongs: cos²(x), c_2², (cos α)²."""
     for name in (r"\cos", r"\sin"):
         if latex.startswith(name):
             return f"{name}^{{{power}}}{latex.removeprefix(name)}"
@@ -327,7 +327,7 @@ def _power(latex: str, power: int) -> str:
 
 
 def _taken_out(polynomial: Polynomial, *, exact: bool) -> tuple[Fraction, Monomial, Polynomial]:
-    """The number and the monomial that all terms share, and the rest."""
+    """Return the number and the monomial that all terms share, and the rest."""
     shared: dict[Atom, int] | None = None
     for monomial in polynomial.terms:
         powers = dict(monomial)
@@ -345,14 +345,14 @@ def _taken_out(polynomial: Polynomial, *, exact: bool) -> tuple[Fraction, Monomi
 
 
 def shared_number(polynomial: Polynomial) -> Fraction:
-    """The positive number that all coefficients share."""
+    """Return the positive number that all coefficients share."""
     factors = list(polynomial.terms.values())
     top = math.gcd(*(factor.numerator for factor in factors))
     return Fraction(top, math.lcm(*(factor.denominator for factor in factors)))
 
 
 def monomial_quotient(monomial: Monomial, divisor: Monomial) -> Monomial:
-    """The quotient of two monomials, where it is one."""
+    """Return the quotient of two monomials; the first must be divisible by the second."""
     powers = dict(monomial)
     for atom, power in divisor:
         powers[atom] -= power

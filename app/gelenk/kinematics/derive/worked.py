@@ -1,9 +1,9 @@
-"""The worked solution of a DH table: formulas, numbers, and each the judge of the other.
+"""The worked solution of a DH table: formulas and numbers, each checked by the other.
 
-The formulas come from the symbolic side, which shares no code with the numbers, and are compared with these at random
-configurations before anyone sees them; the numbers at given configurations are compared with Pinocchio's. A formula
-that fails is left out, and logged. What the symbolic side cannot do in the time that is left stays numeric. The notes
-say both.
+The formulas come from the symbolic part, which shares no code with the numeric one, and are compared with numbers at
+random configurations before anyone sees them; the numbers at given configurations are compared with Pinocchio's. A
+formula that fails is left out, and logged. What the symbolic part cannot derive in the time that is left stays
+numeric. The notes say both.
 """
 
 import logging
@@ -50,35 +50,35 @@ _Result = TypeVar("_Result")
 
 
 class Runner(Protocol):
-    """Runs a function of plain data somewhere, for so many seconds at most; TimeoutError if it takes longer."""
+    """Runs a function of plain data somewhere, with a time limit in [s]; TimeoutError if it takes longer."""
 
     def __call__(self, function: Callable[[_Question], _Result], question: _Question, seconds: float, /) -> _Result:
-        """The function's result."""
+        """Return the function's result."""
         raise NotImplementedError
 
 
 def directly(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:  # noqa: ARG001
-    """Run a function here and now, however long it takes."""
+    """Run a function in this thread, however long it takes."""
     return function(question)
 
 
 @dataclass(frozen=True, slots=True)
 class WorkedSolution:
-    """Everything about a table.
+    """The worked solution of a table.
 
     Attributes:
-        joint_names: The order of a configuration.
-        formulas: Transforms and Jacobian; None where there was no time.
-        singularities: Determinant and where it vanishes; None where there was no time.
-        motion: The equations of motion; None where they were not requested, or the notes say why there are none.
-        examples: Smallest singular value of the block at each condition's example; None where there is none.
-        numeric: One each given configuration.
-        determinants: Of the block at each of these; None where no block is square.
+        joint_names: Names of the joints, in the order of a configuration.
+        formulas: Transforms and Jacobian; None if there was no time.
+        singularities: Determinant, and where it vanishes; None if there was no time.
+        motion: The equations of motion; None if they were not requested, or the notes say why there are none.
+        examples: Smallest singular value of the block at each condition's example; None without an example.
+        numeric: One entry per given configuration.
+        determinants: Determinant of the block at each of these; None if no block is square.
         steps: The solution in words.
-        notes: What was read as something else, and what stays numeric and why.
-        certificate: Of the formulas; None where there are none.
-        pose_certificate: Of the poses at the configurations, by Pinocchio.
-        jacobian_certificate: Of the Jacobians likewise.
+        notes: Numbers that were read as something else, and what stays numeric and why.
+        certificate: Certificate of the formulas; None without formulas.
+        pose_certificate: Certificate of the poses at the configurations, by Pinocchio.
+        jacobian_certificate: Certificate of the Jacobians there, by Pinocchio.
     """
 
     joint_names: tuple[str, ...]
@@ -105,22 +105,22 @@ def worked_solution(
     run: Runner = directly,
     deadline: float | None = None,
 ) -> WorkedSolution:
-    """The worked solution of a table.
+    """Derive the worked solution of a table.
 
     Args:
-        table: Standard or modified; every row with a variable of its own.
-        values: Configurations at which the numbers are wanted too, in order or by name, [rad or m].
+        table: Standard or modified table; every row has a variable of its own.
+        values: Configurations at which numbers are wanted too, in order or by name, [rad or m].
         style: `short` writes c_{12}, `full` writes cos(q_1 + q_2).
-        keeps_symbols: Whether lengths stay symbols; else their values stand in the formulas.
-        dynamics: Masses and gravity, where the equations of motion are wanted.
-        run: Where the symbolic part runs.
-        deadline: When the symbolic part must be over, on the monotonic clock; never if left out.
+        keeps_symbols: Whether lengths stay symbols; otherwise the formulas contain their values.
+        dynamics: Masses and gravity, if the equations of motion are wanted.
+        run: Runs the symbolic part.
+        deadline: Time at which the symbolic part must be done, on the monotonic clock, [s]; none if left out.
 
     Raises:
         InvalidDhTable: A row follows another joint.
-        WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration is none of the table, or the
-            dynamics are not.
-        CertificationFailed: Numbers and Pinocchio's differ. A formula that does is left out, and the notes say so.
+        WrongJointCount, MissingJoint, UnknownJoint, InvalidField: A configuration does not fit the table, or the
+            dynamics do not.
+        CertificationFailed: Numbers differ from Pinocchio's. A formula that differs is left out, and the notes say so.
     """
     for i, row in enumerate(table.joints):
         if row.mimic is not None:
@@ -178,7 +178,7 @@ def _timed(
     what: str,
     instead: str = "only numbers are given",
 ) -> _Result | None:
-    """The result of a symbolic part within its share of the time that is left; None and a note if it fails."""
+    """Return the result of a symbolic part within its share of the time that is left; None and a note if it fails."""
     seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
     try:
         return run(function, question, seconds)
@@ -205,7 +205,7 @@ def _tuples(matrix: Array) -> Numbers4:
 
 
 def _read_back(table: DhTable, numbers: TableNumbers) -> DhTable:
-    """The table that the formulas stand for: angles and lengths as they were read."""
+    """Return the table that the formulas stand for: angles and lengths as they were read."""
     joints = tuple(
         DhJoint(row.name, row.type, read.a, read.alpha, read.d, read.theta)
         for row, read in zip(table.joints, numbers.rows, strict=True)
@@ -222,7 +222,7 @@ def _determinant(singular: Singularities | None, solution: NumericSolution) -> f
 def _certified(
     robot: Robot, qs: Array, numeric: Sequence[NumericSolution]
 ) -> tuple[Certificate | None, JacobianCertificate | None]:
-    """The numbers at the configurations against Pinocchio's."""
+    """Compare the numbers at the configurations with Pinocchio's."""
     if not numeric:
         return None, None
     chain = robot.chain(None, None)
@@ -233,7 +233,7 @@ def _certified(
 
 
 def _limits(table: DhTable, found: Formulas, singular: Singularities | None) -> list[str]:
-    """What stays numeric, and why."""
+    """Return notes on what stays numeric, and why."""
     notes = []
     written = sum(frame is not None for frame in found.frames)
     n = len(table.joints)

@@ -1,9 +1,9 @@
-"""The bodies of an arm and gravity as they were given; None for what stays a symbol without a value.
+"""The bodies of an arm and gravity as given; None for a quantity that stays a symbol without a value.
 
-Where the centre of mass is one number, it lies on the line of its link. A link behind a revolute joint has x of its
-frame for a line, measured from the joint's axis, as the course draws it; only where it has no length along x and a
-sliding joint comes next, that joint's axis is its line (an RP arm). A link behind a prismatic joint has that joint's
-axis, measured from the origin of its frame.
+A centre of mass that is given as one number lies on the line of its link. After a revolute joint this line is x of the
+link's frame, measured from the joint's axis, as the course draws it; only if the link has no length along x and a
+prismatic joint comes next is it that joint's axis (an RP arm). After a prismatic joint it is that joint's axis,
+measured from the origin of the link's frame.
 """
 
 import math
@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from gelenk.kinematics.derive.table import LENGTH_TOLERANCE, RowNumbers
 
-if TYPE_CHECKING:  # symbols share nothing with numbers, not even their types
+if TYPE_CHECKING:  # the symbolic part shares nothing with the numeric one, not even types
     from gelenk.model.arrays import Configuration
 
 Line: TypeAlias = Literal["x", "next axis", "own axis"]
 Point: TypeAlias = tuple[float, float, float]
 
 STANDARD_GRAVITY = 9.81
-"""What g_0 is where it is not given, [m/s²]."""
+"""Default of g_0, [m/s²]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +28,9 @@ class Body:
     """A link of the arm.
 
     Attributes:
-        mass: [kg]
+        mass: Mass, [kg].
         center: Centre of mass, on the line of the link or as a point in frame i, [m].
-        inertia: About the centre of mass, the axis normal to the plane, [kg m²].
+        inertia: Moment of inertia about the centre of mass, the axis normal to the plane, [kg m²].
     """
 
     mass: float | None = None
@@ -40,20 +40,20 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class Gravity:
-    """Free fall: its size, [m/s²], and a unit vector; no size where there is none."""
+    """Acceleration of free fall: its magnitude, [m/s²], and a unit vector; the magnitude is 0 without gravity."""
 
     size: float
     direction: Point
 
     @property
     def vector(self) -> Point:
-        """The acceleration, [m/s²]."""
+        """Acceleration of free fall as a vector, [m/s²]."""
         x, y, z = self.direction
         return self.size * x, self.size * y, self.size * z
 
 
 def line_of(rows: Sequence[RowNumbers], i: int, standard: bool) -> Line:
-    """On which line the centre of mass of link i (from 0) is measured."""
+    """Return the line on which the centre of mass of link i (from 0) is measured."""
     if not rows[i].is_revolute:
         return "own axis"
     if i + 1 == len(rows) or rows[i + 1].is_revolute:
@@ -62,7 +62,7 @@ def line_of(rows: Sequence[RowNumbers], i: int, standard: bool) -> Line:
 
 
 def center_in_frame(rows: Sequence[RowNumbers], i: int, standard: bool, center: float | Point) -> Point:
-    """Where the centre of mass of link i (from 0) is in frame i, [m]."""
+    """Return the centre of mass of link i (from 0) in frame i, [m]."""
     if isinstance(center, tuple):
         return center
     line = line_of(rows, i, standard)
@@ -78,12 +78,12 @@ def center_in_frame(rows: Sequence[RowNumbers], i: int, standard: bool, center: 
 
 @dataclass(frozen=True, slots=True)
 class Dynamics:
-    """What is known of the masses.
+    """Masses, gravity and velocities, as far as they are given.
 
     Attributes:
-        bodies: One a row; empty where nothing is known.
-        gravity: In the base.
-        velocities: One a configuration, in order or by name, [rad/s or m/s]; None where none are given.
+        bodies: One per row; empty if none are given.
+        gravity: Free fall in the base.
+        velocities: One entry per configuration, in order or by name, [rad/s or m/s]; None if none are given.
     """
 
     bodies: tuple[Body, ...]

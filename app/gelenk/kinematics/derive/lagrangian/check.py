@@ -1,6 +1,6 @@
-"""Equations of motion against Pinocchio: its model is built from the table alone, each link a body of its own.
+"""Comparison of equations of motion with Pinocchio, whose model is built from the table alone, each link a body.
 
-Pinocchio's recursive algorithms know neither T nor Christoffel symbols. These follow from what it says of chosen
+Pinocchio's recursive algorithms use neither T nor Christoffel symbols. The symbols follow from its torques at chosen
 velocities: with h(v) the torque that velocity v costs, 2 c_ijk = h_i(e_j + e_k) - h_i(e_j) - h_i(e_k).
 """
 
@@ -21,14 +21,14 @@ from gelenk.model.errors import CertificationFailed
 
 @dataclass(frozen=True, slots=True)
 class MotionCertificate:
-    """How far equations of motion and Pinocchio are apart.
+    """Differences of equations of motion from Pinocchio's.
 
     Attributes:
-        samples: States at which they were compared.
-        seed: Of the choice of samples; None where these were given.
+        samples: Number of states at which they were compared.
+        seed: Random seed of the samples; None if the states were given.
         mass_matrix: Largest difference of an entry of M, [kg], [kg m] or [kg m²].
-        coriolis: Of a Christoffel symbol, and so of C per unit of velocity, likewise.
-        gravity: Of an entry of g, [N m or N].
+        coriolis: Largest difference of a Christoffel symbol, and so of C per unit of velocity, in the same units.
+        gravity: Largest difference of an entry of g, [N m or N].
     """
 
     samples: int
@@ -39,17 +39,17 @@ class MotionCertificate:
 
 
 class Judge:
-    """The arm with its bodies as Pinocchio has it.
+    """Pinocchio's model of the arm with its bodies.
 
     Args:
-        table: Standard or modified.
-        bodies: One a row; what was left out counts as nought.
-        gravity: In the base; shape (3,), [m/s²].
+        table: Standard or modified table.
+        bodies: One per row; a quantity that was left out counts as zero.
+        gravity: Free fall in the base; shape (3,), [m/s²].
     """
 
     def __init__(self, table: DhTable, bodies: Sequence[Body], gravity: Array) -> None:
         self.model, self._scales = pin.Model(), _scales(table, bodies, gravity)
-        self._levers: list[Array] = []  # Pinocchio keeps none of a body without mass
+        self._levers: list[Array] = []  # Pinocchio stores none for a body without mass
         standard, joint, placement = table.convention == "standard", 0, table.base
         for row, body, center in zip(table.joints, bodies, centers_in_frames(table, bodies), strict=True):
             A = row.transform(0.0, table.convention)
@@ -65,17 +65,17 @@ class Judge:
         self.data = self.model.createData()
 
     def mass_matrix(self, q: Array) -> Array:
-        """M; shape (n, n)."""
+        """Return M; shape (n, n)."""
         upper = np.triu(pin.crba(self.model, self.data, q))
         M: Array = upper + np.triu(upper, 1).T
         return M
 
     def gravity_vector(self, q: Array) -> Array:
-        """g; shape (n,)."""
+        """Return g; shape (n,)."""
         return np.array(pin.computeGeneralizedGravity(self.model, self.data, q)).reshape(-1)
 
     def christoffel(self, q: Array) -> Array:
-        """c[i, j, k]; shape (n, n, n)."""
+        """Return the Christoffel symbols c[i, j, k]; shape (n, n, n)."""
         n = self.model.nv
         unit, g = np.eye(n), self.gravity_vector(q)
         alone = [self._costs(q, unit[j], g) for j in range(n)]
@@ -92,11 +92,11 @@ class Judge:
         return costs
 
     def torques(self, q: Array, v: Array, a: Array) -> Array:
-        """Inverse dynamics; shape (n,)."""
+        """Compute joint torques by inverse dynamics; shape (n,)."""
         return np.array(pin.rnea(self.model, self.data, q, v, a)).reshape(-1)
 
     def bodies(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
-        """Centres of mass in the base, their velocities, kinetic and potential energies, one row a body."""
+        """Return centres of mass in the base, their velocities, kinetic and potential energies, one row per body."""
         pin.forwardKinematics(self.model, self.data, q, v)
         found = []
         for joint, lever in enumerate(self._levers, start=1):
@@ -109,7 +109,7 @@ class Judge:
         return centers, velocities, kinetic, potential
 
     def compare(self, name: str, ours: object, judged: Array, scale: float = 1.0) -> float:
-        """The largest difference.
+        """Return the largest difference from Pinocchio's value.
 
         Raises:
             CertificationFailed: It is more than rounding of numbers of that scale.
@@ -121,10 +121,10 @@ class Judge:
         return error
 
     def errors(self, q: Array, M: object, c: object, g: object) -> tuple[float, float, float]:
-        """How far M, the Christoffel symbols and g are from Pinocchio's.
+        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's.
 
         Raises:
-            CertificationFailed: More than rounding.
+            CertificationFailed: One is more than rounding.
         """
         inertia, weight = self._scales.at(q)
         return (
@@ -134,7 +134,7 @@ class Judge:
         )
 
     def energies_error(self, sample: MotionSample, value: MotionValues) -> None:
-        """Compare what leads to M, C and g, and what follows from them.
+        """Compare the quantities that M, C and g are derived from, and those that follow from them.
 
         Raises:
             CertificationFailed: One differs by more than rounding.
@@ -156,7 +156,7 @@ class Judge:
 
 @dataclass(frozen=True, slots=True)
 class _Scales:
-    """How large the terms are that add up: rounding grows with them, though they may cancel."""
+    """Sizes of the terms that add up: rounding grows with them, even if they cancel."""
 
     reach: float
     mass: float
@@ -165,7 +165,7 @@ class _Scales:
     slides: tuple[bool, ...]
 
     def at(self, q: Array) -> tuple[float, float]:
-        """The largest sum of inertias, [kg m²], and of weights, [N m], at a configuration."""
+        """Return the largest sum of inertias, [kg m²], and of weights, [N m], at a configuration."""
         reach = max(1.0, self.reach + float(np.abs(q[list(self.slides)]).sum()))
         return self.mass * reach**2 + self.inertia, self.mass * self.gravity * reach
 
@@ -185,14 +185,14 @@ def _scales(table: DhTable, bodies: Sequence[Body], gravity: Array) -> _Scales:
 def certify_formulas(
     table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[MotionValues], seed: int
 ) -> MotionCertificate:
-    """Every formula against Pinocchio at the samples.
+    """Compare every formula with Pinocchio at the samples.
 
     Args:
-        table: As the formulas read it; the base is left out, for they are in frame 0.
-        gravity: In frame 0; shape (3,), [m/s²].
-        samples: States, with a number for everything.
-        values: What the formulas are there.
-        seed: Of the samples.
+        table: Table as the formulas read it; the base is left out, since they are written in frame 0.
+        gravity: Free fall in frame 0; shape (3,), [m/s²].
+        samples: States, with a number for every symbol.
+        values: Values of the formulas there.
+        seed: Random seed of the samples.
 
     Raises:
         CertificationFailed: One differs by more than rounding.
@@ -209,7 +209,7 @@ def certify_formulas(
 def certify_numbers(
     table: DhTable, bodies: Sequence[Body], gravity: Array, found: Sequence[NumericMotion]
 ) -> MotionCertificate:
-    """M, C and g at given configurations against Pinocchio's.
+    """Compare M, C and g at given configurations with Pinocchio's.
 
     Raises:
         CertificationFailed: One differs by more than rounding.

@@ -35,23 +35,23 @@ from gelenk.kinematics.derive.table import exact_number
 Rows: TypeAlias = list[list[Polynomial]]
 
 MAX_ENTRY_TERMS = 200
-"""Terms of an entry beyond which the equations are not written out."""
+"""Maximum number of terms of an entry: beyond that the equations are not written out."""
 _HALF = number(Fraction(1, 2))
 
 
 @dataclass(frozen=True, slots=True)
 class Equations:
-    """Everything in symbols; lists by joint or link, Christoffel symbols as c[i][j][k].
+    """All quantities in symbols; lists by joint or link, Christoffel symbols as c[i][j][k].
 
     Attributes:
         gravity: The acceleration of free fall in the axes of frame 0.
-        centers: Of mass, in frame 0.
-        velocities: Of these.
+        centers: Centres of mass, in frame 0.
+        velocities: Velocities of the centres of mass.
         turns: Angular velocities about the plane's normal.
         kinetic: T_i.
         potential: U_i.
         mass_matrix: M.
-        christoffel: Of the first kind, symmetric in j and k.
+        christoffel: Christoffel symbols of the first kind, symmetric in j and k.
         coriolis: C.
         coriolis_vector: C q̇.
         gravity_vector: g.
@@ -75,7 +75,7 @@ class Equations:
 
     @property
     def all(self) -> list[Polynomial]:
-        """Every polynomial that is written out."""
+        """All polynomials that are written out."""
         vectors = (self.gravity, *self.centers, *self.velocities)
         grids = (*self.mass_matrix, *self.coriolis, *self.skew, *(row for rows in self.christoffel for row in rows))
         lists = (self.turns, self.kinetic, self.potential, self.coriolis_vector, self.gravity_vector, self.torques)
@@ -83,17 +83,17 @@ class Equations:
 
 
 def equations(arm: PlanarArm, bodies: Sequence[Body], gravity: Gravity, values: dict[Atom, float]) -> Equations:
-    """The equations of motion.
+    """Derive the equations of motion.
 
     Args:
-        arm: In its plane.
-        bodies: One a joint.
-        gravity: In the axes of frame 0.
-        values: Takes the value of each symbol that has one.
+        arm: The arm in its plane.
+        bodies: One per joint.
+        gravity: Free fall in the axes of frame 0.
+        values: Collects the value of each symbol that has one.
 
     Raises:
-        TooManyTerms: One of them has more terms than anyone would read.
-        ArithmeticError: Ṁ - 2C is not skew symmetric, which it always is.
+        TooManyTerms: An entry has too many terms.
+        ArithmeticError: Ṁ - 2C is not skew symmetric, which never happens.
     """
     joints = range(1, len(arm.senses) + 1)
     masses = [_quantity("m", i, body.mass, values) for i, body in zip(joints, bodies, strict=True)]
@@ -134,12 +134,12 @@ def equations(arm: PlanarArm, bodies: Sequence[Body], gravity: Gravity, values: 
 
 
 def rate(index: int, order: int = 1) -> Polynomial:
-    """q̇ or q̈ of a joint."""
+    """Return q̇ or q̈ of a joint."""
     return symbol(Atom(RATE, (index,), "q" + "d" * order))
 
 
 def _quantity(name: str, index: int, value: float | None, values: dict[Atom, float]) -> Polynomial:
-    """A mass or an inertia; nought vanishes."""
+    """Return a mass or an inertia; one of zero vanishes."""
     if value == 0.0:
         return ZERO
     atom = Atom(MASS, (index,), name)
@@ -149,7 +149,7 @@ def _quantity(name: str, index: int, value: float | None, values: dict[Atom, flo
 
 
 def _free_fall(gravity: Gravity, values: dict[Atom, float]) -> Vector:
-    """g_0 times a unit vector, whose odd components are symbols."""
+    """Return g_0 times a unit vector; components that are no exact numbers are symbols."""
     if gravity.size == 0.0:
         return ZERO, ZERO, ZERO
     size = Atom(GRAVITY, (0,), "g")
@@ -169,13 +169,13 @@ def _short(polynomial: Polynomial) -> Polynomial:
 
 
 def _along(vector: Vector, index: int, slides: Sequence[bool]) -> Vector:
-    """∂/∂q of one joint."""
+    """Return ∂/∂q of a vector for one joint."""
     x, y, z = (derivative(entry, index, slides=slides[index - 1]) for entry in vector)
     return x, y, z
 
 
 def _combined(columns: Sequence[Vector], joints: Sequence[int]) -> Vector:
-    """Σ_j ∂p/∂q_j q̇_j."""
+    """Return Σ_j ∂p/∂q_j q̇_j."""
     x, y, z = (total(column[k] * rate(j) for column, j in zip(columns, joints, strict=True)) for k in range(3))
     return shortened((x, y, z))
 
@@ -183,7 +183,7 @@ def _combined(columns: Sequence[Vector], joints: Sequence[int]) -> Vector:
 def _mass_matrix(
     arm: PlanarArm, columns: Sequence[Sequence[Vector]], masses: Sequence[Polynomial], inertias: Sequence[Polynomial]
 ) -> Rows:
-    """M_jk = Σ_i m_i (∂p_ci/∂q_j · ∂p_ci/∂q_k) + Σ_(i ≥ j, k) ± I_i."""
+    """Return M_jk = Σ_i m_i (∂p_ci/∂q_j · ∂p_ci/∂q_k) + Σ_(i ≥ j, k) ± I_i."""
     size = len(masses)
     grid: Rows = [[ZERO] * size for _ in range(size)]
     for j in range(size):
@@ -204,7 +204,7 @@ def _christoffel(M: Rows, slides: Sequence[bool]) -> list[Rows]:
 
 
 def _skew(M: Rows, C: Rows, slides: Sequence[bool]) -> Rows:
-    """Ṁ - 2C."""
+    """Return Ṁ - 2C, which is checked to be skew symmetric."""
     size = range(len(M))
     rates = [
         [total(derivative(M[i][j], k + 1, slides=slides[k]) * rate(k + 1) for k in size) for j in size] for i in size

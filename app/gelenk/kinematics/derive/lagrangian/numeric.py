@@ -3,8 +3,8 @@
     M = Σ_b m_b Jv_bᵀ Jv_b + I_b Jω_bᵀ Jω_b,   g = -Σ_b m_b Jv_bᵀ g
     c_ijk = Σ_b m_b Jv_b,i · ∂Jv_b,k/∂q_j + I_b Jω_b,i · ½ z_j × z_k   (j < k),   C_ij = Σ_k c_ijk q̇_k
 
-That is the equation of motion projected on the columns, and needs no derivative of M. A column of joint k changes with
-joint j ≤ k before it as z_j × column, and not at all where j slides.
+This is the equation of motion projected on the columns, and needs no derivative of M. A column of joint k changes with
+joint j ≤ k before it as z_j × column, and not at all if j is prismatic.
 """
 
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ class NumericMotion:
 
     Attributes:
         q: Joint positions; shape (n,), [rad or m].
-        v: Joint velocities; shape (n,), [rad/s or m/s]; None where none are given.
+        v: Joint velocities; shape (n,), [rad/s or m/s]; None if none are given.
         mass_matrix: M; shape (n, n).
         christoffel: c[i, j, k], symmetric in j and k; shape (n, n, n).
         gravity_vector: g; shape (n,), [N m or N].
@@ -38,17 +38,17 @@ class NumericMotion:
 
     @property
     def coriolis(self) -> Array | None:
-        """C; shape (n, n)."""
+        """C; shape (n, n); None without velocities."""
         return None if self.v is None else np.asarray(self.christoffel @ self.v)
 
     @property
     def coriolis_vector(self) -> Array | None:
-        """C q̇; shape (n,), [N m or N]."""
+        """C q̇; shape (n,), [N m or N]; None without velocities."""
         return None if self.v is None else np.asarray(self.christoffel @ self.v @ self.v)
 
 
 def centers_in_frames(table: DhTable, bodies: Sequence[Body]) -> list[Point]:
-    """Each centre of mass in its link's frame, [m]; one that was left out is nought along its line."""
+    """Return each centre of mass in its link's frame, [m]; one that was left out is at zero on its line."""
     rows = [RowNumbers(row.type == "revolute", row.a, row.alpha, row.d, row.theta) for row in table.joints]
     standard = table.convention == "standard"
     given = [0.0 if body.center is None else body.center for body in bodies]
@@ -56,14 +56,14 @@ def centers_in_frames(table: DhTable, bodies: Sequence[Body]) -> list[Point]:
 
 
 def numeric_motion(table: DhTable, bodies: Sequence[Body], gravity: Array, q: Array, v: Array | None) -> NumericMotion:
-    """M, C and g at a configuration.
+    """Compute M, C and g at a configuration.
 
     Args:
-        table: Standard or modified.
-        bodies: One a row; what was left out counts as nought.
-        gravity: In the base; shape (3,), [m/s²].
-        q: Shape (n,), [rad or m].
-        v: Shape (n,), [rad/s or m/s], or None.
+        table: Standard or modified table.
+        bodies: One per row; a quantity that was left out counts as zero.
+        gravity: Free fall in the base; shape (3,), [m/s²].
+        q: Joint positions; shape (n,), [rad or m].
+        v: Joint velocities; shape (n,), [rad/s or m/s]; or None.
     """
     n = len(table.joints)
     frames = table.frames(q.tolist())

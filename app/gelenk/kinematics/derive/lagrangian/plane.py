@@ -1,7 +1,7 @@
 """An arm in its plane: every joint turns about the plane's normal or slides within the plane.
 
-A frame is kept as R = Rn(φ) · K with the normal n, the sum φ of all angles so far and a constant K: so angles of all
-revolute joints add up, also where a prismatic joint between them has its axis across, as in an RPR arm.
+A frame is stored as R = Rn(φ) · K with the normal n, the sum φ of all angles so far and a constant K: so angles of all
+revolute joints add up, even if a prismatic joint between them has its axis in the plane, as in an RPR arm.
 """
 
 from dataclasses import dataclass, field
@@ -34,7 +34,7 @@ from gelenk.kinematics.derive.table import IDENTITY, LENGTH_TOLERANCE, Row, Tabl
 
 
 class NotPlanar(Exception):
-    """The arm does not move in a plane; says which joint leaves it."""
+    """The arm does not move in a plane; the message names the joint that leaves it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +42,10 @@ class PlanarArm:
     """The arm in the axes of frame 0.
 
     Attributes:
-        normal: Of the plane, about which angles count; None where no joint turns.
-        senses: Of each joint: 1 or -1 as it turns about the normal or against it, 0 where it slides.
-        centers: Of mass.
-        lines: On which line each centre of mass is measured where it is one number.
+        normal: Normal of the plane, about which angles count; None if no joint turns.
+        senses: For each joint 1 or -1 if it turns about the normal or against it, 0 if it slides.
+        centers: Centres of mass.
+        lines: Line on which each centre of mass is measured if it is one number.
     """
 
     normal: Vector | None
@@ -55,18 +55,18 @@ class PlanarArm:
 
 
 def one_group(_: int) -> int:
-    """In a plane all angles are about parallel axes."""
+    """Return the one group: in a plane all angles are about parallel axes."""
     return 0
 
 
 def shortened(vector: Vector) -> Vector:
-    """Each entry reduced."""
+    """Return a vector with each entry reduced."""
     return reduced(vector[0], one_group), reduced(vector[1], one_group), reduced(vector[2], one_group)
 
 
 @dataclass(slots=True)
 class _Walk:
-    """A frame on its way along the chain."""
+    """A frame that moves along the chain."""
 
     normal: Vector | None = None
     angle: Angle = ()
@@ -76,7 +76,7 @@ class _Walk:
     slides: list[Vector] = field(default_factory=list)
 
     def seen(self, vector: Vector) -> Vector:
-        """Rn(φ) times a vector: n (n·v) + cos φ (v - n (n·v)) + sin φ n × v."""
+        """Return Rn(φ) times a vector: n (n·v) + cos φ (v - n (n·v)) + sin φ n × v."""
         if self.normal is None or not self.angle:
             return vector
         along = scaled(dot(self.normal, vector), self.normal)
@@ -84,17 +84,17 @@ class _Walk:
         return shortened(plus(plus(along, across), scaled(sine(self.angle), cross(self.normal, vector))))
 
     def move(self, length: Polynomial, vector: Vector) -> None:
-        """Go so far along a vector that turns with the frame."""
+        """Move by a length along a vector that turns with the frame."""
         if length:
             self.position = shortened(plus(self.position, scaled(length, self.seen(vector))))
 
     def about_x(self, a: Polynomial, twist: Twist) -> None:
-        """Times Tx(a) Rx(α)."""
+        """Multiply by Tx(a) Rx(α)."""
         self.move(a, column(self.fixed, 0))
         self.fixed = _turned_x(self.fixed, twist)
 
     def about_z(self, row: Row) -> None:
-        """Times Rz(θ) Tz(d), of a joint."""
+        """Multiply by Rz(θ) Tz(d) of a joint."""
         z, angle = column(self.fixed, 2), row.angle
         if row.is_revolute:
             sense = self._sense(z, row.index)
@@ -117,16 +117,16 @@ class _Walk:
 
 
 def planar_arm(table: Table, bodies: tuple[Body, ...], values: dict[Atom, float]) -> PlanarArm:
-    """The arm in its plane.
+    """Place the arm in its plane.
 
     Args:
-        table: In exact terms.
-        bodies: One a row.
-        values: Takes the value of each coordinate of a centre of mass that was given.
+        table: Table in exact terms.
+        bodies: One per row.
+        values: Collects the value of each given coordinate of a centre of mass.
 
     Raises:
-        NotPlanar: It moves in no plane, as far as the table's exact angles tell.
-        TooManyTerms: A coordinate has more terms than anyone would read.
+        NotPlanar: It moves in no plane, by the table's exact angles.
+        TooManyTerms: A coordinate has too many terms.
     """
     walk, centers, lines = _Walk(), list[Vector](), list[Line]()
     for i, row in enumerate(table.rows):
@@ -148,7 +148,7 @@ def planar_arm(table: Table, bodies: tuple[Body, ...], values: dict[Atom, float]
 
 
 def _ahead(walk: _Walk, row: Row) -> Matrix:
-    """The constant part of the frame once the next row has turned it about x."""
+    """Return the constant part of the frame after the next row has turned it about x."""
     return _turned_x(walk.fixed, row.twist)
 
 
@@ -160,7 +160,7 @@ def _center(
     way: Vector,
     values: dict[Atom, float],
 ) -> Vector:
-    """A centre of mass: along the link's line, or by its coordinates in the link's frame."""
+    """Return a centre of mass, given along the link's line or by its coordinates in the link's frame."""
     if not isinstance(given, tuple):
         return shortened(plus(start, scaled(_length("lc", index, given, values), walk.seen(way))))
     inside = [_length(name, index, value, values) for name, value in zip(("xc", "yc", "zc"), given, strict=True)]
@@ -178,10 +178,10 @@ def _length(name: str, index: int, value: float | None, values: dict[Atom, float
 
 
 def _demand_plane(walk: _Walk) -> None:
-    """All slides lie within the plane.
+    """Check that all prismatic joints slide within the plane.
 
     Raises:
-        NotPlanar: One does not.
+        NotPlanar: A joint does not.
     """
     slides = walk.slides
     if walk.normal is not None:

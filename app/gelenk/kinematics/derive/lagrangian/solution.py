@@ -1,4 +1,4 @@
-"""The equations of motion of a table: formulas, numbers at given configurations, each compared with Pinocchio."""
+"""The equations of motion of a table: formulas, and numbers at given configurations, each compared with Pinocchio."""
 
 import math
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ from gelenk.model.dh import DhTable
 from gelenk.model.errors import CertificationFailed, InvalidField, counted
 
 LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
-"""What these fields of a request are called in errors."""
+"""Names of these fields of a request in errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,12 +29,12 @@ class MotionSolution:
     """The equations of motion.
 
     Attributes:
-        texts: In symbols.
-        numeric: One each given configuration; none where a number is missing.
-        steps: In words.
-        notes: What stays out, and why.
-        certificate: Of the formulas.
-        numeric_certificate: Of the numbers; None where there are none.
+        texts: The equations in symbols.
+        numeric: M, C and g at each given configuration; empty if a number is missing.
+        steps: The derivation in words.
+        notes: What is left out, and why.
+        certificate: Certificate of the formulas.
+        numeric_certificate: Certificate of the numbers; None without numbers.
     """
 
     texts: MotionTexts
@@ -46,11 +46,11 @@ class MotionSolution:
 
 
 def checked_dynamics(table: DhTable, chain: Chain, dynamics: Dynamics, count: int) -> tuple[Dynamics, Array | None]:
-    """The same with a body each row, and the velocities in the chain's order; shape (count, n), [rad/s or m/s].
+    """Return the dynamics with a body per row, and velocities in the chain's order; shape (count, n), [rad/s or m/s].
 
     Raises:
-        InvalidField: Not one link a row, or not one entry of velocities a configuration.
-        WrongJointCount, MissingJoint, UnknownJoint: An entry of the velocities is none of the table.
+        InvalidField: There is not one link per row, or not one entry of velocities per configuration.
+        WrongJointCount, MissingJoint, UnknownJoint: An entry of the velocities does not fit the table.
     """
     n, given = len(table.joints), len(dynamics.bodies)
     if given not in {0, n}:
@@ -67,7 +67,7 @@ def checked_dynamics(table: DhTable, chain: Chain, dynamics: Dynamics, count: in
 
 
 def motion_question(question: Question, table: DhTable, dynamics: Dynamics, seed: int) -> MotionQuestion:
-    """Input of the symbolic part: gravity in frame 0, and samples with a number for everything."""
+    """Return the input of the symbolic part: gravity in frame 0, and samples with a number for every symbol."""
     direction = tuple(_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
     gravity = Gravity(dynamics.gravity.size, (direction[0], direction[1], direction[2]))
     random = np.random.default_rng(seed)
@@ -83,7 +83,7 @@ def motion_question(question: Question, table: DhTable, dynamics: Dynamics, seed
 
 
 def _snapped(component: float) -> float:
-    """A component of a unit vector as the formulas read it."""
+    """Return a component of a unit vector as the formulas read it."""
     exact = exact_number(component)
     if exact is None:
         return component
@@ -109,23 +109,23 @@ def motion_solution(
     seed: int,
     checks: Checks,
 ) -> MotionSolution | None:
-    """Formulas and numbers, both certified; None where a formula is not what Pinocchio has.
+    """Certify formulas and numbers; return None if a formula differs from Pinocchio.
 
-    Everything after a wrong formula follows from it, so that all of them are left out then.
+    Everything after a wrong formula follows from it, so that all formulas are left out then.
 
     Args:
         texts: The formulas.
-        question: What they answer.
-        table: As it was given.
-        as_read: As the formulas read it.
-        dynamics: One body a row.
-        velocities: At the configurations, shape (N, n), [rad/s or m/s]; or None.
+        question: Input of the symbolic part.
+        table: Table as given.
+        as_read: Table as the formulas read it.
+        dynamics: Dynamics with one body per row.
+        velocities: Joint velocities at the configurations, shape (N, n), [rad/s or m/s]; or None.
         qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
-        seed: Of the samples.
-        checks: Takes a formula that fails.
+        seed: Random seed of the samples.
+        checks: Collects a formula that fails.
 
     Raises:
-        CertificationFailed: Numbers at given configurations are not Pinocchio's.
+        CertificationFailed: Numbers at given configurations differ from Pinocchio's.
     """
     in_frame_0 = replace(as_read, base=np.eye(4))
     fall = np.array(question.gravity.vector)

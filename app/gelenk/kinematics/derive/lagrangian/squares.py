@@ -1,4 +1,4 @@
-"""Squares of sums, and products of sums of rates, found in a polynomial by its coefficients."""
+"""Finds squares of sums, and products of sums of rates, in a polynomial by its coefficients."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -21,16 +21,16 @@ from gelenk.kinematics.derive.algebra import (
 )
 
 _MOST_SQUARES = 6
-"""Terms of a sum beyond which its square is not looked for."""
+"""Maximum number of terms of a sum whose square is searched for."""
 
 
 def is_rate(atom: Atom) -> bool:
-    """Whether it is q̇ or q̈ of a joint."""
+    """Check whether an atom is q̇ or q̈ of a joint."""
     return atom.kind == RATE
 
 
 def place_of(monomial: Monomial) -> tuple[object, ...]:
-    """Where a group stands: constants before sines and cosines, masses before inertias, x² before x y before y²."""
+    """Return the sort key of a group: masses before inertias, constants before waves, x² before x y before y²."""
     atoms = [atom for atom, power in monomial for _ in range(power)]
     turning = [atom for atom in atoms if atom.kind == MASS and atom.name == "I"]
     return bool(turning), any(atom.kind == TRIGONOMETRIC for atom in atoms), atoms
@@ -38,9 +38,9 @@ def place_of(monomial: Monomial) -> tuple[object, ...]:
 
 @lru_cache(maxsize=1024)
 def square_within(polynomial: Polynomial) -> tuple[Polynomial, Polynomial]:
-    """The largest sum whose square stands in a polynomial, and what is left then; ZERO where there is none.
+    """Return the largest sum whose square occurs in a polynomial, and the rest; the sum is ZERO if there is none.
 
-    Rates and what else there is do not mix in it: l² q̇_1² + 2 l² q̇_1 q̇_2 + l² q̇_2² has a factor l² instead.
+    The sum has only rates or none: l² q̇_1² + 2 l² q̇_1 q̇_2 + l² q̇_2² has a factor l² instead.
     """
     if any(is_rate(atom) for atom in polynomial.atoms) and not all(is_rate(atom) for atom in polynomial.atoms):
         return ZERO, polynomial
@@ -55,7 +55,7 @@ def square_within(polynomial: Polynomial) -> tuple[Polynomial, Polynomial]:
 
 
 def rate_factors(polynomial: Polynomial) -> list[Polynomial]:
-    """A quadratic form of rates as two sums of them, where one of these has the coefficients 0 and 1 alone."""
+    """Write a quadratic form of rates as two sums of rates, if one of these has only the coefficients 0 and 1."""
     rates = sorted(polynomial.atoms)
     if all(is_rate(atom) for atom in rates) and all(sum(p for _, p in m) == 2 for m in polynomial.terms):
         for count in range(2, len(rates) + 1):
@@ -68,7 +68,7 @@ def rate_factors(polynomial: Polynomial) -> list[Polynomial]:
 
 
 def _quotient(polynomial: Polynomial, chosen: Sequence[Atom], rates: Sequence[Atom]) -> Polynomial:
-    """What times the sum of the chosen rates would be the form, if anything is."""
+    """Return the only candidate that, times the sum of the chosen rates, may give the form."""
     terms: dict[Monomial, Fraction] = {}
     for atom in rates:
         pair: Monomial = ((atom, 2),) if atom in chosen else monomial_product(((atom, 1),), ((chosen[0], 1),))
@@ -77,7 +77,7 @@ def _quotient(polynomial: Polynomial, chosen: Sequence[Atom], rates: Sequence[At
 
 
 def _root(monomial: Monomial, value: Fraction) -> tuple[Monomial, Fraction] | None:
-    """The square root of a term, where it has one."""
+    """Return the square root of a term, if it has one."""
     top, bottom = isqrt(max(value.numerator, 0)), isqrt(value.denominator)
     exact = value > 0 and top * top == value.numerator and bottom * bottom == value.denominator
     if not exact or not monomial or any(power % 2 for _, power in monomial):
@@ -86,7 +86,7 @@ def _root(monomial: Monomial, value: Fraction) -> tuple[Monomial, Fraction] | No
 
 
 def _with_signs(roots: Sequence[tuple[Monomial, Fraction]], polynomial: Polynomial) -> Polynomial:
-    """The sum of some terms, each with the sign that its product with the first one has."""
+    """Return the sum of some terms, each with the sign of its product with the first one."""
     (first, size), *others = roots
     signs = [1 if polynomial.terms.get(monomial_product(first, m), Fraction(0)) > 0 else -1 for m, _ in others]
     terms = {m: value * sign for (m, value), sign in zip(others, signs, strict=True)}

@@ -1,11 +1,11 @@
-"""The equations of motion in the order of the lecture: short words, and the formulas they speak of."""
+"""The equations of motion in the order of the lecture: short texts, and the formulas that they refer to."""
 
 from gelenk.kinematics.derive.lagrangian.texts import MotionTexts
 from gelenk.kinematics.derive.steps import Step
 
 
 def motion_steps(found: MotionTexts) -> list[Step]:
-    """Centres of mass, energies, mass matrix, Coriolis and gravity terms, equations of motion."""
+    """Return the steps: centres of mass, energies, mass matrix, Coriolis and gravity terms, equations of motion."""
     return [_centers(found), _energies(found), _mass_matrix(found), _coriolis(found), _gravity(found), _rows(found)]
 
 

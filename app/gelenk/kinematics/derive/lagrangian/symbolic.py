@@ -1,7 +1,7 @@
 """The equations of motion of one table in symbols, as text and as values at samples.
 
-Plain data in and out, so that it can run in another process, and it remembers its last results. The values come from
-the very polynomials that are written out.
+Input and output are plain data, so that this can run in another process; the last results are cached. The values come
+from the very polynomials that are written out.
 """
 
 from collections.abc import Iterable, Sequence
@@ -38,7 +38,7 @@ from gelenk.kinematics.derive.texts import Entry, Grid
 from gelenk.kinematics.derive.typeset import MatrixText, Notation, Text
 
 MAX_JOINTS = 3
-"""More joints than this make the equations too long to write out."""
+"""Maximum number of joints: with more, the equations are too long to write out."""
 
 _MOVING = {"m", "I", "g", "lc", "xc", "yc", "zc", "gammax", "gammay", "gammaz", "qd", "qdd"}
 """Names of the atoms that only equations of motion have."""
@@ -46,7 +46,7 @@ _MOVING = {"m", "I", "g", "lc", "xc", "yc", "zc", "gammax", "gammay", "gammaz", 
 
 @lru_cache(maxsize=16)
 def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
-    """The equations of motion, or why there are none."""
+    """Return the equations of motion, or why there are none."""
     table, values = read_table(question.table), dict[Atom, float]()
     if len(table.rows) > MAX_JOINTS:
         return NoMotion(f"the equations of motion are written out for up to {MAX_JOINTS} joints")
@@ -78,7 +78,7 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
 
 
 def _of_motion(found: Equations) -> Iterable[Polynomial]:
-    """The entries of M, C and g."""
+    """Return the entries of M, C and g."""
     return [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
 
 
@@ -108,7 +108,7 @@ def _christoffel(found: Equations, notation: Notation) -> list[ChristoffelText]:
 
 
 def _row(found: Equations, i: int, notation: Notation) -> Text:
-    """A row of M q̈ + C q̇ + g = τ."""
+    """Write a row of M q̈ + C q̇ + g = τ."""
     parts = [written(M * rate(j, 2), notation, BY_MASS) for j, M in enumerate(found.mass_matrix[i], start=1)]
     parts.append(written(found.coriolis_vector[i], notation, BY_WAVE))
     parts.append(written(found.gravity_vector[i], notation, BY_WEIGHT))
@@ -117,7 +117,7 @@ def _row(found: Equations, i: int, notation: Notation) -> Text:
 
 
 def _legend(found: Equations, lines: Sequence[Line], table: Table, notation: Notation) -> list[Entry]:
-    """The symbols: those of the table as ever, then those of motion alone."""
+    """Return the legend: first the symbols of the table, then those of the equations of motion alone."""
     atoms = {atom for entry in found.all for atom in entry.atoms}
     entries = legend((symbol(atom) for atom in atoms if atom.name not in _MOVING), table, notation)
     for atom in sorted(atoms):
@@ -130,7 +130,7 @@ def _legend(found: Equations, lines: Sequence[Line], table: Table, notation: Not
 
 
 def _meaning(words: str) -> Text:
-    """Words; a square of a unit, at their end, is no text in LaTeX."""
+    """Write words; a squared unit at their end is not text in LaTeX."""
     square = "^{2}" if words.endswith("^2") else ""
     return Text(rf"\text{{{words.removesuffix('^2')}}}{square}", words)
 
@@ -158,7 +158,7 @@ def _words(atom: Atom, lines: Sequence[Line]) -> str:
 
 
 def _values(found: Equations, table: Table, values: dict[Atom, float], sample: MotionSample) -> MotionValues:
-    """Every formula at a sample."""
+    """Evaluate every formula at a sample."""
     known = {**table.values, **values, **_sampled(sample)}
     atoms = {atom for entry in found.all for atom in entry.atoms}
     known = replace(table, values=known).atom_values(sample.q, atoms)
@@ -185,7 +185,7 @@ def _values(found: Equations, table: Table, values: dict[Atom, float], sample: M
 
 
 def _sampled(sample: MotionSample) -> dict[Atom, float]:
-    """The values of what has none by itself."""
+    """Return the values of the symbols that have none by themselves."""
     found: dict[Atom, float] = {}
     for i, (body, v, a) in enumerate(zip(sample.bodies, sample.v, sample.a, strict=True), start=1):
         found |= {Atom(RATE, (i,), "qd"): v, Atom(RATE, (i,), "qdd"): a}

@@ -1,4 +1,4 @@
-"""What goes into the symbolic part of the equations of motion and comes out of it: plain data."""
+"""Input and output of the symbolic part of the equations of motion, as plain data."""
 
 from dataclasses import dataclass
 
@@ -10,13 +10,13 @@ from gelenk.kinematics.derive.typeset import MatrixText, Style, Text
 
 @dataclass(frozen=True, slots=True)
 class MotionSample:
-    """A state of the arm, and its bodies with a number for whatever was left out.
+    """A state of the arm, and its bodies with a number for each quantity that was left out.
 
     Attributes:
         q: Joint positions, [rad or m].
         v: Joint velocities, [rad/s or m/s].
         a: Joint accelerations, [rad/s² or m/s²].
-        bodies: One a joint.
+        bodies: One per joint.
     """
 
     q: Configuration
@@ -32,10 +32,10 @@ class MotionQuestion:
     Attributes:
         table: The table.
         style: `short` for c_{12}, `full` for cos(q_1 + q_2).
-        keeps_symbols: Whether lengths and masses stay symbols; else what values they have stand in the formulas.
-        bodies: One a joint.
-        gravity: In the axes of frame 0.
-        samples: States at which the formulas are evaluated as well.
+        keeps_symbols: Whether lengths and masses stay symbols; otherwise the formulas contain the given values.
+        bodies: One per joint.
+        gravity: Free fall in the axes of frame 0.
+        samples: States at which the formulas are also evaluated.
     """
 
     table: TableNumbers
@@ -48,7 +48,7 @@ class MotionQuestion:
 
 @dataclass(frozen=True, slots=True)
 class BodyText:
-    """A link: where its centre of mass is, how it moves, and its energies."""
+    """A link: its centre of mass, its motion, and its energies."""
 
     center: MatrixText
     velocity: MatrixText
@@ -59,7 +59,7 @@ class BodyText:
 
 @dataclass(frozen=True, slots=True)
 class ChristoffelText:
-    """c_ijk = c_ikj, by numbers of joints from 1, j ≤ k."""
+    """A Christoffel symbol c_ijk = c_ikj; joints are numbered from 1, and j ≤ k."""
 
     i: int
     j: int
@@ -69,7 +69,7 @@ class ChristoffelText:
 
 @dataclass(frozen=True, slots=True)
 class MotionValues:
-    """Everything at one sample; vectors in frame 0, Christoffel symbols as c[i][j][k]."""
+    """All quantities at one sample; vectors in frame 0, Christoffel symbols as c[i][j][k]."""
 
     centers: Grid
     velocities: Grid
@@ -86,21 +86,21 @@ class MotionValues:
 
 @dataclass(frozen=True, slots=True)
 class MotionTexts:
-    """The equations of motion.
+    """The equations of motion as text.
 
     Attributes:
         legend: Symbols beyond those of the transforms.
         gravity: The acceleration of free fall in frame 0.
-        bodies: One a joint.
+        bodies: One per joint.
         mass_matrix: M.
-        christoffel: Those that differ from zero.
+        christoffel: The symbols that differ from zero.
         coriolis: C.
         coriolis_vector: C q̇.
         gravity_vector: g.
         skew: Ṁ - 2C.
         rows: M q̈ + C q̇ + g = τ, row by row.
         missing: Symbols of M, C and g that have no value.
-        values: At each sample.
+        values: Values at each sample.
     """
 
     legend: list[Entry]
@@ -119,6 +119,6 @@ class MotionTexts:
 
 @dataclass(frozen=True, slots=True)
 class NoMotion:
-    """Why there are no equations of motion."""
+    """The reason why there are no equations of motion."""
 
     reason: str

@@ -1,10 +1,10 @@
-"""Equations of motion as a textbook prints them: m_1 l_{c1}² + m_2 (a_1² + l_{c2}² + 2 a_1 l_{c2} c_2) + I_1 + I_2.
+"""Writes equations of motion as textbooks print them: m_1 l_{c1}² + m_2 (a_1² + l_{c2}² + 2 a_1 l_{c2} c_2) + I_1.
 
-A product is written number, masses, gravity, brackets of these and of lengths, sines and cosines, rates: each factor
-where its first kind of atom belongs. A sum is grouped by masses, or by sines and cosines, or by rates, in the order
-that its manner allows, and of several groupings the shortest is taken, brackets within brackets counting extra.
-Brackets come from what all terms share, from factors without a common kind of atom, from squares of sums and from sums
-of rates; each is exact, nothing is dropped.
+A product is written in the order number, masses, gravity, brackets of these and of lengths, sines and cosines, rates:
+each factor where its first kind of atom belongs. A sum is grouped by masses, by sines and cosines, or by rates, in the
+orders that its manner allows; the shortest grouping is taken, and nested brackets count extra. Brackets come from what
+all terms share, from factors without a common kind of atom, from squares of sums and from sums of rates; each is
+exact, nothing is dropped.
 """
 
 from collections.abc import Callable, Sequence
@@ -34,9 +34,9 @@ Factor: TypeAlias = tuple[Polynomial, int]
 """A bracket and its power."""
 
 _LARGEST_RATIO = 4
-"""A number with digits is taken out of a bracket of rates only where whole numbers up to this are left in it."""
+"""A decimal number is taken out of a bracket of rates only if whole numbers up to this are left in it."""
 _NESTING = 12
-"""Characters that a bracket within another counts."""
+"""Number of characters that a nested bracket counts."""
 
 
 def _is_mass(atom: Atom) -> bool:
@@ -56,8 +56,9 @@ class Manner:
     """How a kind of formula is written.
 
     Attributes:
-        groupings: Ways to group a sum, one kind of atoms after the other.
-        distributes: Whether what several groups share stands before a bracket, or before each, or either.
+        groupings: Ways to group a sum, each by kinds of atoms in turn.
+        distributes: Whether a factor that several groups share is written in each (True) or before a bracket, or both
+            tried.
         keeps_lengths: Whether a length that sines and cosines and constants share stays within the bracket:
             l² + a l c and not l (l + a c).
     """
@@ -68,21 +69,21 @@ class Manner:
 
 
 BY_MASS = Manner(((_is_mass, _is_wave, is_rate),), keeps_lengths=True)
-"""For M: a bracket a mass."""
+"""For M: one bracket per mass."""
 BY_ENERGY = Manner(((_is_mass, _is_wave, is_rate), (_is_mass, is_rate, _is_wave), (_is_mass, _is_static)), (True,))
-"""For T: one sum of the mass, one of the inertia."""
+"""For T: one sum for the mass, one for the inertia."""
 BY_HEIGHT = Manner(((_is_mass, _is_wave),))
 """For U."""
 BY_WAVE = Manner(
     ((_is_wave, is_rate, _is_mass), (is_rate, _is_wave, _is_mass), (_is_mass, _is_wave, is_rate)), (True, False)
 )
-"""For C: a product a sine or cosine."""
+"""For C: one product per sine or cosine."""
 BY_WEIGHT = Manner(((_is_wave, _is_mass),), (True,))
-"""For g: likewise, gravity in each."""
+"""For g: likewise, with gravity in each product."""
 
 
 def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Text:
-    """A polynomial in a manner."""
+    """Write a polynomial in a manner."""
     plain = notation.numbered(polynomial)
     if not plain:
         return Text("0", "0")
@@ -92,14 +93,14 @@ def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Text:
 
 
 def written_matrix(rows: Sequence[Sequence[Polynomial]], notation: Notation, manner: Manner) -> MatrixText:
-    """A matrix of polynomials."""
+    """Write a matrix of polynomials in a manner."""
     texts = [[written(entry, notation, manner) for entry in row] for row in rows]
     body = r" \\ ".join(" & ".join(text.latex for text in row) for row in texts)
     return MatrixText(rf"\begin{{bmatrix}} {body} \end{{bmatrix}}", [[text.plain for text in row] for row in texts])
 
 
 def _length(text: Text) -> int:
-    """Of a formula, each bracket within another counting extra."""
+    """Return the length of a formula; nested brackets count extra."""
     depth, deepest = 0, 0
     for character in text.plain:
         depth += {"(": 1, ")": -1}.get(character, 0)
@@ -108,7 +109,7 @@ def _length(text: Text) -> int:
 
 
 def summed(texts: Sequence[Text]) -> Text:
-    """A sum of formulas; a sign at the front of one becomes the sum's."""
+    """Write a sum of formulas; a minus at the front of one becomes the sum's."""
     latex, plain = "", ""
     for text in texts:
         if text.plain == "0":
@@ -124,7 +125,7 @@ def summed(texts: Sequence[Text]) -> Text:
 
 @dataclass(frozen=True, slots=True)
 class _Product:
-    """Number · powers of atoms · brackets."""
+    """A product: number · powers of atoms · brackets."""
 
     factor: Fraction
     atoms: Monomial
@@ -132,7 +133,7 @@ class _Product:
 
     @property
     def is_a_sum(self) -> bool:
-        """Whether it is nothing but one bracket, and at most a number before it."""
+        """Whether it is only one bracket, perhaps with a number before it."""
         return not self.atoms and len(self.brackets) == 1 and self.brackets[0][1] == 1
 
 
@@ -144,14 +145,14 @@ class _Writer:
     keeps_lengths: bool
 
     def whole(self, polynomial: Polynomial) -> Text:
-        """A formula that stands alone: a number that all groups share stays with each."""
+        """Write a formula that stands alone; if `distributes`, a factor that all groups share stays in each."""
         whole = self._product(polynomial)
         if whole.is_a_sum or (self.distributes and len(_groups(polynomial, self.keys[0])) > 1):
             return self._sum(polynomial)
         return self._text(whole)
 
     def _product(self, polynomial: Polynomial) -> _Product:
-        """What all terms share, then factors of different kinds, then squares and sums of rates."""
+        """Factorise by what all terms share, then by kinds of atoms, then into squares and sums of rates."""
         factor, atoms, rest = self._taken_out(polynomial)
         if rest == ONE:
             return _Product(factor, atoms, ())
@@ -178,7 +179,7 @@ class _Writer:
         return factor, common, rest
 
     def _shared_number(self, polynomial: Polynomial) -> Fraction:
-        """The number that stands before the bracket; one with digits only where the bracket gets shorter by it."""
+        """Return the number before the bracket; a decimal number only if the bracket gets shorter."""
         values = list(polynomial.terms.values())
         if len(values) == 1:
             return values[0]
@@ -218,7 +219,7 @@ class _Writer:
         return summed([self._text(self._product(part)) for part in self._summands(polynomial, self.keys)])
 
     def _summands(self, polynomial: Polynomial, keys: Sequence[Key]) -> list[Polynomial]:
-        """Groups that are products; one that is none is grouped on."""
+        """Return groups that are products; a group that is not is divided further."""
         for i, key in enumerate(keys):
             groups = _same_rates(polynomial) if key is _is_static else _groups(polynomial, key)
             if len(groups) > 1:
@@ -241,7 +242,7 @@ def _is_small(value: Fraction, most: int = 1) -> bool:
 
 
 def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
-    """The terms by what they hold of a kind of atoms."""
+    """Group the terms by their atoms of a kind."""
     groups: dict[Monomial, dict[Monomial, Fraction]] = {}
     for monomial, value in polynomial:
         groups.setdefault(tuple(item for item in monomial if key(item[0])), {})[monomial] = value
@@ -249,7 +250,7 @@ def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
 
 
 def _same_rates(polynomial: Polynomial) -> list[Polynomial]:
-    """The terms by lengths, sines and cosines, grouped where their rates differ only by a number."""
+    """Group the terms by lengths, sines and cosines; groups whose rates differ only by a number are joined."""
     alike: dict[Polynomial, list[Polynomial]] = {}
     for group in _groups(polynomial, _is_static):
         rates = {tuple(item for item in m if is_rate(item[0])): value for m, value in group}
