@@ -269,7 +269,7 @@ class BoundedProtocol(HttpToolsProtocol):
         self.on_response_complete()
 
     def _pause(self, told: float) -> None:
-        """Read nothing for nearly as long as the client shall wait, [s]."""
+        """Read nothing for nearly as long as the client is asked to wait, [s]."""
         if not self.transport.is_closing():
             self.flow.pause_reading()
             pause = min(told, _LONGEST_PAUSE) * uniform(_SHORTEST_PAUSE, 1.0)  # noqa: S311 - nothing secret

@@ -28,7 +28,7 @@ def table_route(pool_client: PoolClient, max_body_bytes: int) -> DocumentedRoute
         tip_frame: Annotated[FrameName | None, Query(openapi_examples={"panda": {"value": "panda_link8"}})] = None,
         snap_tolerance: Annotated[SnapTolerance, Query(openapi_examples={"exact": {"value": 0.0}})] = 0.0,
     ) -> FromUrdfAnswer:
-        """Returns the DH table of this robot's default chain, or of the chain between the named frames, as `from-urdf` does."""
+        """Returns the DH table of the default chain, or of the chain between the named frames, as `from-urdf` does."""
 
     async def get_table(request: BoundedRequest) -> Response:
         task_request = TaskRequest(

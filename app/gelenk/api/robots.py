@@ -51,7 +51,7 @@ _LIST_SECONDS = 5.0
 
 
 def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
-    """Return the router of operations that read or remove robots; workers read the descriptions, which are untrusted."""
+    """Return the router of operations that read or remove robots; workers read the untrusted descriptions."""
     router = APIRouter(prefix="/v1/robots", tags=["Robots"])
     listed = Listed(library, pool_client)
 

@@ -47,7 +47,7 @@ class Sampled:
     Attributes:
         samples: Shape (N, 1 + 3n): time [s], joint positions [rad or m], velocities [rad/s or m/s], accelerations.
         duration: Duration of the whole motion, [s].
-        completed_fraction: How much of the way can be done, 0 to 1.
+        completed_fraction: Completed fraction of the segments, each weighted equally, 0 to 1.
         failure: Why the rest cannot be done, or None.
     """
 

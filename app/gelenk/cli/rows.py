@@ -33,7 +33,7 @@ class Rows:
     """Rows as the user gave them.
 
     Attributes:
-        source: Where they come from, for errors.
+        source: Name of their source, for errors.
         rows: Cells as text, numbers, or what JSON holds in place of a row.
         lines: Line number of each row in a text.
         header: Names of the columns, if the first row holds names.

@@ -27,7 +27,7 @@ _POSE_FIELDS = frozenset({"position", "matrix", *ORIENTATIONS})
 
 
 def _target_kind(value: Any) -> str:
-    """Tell a pose from a configuration by name: a joint may be called `position`, but its value is a number."""
+    """Distinguish a pose from a configuration by name: a joint may be called `position`, but its value is a number."""
     if isinstance(value, Pose):  # on the way out
         return "<pose>"
     if not isinstance(value, dict):

@@ -18,7 +18,7 @@ MAX_REPORTS = 1000
 
 
 def _kind(value: Any) -> str:
-    """Tell a word from a number: a query has words alone, some of them numbers."""
+    """Distinguish a word from a number: a query has words alone, some of them numbers."""
     return "<word>" if isinstance(value, str) and not value.strip("-+").startswith(tuple("0123456789.")) else "<number>"
 
 

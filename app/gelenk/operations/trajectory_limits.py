@@ -26,7 +26,7 @@ TURNING = 1.0
 SLIDING = 0.25
 """Assumed velocity limit of a prismatic joint, [m/s]: the reduced speed of ISO 10218."""
 PLACEHOLDER = 100.0
-"""Velocity limit, [rad/s or m/s], from which on it stands for none: robots' files have 100, 1000, 10000 and 1e16."""
+"""Velocity limit, [rad/s or m/s], from which on a limit means none: robot files use 100, 1000, 10000 and 1e16."""
 ACCELERATION_RATE = 2.0
 JERK_RATE = 10.0
 """Assumed limit divided by that of the derivative before it, [1/s]."""

@@ -1,4 +1,4 @@
-"""What is found out once about a robot, so that the event loop itself can answer requests of a kind afterwards."""
+"""Facts found once about a robot, so that the event loop itself can answer requests of a kind afterwards."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ _Request = TypeVar("_Request", bound=Payload)
 
 @dataclass(frozen=True, slots=True)
 class WarmUp(Generic[_Request]):
-    """Something to find out about a robot.
+    """A fact to find out about a robot.
 
     Attributes:
         is_known: Checks whether this process knows it.

@@ -1,7 +1,7 @@
 """Polynomials in sines and cosines of sums of joint angles, lengths and constants: the algebra of a worked solution.
 
 Coefficients are exact. An angle is a sum of joint angles ϑ_i of parallel axes, written as its signed indices in order
-of magnitude: (2, 3) is ϑ_2 + ϑ_3, (1, 2, -4) is ϑ_1 + ϑ_2 - ϑ_4; an index that stands twice counts twice. The first
+of magnitude: (2, 3) is ϑ_2 + ϑ_3, (1, 2, -4) is ϑ_1 + ϑ_2 - ϑ_4; an index that occurs twice counts twice. The first
 index of an atom is positive, so that each sine and cosine has one name.
 
 No simplification is searched for: sums of angles come from the chain itself, and `reduced` turns products of sines and
