@@ -1,7 +1,7 @@
-"""Paths whose position is a polynomial of some parameter u, brought to arc length: splines and blended corners.
+"""Paths whose position is a polynomial of a parameter u, reparametrised by arc length: splines and blended corners.
 
-The arc length s(u) = ∫ ‖dp/du‖ du is Gauss's formula on panels that are halved until the sum no longer changes; its
-inverse is Newton's method inside of a panel. The derivatives by s follow from those by u exactly.
+The arc length s(u) = ∫ ‖dp/du‖ du is computed by Gauss quadrature on panels that are halved until the sum no longer
+changes, and inverted by Newton's method within a panel. Derivatives by s follow exactly from those by u.
 """
 
 from collections.abc import Sequence
@@ -39,22 +39,22 @@ SplineBoundary: TypeAlias = Literal["natural", "not_a_knot", "periodic"]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 _FINEST = 256
-"""Panels into which a piece is cut at most."""
+"""Number of panels per piece at which halving stops."""
 _LENGTH_TOLERANCE = 1e-13
 _NEWTON_STEPS = 40
 _SQUARED = 1e-11
-"""Error of the arc length, in fractions of the whole, of which one more of Newton's steps leaves rounding alone."""
+"""Error of the arc length, as a fraction of the whole, from which one more Newton step leaves only rounding errors."""
 _SLOWEST = 1e-12
-"""Share of the mean speed below which dp/du vanishes: a cusp, where there is no tangent."""
+"""Fraction of the mean speed below which dp/du counts as zero: a cusp, which has no tangent."""
 
 
 @dataclass(frozen=True)
 class PolynomialPath:
-    """p(u) a polynomial on each piece, and an orientation over the whole of u.
+    """A path with p(u) a polynomial on each piece, and an orientation over the whole range of u.
 
     Attributes:
         position: p(u); 3 coordinates, [m].
-        orientation: Its x goes from 0 to 1 as u does from its first break to its last.
+        orientation: Path of the orientation; its x runs from 0 to 1 as u runs from its first break to its last.
     """
 
     position: PiecewisePolynomial
@@ -62,7 +62,7 @@ class PolynomialPath:
 
     @property
     def unit(self) -> Unit:
-        """Metres."""
+        """Always metres."""
         return "m"
 
     @property
@@ -82,12 +82,12 @@ class PolynomialPath:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """See `Path`: none, as far as position and orientation are smooth in u."""
+        """Always empty: position and orientation have to be smooth in u."""
         return ()
 
     @property
     def knots(self) -> Array:
-        """Where along the path each break of the position is, as s; shape (M + 1,), [m]."""
+        """Values of s at the breaks of the position; shape (M + 1,), [m]."""
         edges, lengths = self._table
         return lengths[np.searchsorted(edges, self.position.breaks)]
 
@@ -112,7 +112,7 @@ class PolynomialPath:
 
     @cached_property
     def _table(self) -> tuple[Array, Array]:
-        """Edges of the panels in u, and the arc length up to each; shape (P + 1,) each."""
+        """Edges of the panels in u, and the arc length up to each edge; shape (P + 1,) each."""
         panels, before = 8, np.inf
         while True:
             shares = np.linspace(0.0, 1.0, panels, endpoint=False)
@@ -125,7 +125,7 @@ class PolynomialPath:
             panels, before = 2 * panels, total
 
     def _lengths(self, begin: Array, finish: Array) -> Array:
-        """Arc length between pairs of u that are close together; shape (N,), [m]."""
+        """Return the arc lengths between pairs of u that are close together; shape (N,), [m]."""
         half = 0.5 * (finish - begin)
         u = (begin + half)[:, None] + half[:, None] * _NODES
         lengths: Array = half * (self._speeds(u.ravel()).reshape(u.shape) @ _WEIGHTS)
@@ -136,7 +136,7 @@ class PolynomialPath:
 
     @cached_property
     def _inverse(self) -> PiecewisePolynomial:
-        """About u(s): quintics with its value and two derivatives at the edges of the panels."""
+        """Approximation of u(s): quintics with its value and two derivatives at the edges of the panels."""
         edges, lengths = self._table
         _, first, second = self.position.rates_at(edges)
         slopes = 1.0 / np.maximum(_sizes(first), np.finfo(float).tiny)
@@ -145,7 +145,7 @@ class PolynomialPath:
         return PiecewisePolynomial(lengths, hermite_pieces(ends[:, :-1], ends[:, 1:], np.diff(lengths)))
 
     def _parameters(self, s: Array) -> Array:
-        """Values of u at arc lengths; shape (N,)."""
+        """Return u at arc lengths s; shape (N,)."""
         edges, lengths = self._table
         panel = np.clip(np.searchsorted(lengths, s, side="right") - 1, 0, len(edges) - 2)
         begin, low, high = edges[panel], edges[panel], edges[panel + 1]
@@ -168,17 +168,17 @@ class PolynomialPath:
 def spline(
     waypoints: Poses, boundary: SplineBoundary = "natural", orientation: ViaOrientation = "smooth"
 ) -> PolynomialPath:
-    """A smooth path through poses: C² in position and in orientation, over the length of the chords.
+    """Return a smooth path through poses: C² in position and in orientation, parametrised by chord length.
 
     Args:
-        waypoints: At least two.
-        boundary: Of the cubic spline of positions; a clamped one would have no tangent at its ends. With `periodic` the
-            positions close smoothly, the orientations do not.
-        orientation: See `through_orientations`; `slerp` jumps, and is not for this.
+        waypoints: At least two poses.
+        boundary: Boundary condition of the cubic spline of positions; a clamped one would have no tangent at its ends.
+            With `periodic` the positions close smoothly, but the orientations do not.
+        orientation: See `through_orientations`; `slerp` is not suitable, because its angular rate jumps.
 
     Raises:
-        InvalidField: There are fewer than two, two in succession share a position, or the ends of a periodic one are
-            apart.
+        InvalidField: There are fewer than two poses, successive ones share a position, the ends of a periodic path
+            differ, or the path has a cusp.
     """
     if len(waypoints) < 2:
         raise InvalidField("waypoints", "a spline needs at least two poses, including the start")
@@ -197,20 +197,20 @@ def spline(
 def blended_lines(
     poses: Poses, radii: Sequence[float], field: str = "blend_radius", turns: Sequence[Turn] | None = None
 ) -> PathSequence:
-    """A polyline through poses whose corners are cut: a parabola begins and ends at a distance from each.
+    """Return a polyline through poses whose corners are replaced by parabolas.
 
-    At constant speed of its parameter that parabola is the fly-over with equal speeds. Position and orientation have
-    continuous derivatives by s, and their second derivatives jump where a parabola begins or ends.
+    If its parameter advances at a constant rate, such a parabola is the fly-over with equal speeds. Position and
+    orientation have continuous first derivatives by s; second derivatives jump where a parabola begins or ends.
 
     Args:
-        poses: At least two, no two in succession at one position.
-        radii: One for each inner pose, more than 0, [m].
-        field: Which field of a request the radii are, for refusals.
-        turns: From each pose to the next, each beginning where the one before ends, all about axes or all by ZYZ
-            angles; about one axis each if left out.
+        poses: At least two poses; successive ones differ in position.
+        radii: Distance from each inner pose at which its parabola begins and ends, > 0, [m].
+        field: Request field that contains the radii, for refusals.
+        turns: Turns from each pose to the next, each beginning where the previous one ends, all about axes or all by
+            ZYZ angles; by default each about one axis.
 
     Raises:
-        InvalidField: A leg is shorter than the radii at its ends together, or leads back along the one before.
+        InvalidField: A leg is shorter than the sum of the radii at its ends, or turns back along the previous one.
     """
     Ts = poses.matrices()
     if turns is None:
@@ -234,7 +234,7 @@ def blended_lines(
 
 
 def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float) -> PolynomialPath:
-    """The parabola between two legs: p(u) = p_B - (1 - u)² a + u² b, and the orientation likewise."""
+    """Return the parabola between two legs, p(u) = p_B - (1 - u)² a + u² b, with the orientation blended likewise."""
     before, after = legs
     a = radius * before.curve.at(np.array([before.length]))[1][0]
     corner, directions, _ = after.curve.at(np.array([0.0]))
@@ -245,7 +245,7 @@ def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float) -> 
 
 
 def _turn_over(turns: Sequence[Turn], entry: float, leaving: float) -> OrientationPath:
-    """Over the corner between two turns, from x = `entry` on the first to x = `leaving` on the second."""
+    """Return the turn over the corner of two turns, from x = `entry` on the first to x = `leaving` on the second."""
     before, after = turns
     if isinstance(before, ZyzPath) and isinstance(after, ZyzPath):
         return zyz_corner(before.triple_at(entry), after.start, after.triple_at(leaving))
@@ -259,10 +259,10 @@ def _sizes(vectors: Array) -> Array:
 
 
 def _refuse_cusps(path: PolynomialPath) -> None:
-    """Refuse a spline that comes to rest on its way.
+    """Refuse a spline with a cusp at the edge of a panel.
 
     Raises:
-        InvalidField: It does.
+        InvalidField: There is a cusp.
     """
     edges = path._table[0]
     speeds = path._speeds(edges)

@@ -1,4 +1,4 @@
-"""The worked solution of a cubic spline: the system A(h) v = b, and its pieces."""
+"""Worked solution of a cubic spline: the system A(h) v = b, and the pieces of the spline."""
 
 from collections.abc import Sequence
 
@@ -51,7 +51,7 @@ _BOUNDARIES: dict[Boundary, tuple[str, tuple[str, ...]]] = {
 
 
 def spline_steps(spline: Spline, boundary: Boundary) -> tuple[Step, ...]:
-    """Conditions, system, velocities at the knots, pieces."""
+    """Return the worked steps: conditions, system, velocities at the knots, pieces."""
     segments, joints = len(spline.times) - 1, spline.knots.shape[1]
     N = segments + 1 - len(spline.fictitious)
     inner = segments - 1

@@ -1,8 +1,8 @@
-"""Cubic splines through knots: C², by the tridiagonal system A(h) v = b of the velocities at the knots.
+"""C² cubic splines through knots, from the tridiagonal system A(h) v = b for the velocities at the knots.
 
-Row k of it says that the acceleration goes on across knot k + 1; what happens at both ends is the boundary's:
-clamped (velocities given), natural (no acceleration), not-a-knot (the jerk goes on across the second and the last but
-one knot), periodic, or velocities and accelerations both given, which takes two fictitious knots.
+Row k states that the acceleration is continuous at knot k + 1. The boundary condition determines both ends: clamped
+(given velocities), natural (zero acceleration), not-a-knot (continuous jerk at the second and the second to last knot),
+periodic, or assigned (given velocities and accelerations, which requires two fictitious knots).
 """
 
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ from gelenk.trajectory.tridiagonal import Tridiagonal, solution
 Boundary: TypeAlias = Literal["clamped", "natural", "not_a_knot", "periodic", "assigned"]
 
 CLOSED = 1e-9
-"""How far the ends of a periodic spline may be from each other, in fractions of its largest coordinate or of 1."""
+"""Largest gap between the ends of a periodic spline, as a fraction of its largest coordinate, or of 1 if larger."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """Velocities and accelerations at both ends; each of shape (n,), zero if left out.
+    """Velocities and accelerations at both ends; shape (n,) each.
 
     Attributes:
         start_velocity: [rad/s or m/s].
@@ -40,23 +40,23 @@ class Ends:
 
     @classmethod
     def at_rest(cls, joints: int) -> "Ends":
-        """All zero."""
+        """Return zero velocities and accelerations."""
         return cls(*(np.zeros(joints) for _ in range(4)))
 
 
 @dataclass(frozen=True, slots=True)
 class Spline:
-    """A spline and the system that it comes from.
+    """A spline and the linear system that determines it.
 
     Attributes:
-        motion: Positions in time.
-        times: Of the knots, fictitious ones included; shape (N,), [s].
-        knots: Positions there; shape (N, n), [rad or m].
-        velocities: v there; shape (N, n), [rad/s or m/s].
-        matrix: A, of the unknown velocities; None where there is nothing to solve.
+        motion: Positions over time.
+        times: Times of the knots, including fictitious ones; shape (N,), [s].
+        knots: Positions of the knots; shape (N, n), [rad or m].
+        velocities: Velocities v at the knots; shape (N, n), [rad/s or m/s].
+        matrix: A, for the unknown velocities; None if there is nothing to solve.
         right_side: b; shape (unknowns, n).
-        unknowns: Which knots' velocities A is about, from 0; shape (unknowns,).
-        fictitious: Which knots are fictitious, from 0.
+        unknowns: Indices of the knots whose velocities A determines, from 0; shape (unknowns,).
+        fictitious: Indices of the fictitious knots, from 0.
     """
 
     motion: PiecewisePolynomial
@@ -76,18 +76,19 @@ def cubic_spline(
     ends: Ends | None = None,
     fictitious_times: tuple[float, float] | None = None,
 ) -> Spline:
-    """The cubic spline through knots.
+    """Return the cubic spline through knots.
 
     Args:
-        times: Increasing; shape (N,), N ≥ 2, [s].
+        times: Increasing times; shape (N,), N ≥ 2, [s].
         knots: Positions; shape (N, n), [rad or m].
-        boundary: What happens at both ends.
-        ends: Velocities of a clamped boundary; velocities and accelerations of an assigned one.
-        fictitious_times: When the two fictitious knots of an assigned boundary are, within the first and the last
-            segment; in their middles if left out, at the thirds of a single one.
+        boundary: Boundary condition at both ends.
+        ends: Velocities of a clamped boundary; velocities and accelerations of an assigned one; zero by default.
+        fictitious_times: Times of the two fictitious knots of an assigned boundary, in the first and the last segment,
+            [s]; by default the midpoints of these segments, or the thirds of a single one.
 
     Raises:
-        InvalidField: Times that do not increase, the ends of a periodic spline apart, fictitious knots elsewhere.
+        InvalidField: The times do not increase, the ends of a periodic spline differ, or a fictitious knot lies outside
+            its segment.
     """
     checked_times(times, "times")
     ends = ends or Ends.at_rest(knots.shape[1])
@@ -109,17 +110,17 @@ def cubic_spline(
 
 
 def _inner_rows(h: Array, slopes: Array) -> tuple[Tridiagonal, Array]:
-    """Rows k of A(h) v = b, with v_k and v_{k+2} of the outer ones still on the left: N - 2 of them.
+    """Return the N - 2 rows of A(h) v = b at the inner knots, with the velocities at both ends still on the left.
 
     h_{k+1} v_k + 2 (h_k + h_{k+1}) v_{k+1} + h_k v_{k+2} = 3 (h_k s_{k+1} + h_{k+1} s_k), with the slopes s = Δq/h: the
-    course's right side, whose fraction 3/(h_k h_{k+1}) is multiplied out.
+    course's right side with the fraction 3/(h_k h_{k+1}) multiplied out.
     """
     A = Tridiagonal(h[1:], 2.0 * (h[:-1] + h[1:]), h[:-1])
     return A, 3.0 * (h[:-1, None] * slopes[1:] + h[1:, None] * slopes[:-1])
 
 
 def _clamped(times: Array, knots: Array, ends: Ends) -> Spline:
-    """Both end velocities are known, and move to the right-hand side."""
+    """Solve with both end velocities known, which moves them to the right side."""
     h = np.diff(times)
     A, b = _inner_rows(h, np.diff(knots, axis=0) / h[:, None])
     velocities = np.empty_like(knots)
@@ -143,12 +144,12 @@ _EndRow: TypeAlias = tuple[float, float, Array]
 
 
 def _natural_rows(slopes: Array) -> tuple[_EndRow, _EndRow]:
-    """2 v_1 + v_2 = 3 s_1, and the same at the end: no acceleration there."""
+    """Return the end rows for zero acceleration: 2 v_1 + v_2 = 3 s_1, and the mirrored one at the end."""
     return (2.0, 1.0, 3.0 * slopes[0]), (1.0, 2.0, 3.0 * slopes[-1])
 
 
 def _smooth_rows(h: Array, slopes: Array) -> tuple[_EndRow, _EndRow]:
-    """The same cubic before and after the second knot, v_3 eliminated by the row of that knot; and at the end."""
+    """Return the end rows for one cubic on both sides of knot 2, v_3 eliminated by its row; likewise at the end."""
     rows = []
     for h1, h2, s1, s2 in ((h[0], h[1], slopes[0], slopes[1]), (h[-1], h[-2], slopes[-1], slopes[-2])):
         both = h1 + h2
@@ -158,7 +159,7 @@ def _smooth_rows(h: Array, slopes: Array) -> tuple[_EndRow, _EndRow]:
 
 
 def _parabola(times: Array, knots: Array) -> Spline:
-    """Not-a-knot through two or three knots: no cubic is left to choose, but a line or a parabola."""
+    """Solve not-a-knot for two or three knots, where the result is a line or a parabola."""
     slopes = np.diff(knots, axis=0) / np.diff(times)[:, None]
     if len(times) == 2:
         return _spline(times, knots, np.repeat(slopes, 2, axis=0), None, slopes[:0], range(0))
@@ -169,7 +170,7 @@ def _parabola(times: Array, knots: Array) -> Spline:
 
 
 def _periodic(times: Array, knots: Array) -> Spline:
-    """Velocity and acceleration go on from the end to the start: a row for that knot, and corners."""
+    """Solve with continuous velocity and acceleration from the end to the start: A gains a row and two corners."""
     scale = max(1.0, float(np.abs(knots).max()))
     if float(np.abs(knots[-1] - knots[0]).max()) > CLOSED * scale:
         raise InvalidField("waypoints", "a periodic spline ends where it starts: the last one must equal the first")
@@ -180,23 +181,23 @@ def _periodic(times: Array, knots: Array) -> Spline:
 
 
 def _assigned(times: Array, knots: Array, ends: Ends, fictitious: tuple[float, float] | None) -> Spline:
-    """Two knots more, where the spline may go as it likes, for the two accelerations.
+    """Solve with velocities and accelerations given at both ends, using two fictitious knots with free positions.
 
-    The position of such a knot follows from its velocity, q_f = q_1 + h (2 v_1 + v_f)/3 + h² a_1/6, which is put into
-    the rows: A stays tridiagonal, and depends on the times alone.
+    The position of such a knot follows from its velocity, q_f = q_1 + h (2 v_1 + v_f)/3 + h² a_1/6, which is inserted
+    into the rows: A stays tridiagonal and depends only on the times.
     """
     first, last = _fictitious_times(times, fictitious)
     t = np.concatenate([times[:1], [first], times[1:-1], [last], times[-1:]])
     h = np.diff(t)
     h1, h2, g1, g2 = h[0], h[1], h[-1], h[-2]
-    # Where both fictitious knots would be at rest, from the end beside them; what their velocities add is in A.
+    # Offsets of the fictitious knots from the adjacent ends if v_f = 0; the contribution of v_f is in A.
     near = h1 * (2.0 * ends.start_velocity / 3.0 + h1 * ends.start_acceleration / 6.0)
     far = -g1 * (2.0 * ends.end_velocity / 3.0 - g1 * ends.end_acceleration / 6.0)
     A, b = _inner_rows(h, _assigned_steps(knots, near, far) / h[:, None])
     b[0] -= A.lower[0] * ends.start_velocity
     b[-1] -= A.upper[-1] * ends.end_velocity
     A = _without_corners(A)
-    # 3 (h_k s_{k+1} + h_{k+1} s_k) with s changed by ± h v_f / 3 over the length of the segment, brought to the left.
+    # In 3 (h_k s_{k+1} + h_{k+1} s_k), v_f changes Δq by ± h v_f / 3; these terms move to the left.
     A.diagonal[0] -= (h2**2 - h1**2) / h2
     A.diagonal[-1] -= (g2**2 - g1**2) / g2
     A.lower[1] += h[2] * h1 / h2
@@ -209,7 +210,7 @@ def _assigned(times: Array, knots: Array, ends: Ends, fictitious: tuple[float, f
 
 
 def _assigned_steps(knots: Array, near: Array, far: Array) -> Array:
-    """Δq of each segment, from where the fictitious knots are relative to the ends: no digits are lost on the way."""
+    """Return Δq of each segment from the offsets of the fictitious knots to the ends, which loses no digits."""
     steps = np.diff(knots, axis=0)
     steps[0] -= near
     steps[-1] += far
@@ -238,7 +239,7 @@ def _spline(
 
 
 def _pieces(times: Array, knots: Array, steps: Array, velocities: Array) -> PiecewisePolynomial:
-    """Cubics from positions, their differences and velocities."""
+    """Build cubics from positions, their differences and velocities."""
     starts, ends = np.array([np.zeros_like(steps), velocities[:-1]]), np.array([steps, velocities[1:]])
     rows = hermite_pieces(starts, ends, np.diff(times))
     rows[:, 0] = knots[:-1]
@@ -248,16 +249,16 @@ def _pieces(times: Array, knots: Array, steps: Array, velocities: Array) -> Piec
 def through_samples(
     times: Array, positions: Array, velocities: Array, accelerations: Array | None = None
 ) -> PiecewisePolynomial:
-    """A motion through samples with their derivatives: C¹ pieces of cubics, or C² ones of quintics.
+    """Return a motion through samples and their derivatives: C¹ with cubic pieces, or C² with quintic ones.
 
     Args:
-        times: Increasing; shape (N,), N ≥ 2, [s].
+        times: Increasing times; shape (N,), N ≥ 2, [s].
         positions: Shape (N, n), [rad or m].
         velocities: Shape (N, n), [rad/s or m/s].
-        accelerations: Shape (N, n), [rad/s² or m/s²]; makes the pieces quintic.
+        accelerations: If given, the pieces are quintic; shape (N, n), [rad/s² or m/s²].
 
     Raises:
-        InvalidField: Times that do not increase.
+        InvalidField: The times do not increase.
     """
     checked_times(times, "times")
     known = [positions, velocities] if accelerations is None else [positions, velocities, accelerations]
@@ -266,16 +267,16 @@ def through_samples(
 
 
 NEAREST = 1e-6
-"""Least time between two knots, in fractions of all the time from the first to the last."""
+"""Least time between two knots, as a fraction of the time from the first to the last."""
 _RESOLVED = 1e-9
-"""The same in fractions of the largest of all times: of a clock far ahead, a double has few digits for the rest."""
+"""The same as a fraction of the largest absolute time, because a double resolves less far from zero."""
 
 
 def checked_times(times: Array, field: str) -> None:
     """Check that times increase by more than rounding.
 
     Raises:
-        InvalidField: They do not, with the first two that do not.
+        InvalidField: They do not; the message names the first two that are wrong.
     """
     gaps = np.diff(times)
     least = max(NEAREST * float(np.ptp(times)), _RESOLVED * float(np.abs(times).max()))

@@ -1,4 +1,4 @@
-"""Worked solutions of the polynomial time laws, as the lecture writes them."""
+"""Worked solutions of the polynomial time laws, in the notation of the lecture."""
 
 from collections.abc import Sequence
 
@@ -21,13 +21,13 @@ _CONDITIONS = {
 def two_point_steps(
     motion: PiecewisePolynomial, starts: Array, ends: Array, normalised: Sequence[Sequence[float] | None]
 ) -> tuple[Step, ...]:
-    """A cubic, quintic or septic between two points, joint by joint.
+    """Return the steps of a cubic, quintic or septic between two points, joint by joint.
 
     Args:
-        motion: Of one piece.
+        motion: Motion of a single piece.
         starts: Position, velocity, … at t = 0; shape (m, n), [rad or m per sᵏ].
-        ends: The same at t = T.
-        normalised: The course's coefficients of each joint, None where Δq = 0.
+        ends: The same at t = T; shape (m, n).
+        normalised: Coefficients of each joint in the course's normalised form; None if Δq = 0.
     """
     degree, joints = motion.coefficients.shape[1] - 1, starts.shape[1]
     names = _LETTERS[: degree + 1]
@@ -65,7 +65,7 @@ def two_point_steps(
 
 
 def _cubic(start: Array, end: Array, duration: float, coefficients: Sequence[float]) -> Step:
-    """The four conditions one after the other."""
+    """Write out the four conditions one after the other."""
     a, b, c, _ = coefficients
     delta = float(end[0] - start[0])
     v0, v1 = (rf"{tex_factor(float(v))} \cdot {tex(duration)}" for v in (start[1], end[1]))
@@ -86,7 +86,7 @@ def _cubic(start: Array, end: Array, duration: float, coefficients: Sequence[flo
 
 
 def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
-    """The 4-3-4 law, joint by joint."""
+    """Return the steps of the 4-3-4 law, joint by joint; `knots` has shape (4, n), [rad or m]."""
     joints, h = knots.shape[1], np.diff(motion.breaks)
     steps = [
         Step(
@@ -113,7 +113,7 @@ def lift_steps(motion: PiecewisePolynomial, knots: Array) -> tuple[Step, ...]:
 
 
 def peak_step(velocity: Peaks, acceleration: Peaks) -> Step:
-    """The places of the largest velocity and acceleration."""
+    """Return the step with the largest velocity and acceleration of each joint, and their times."""
     lines = []
     for j in range(min(len(velocity.values), SHOWN_JOINTS)):
         index = "" if len(velocity.values) == 1 else f"_{{{j + 1}}}"

@@ -1,8 +1,8 @@
-"""Time laws between two points, cubic, quintic and septic, and the 4-3-4 law through a lift-off and a set-down point.
+"""Time laws between two points (cubic, quintic, septic), and the 4-3-4 law through a lift-off and a set-down point.
 
-A law of degree 2m - 1 has m derivatives given at both ends, the position counted as one. In λ = t/T the course writes
-the cubic as q = q0 + Δq (a λ³ + b λ² + c λ + d), which takes Δq ≠ 0; here the general form is computed, and the
-normalised coefficients are given where there are any.
+A law of degree 2m - 1 has m derivatives given at both ends, counting the position as one. In λ = t/T the course writes
+the cubic as q = q0 + Δq (a λ³ + b λ² + c λ + d), which requires Δq ≠ 0. Here the general form is computed; `normalised`
+converts it where possible.
 """
 
 from math import factorial
@@ -25,14 +25,14 @@ _END_CONDITIONS: Final = {
         ]
     ),
 }
-"""By m: the coefficients of λᵐ … λ²ᵐ⁻¹ from what is left of the m conditions at λ = 1."""
+"""For each m, the matrix from the remainders of the m conditions at λ = 1 to the coefficients of λᵐ … λ²ᵐ⁻¹."""
 
 _QUARTIC = np.array([[4.0, -1.0], [-3.0, 1.0]])
-"""Those of λ³ and λ⁴ of a quartic, from what is left of position and velocity at its end."""
+"""The same for λ³ and λ⁴ of a quartic, from the remainders of position and velocity at its end."""
 
 
 def between(starts: Array, ends: Array, duration: float) -> PiecewisePolynomial:
-    """The polynomial of lowest degree with given derivatives at both ends, from t = 0 on.
+    """Return the polynomial of lowest degree with given derivatives at both ends, starting at t = 0.
 
     Args:
         starts: Position, velocity, … at t = 0, two to four of them; shape (m, n), [rad or m per sᵏ].
@@ -44,15 +44,15 @@ def between(starts: Array, ends: Array, duration: float) -> PiecewisePolynomial:
 
 
 def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
-    """Polynomials with given derivatives at both of their ends.
+    """Compute polynomials with given derivatives at both ends.
 
     Args:
-        starts: Position, velocity, … where each piece begins, two to four of them; shape (m, M, n).
-        ends: The same where it ends; shape (m, M, n).
-        durations: Of the pieces, [s]; shape (M,).
+        starts: Position, velocity, … at the start of each piece, two to four of them; shape (m, M, n).
+        ends: The same at its end; shape (m, M, n).
+        durations: Durations of the pieces, [s]; shape (M,).
 
     Returns:
-        Coefficients in the time since the piece begins, lowest power first; shape (M, 2m, n).
+        Coefficients in the time since the start of the piece, lowest power first; shape (M, 2m, n).
     """
     m, h = len(starts), durations[:, None]
     lower = [starts[k] * h**k / factorial(k) for k in range(m)]
@@ -63,7 +63,7 @@ def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
 
 
 def _left_at_end(lower: list[Array], ends: list[Array], displacement: Array) -> Array:
-    """What is left of the conditions at λ = 1, the powers that the start settles taken off; all in λ."""
+    """Return the conditions at λ = 1 minus the contribution of the powers that the start determines; all in λ."""
     left = [displacement - sum(lower[1:])]
     for d in range(1, len(ends)):
         settled = sum(factorial(k) // factorial(k - d) * lower[k] for k in range(d, len(lower)))
@@ -74,15 +74,15 @@ def _left_at_end(lower: list[Array], ends: list[Array], displacement: Array) -> 
 def quartic_cubic_quartic(
     times: Array, knots: Array, start_rates: Array | None = None, end_rates: Array | None = None
 ) -> PiecewisePolynomial:
-    """The 4-3-4 law: a quartic to lift off, a cubic to travel, a quartic to set down, C² throughout.
+    """Return the 4-3-4 law: a quartic to lift off, a cubic to travel, a quartic to set down, C² throughout.
 
-    Fourteen coefficients, fourteen conditions. The cubic tells the accelerations at the inner knots from the
-    velocities there, each quartic does so too; that they agree are two linear equations in the two velocities.
+    Fourteen conditions determine fourteen coefficients. The cubic and the quartics each express the accelerations at
+    the inner knots by the velocities there; equating them gives two linear equations for the two velocities.
 
     Args:
-        times: Of the knots, increasing, [s]; shape (4,).
-        knots: Start, lift-off, set-down, end; shape (4, n), [rad or m].
-        start_rates: Velocity and acceleration at the start; shape (2, n); zero if left out.
+        times: Times of the knots, increasing, [s]; shape (4,).
+        knots: Positions at start, lift-off, set-down and end; shape (4, n), [rad or m].
+        start_rates: Velocity and acceleration at the start; shape (2, n); zero by default.
         end_rates: The same at the end.
     """
     (h1, h2, h3), step = np.diff(times), np.diff(knots, axis=0)
@@ -99,7 +99,7 @@ def quartic_cubic_quartic(
     )
     v1, v2 = np.linalg.solve(matrix, b)
     lift = _quartic(np.array([knots[0], v0, a0]), np.array([knots[1], v1]), h1)
-    # Run backwards, setting down is lifting off with the velocities turned round.
+    # Backwards in time, setting down is lifting off with the velocities reversed.
     backwards = _quartic(np.array([knots[3], -v3, a3]), np.array([knots[2], -v2]), h3)
     cubic = hermite_pieces(np.array([[knots[1]], [v1]]), np.array([[knots[2]], [v2]]), np.array([h2]))[0]
     rows = np.array([lift, np.pad(cubic, ((0, 1), (0, 0))), _reversed_quartic(backwards, h3)])
@@ -108,7 +108,7 @@ def quartic_cubic_quartic(
 
 
 def _quartic(start: Array, end: Array, h: float) -> Array:
-    """From position, velocity and acceleration at its start to position and velocity at its end; shape (5, n)."""
+    """Return the quartic with given position, velocity and acceleration at its start, and the first two at its end."""
     lower = [start[k] * h**k / factorial(k) for k in range(3)]
     left = _left_at_end(lower, [end[0], end[1] * h], end[0] - start[0])
     scaled = np.concatenate([np.array(lower), _QUARTIC @ left])
@@ -117,7 +117,7 @@ def _quartic(start: Array, end: Array, h: float) -> Array:
 
 
 def _reversed_quartic(c: Array, h: float) -> Array:
-    """The coefficients of p(h - t) from those of p(t)."""
+    """Return the coefficients of p(h - t) from those of p(t)."""
     return np.array(
         [
             c[0] + h * (c[1] + h * (c[2] + h * (c[3] + h * c[4]))),
@@ -130,14 +130,14 @@ def _reversed_quartic(c: Array, h: float) -> Array:
 
 
 def normalised(motion: PiecewisePolynomial, displacements: Array) -> list[list[float] | None]:
-    """The course's coefficients of q = q0 + Δq (… + a₁ λ + a₀) in λ = t/T, highest power first.
+    """Return the course's coefficients of q = q0 + Δq (… + a₁ λ + a₀) in λ = t/T, highest power first.
 
     Args:
-        motion: Of one piece.
+        motion: Motion of a single piece.
         displacements: Δq; shape (n,), [rad or m].
 
     Returns:
-        One list a coordinate; None where Δq = 0 and there is no such form.
+        One list per coordinate; None where this form does not exist, because Δq is zero or too small.
     """
     scaled = motion.coefficients[0] * motion.duration ** np.arange(motion.coefficients.shape[1])[:, None]
     scaled[0] = 0.0

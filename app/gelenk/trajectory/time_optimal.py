@@ -1,13 +1,14 @@
-"""Along a given path in the shortest time under limits of joint velocity and acceleration, by reachability [Pham2018].
+"""The fastest motion along a path under limits of joint velocity and acceleration, by reachability [Pham2018].
 
 With u = s̈ and x = ṡ², on a path q(s): q̇² = q'² x and q̈ = q' u + q'' x are linear in (u, x). The path is cut into
-intervals, and in each u is constant. Limits hold for the polynomials that q̇² and q̈ then are, not of their values
-at the nodes: they are kept everywhere. That costs second order in the length of an interval, and it holds where q' of a
-joint changes its sign (zero-inertia points), where conditions at the nodes alone let the acceleration chatter: there,
-where a path bends much for what a joint can accelerate, intervals have to be short to come near the optimum.
+intervals with constant u, on which q̇² and q̈ are polynomials. The limits are imposed on these polynomials, not only on
+their values at the nodes, so they are kept everywhere. The loss is of second order in the interval length. This also
+works where q' of a joint changes sign (zero-inertia points) and conditions at the nodes alone would let the
+acceleration chatter; if the path bends strongly there for a joint's acceleration limit, only short intervals come near
+the optimum.
 
-All is done twice: for the second time nodes are put where u switches, and within intervals that take long or bend much.
-Along a straight line the result is then the trapezoid to rounding.
+A second run adds nodes where u switches, and in intervals that take long or bend strongly. Along a straight line the
+result is then the trapezoidal profile up to rounding.
 """
 
 from collections.abc import Callable
@@ -23,34 +24,34 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.reachability import controllable, fastest, stages
 
 Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
-"""α and β of rows αu + βx ≤ 1 on the intervals between nodes from 0 to 1; shape (N + 1,) → (N, m) each."""
+"""Maps nodes from 0 to 1 to α and β of rows αu + βx ≤ 1 on the intervals between them; (N + 1,) → (N, m) each."""
 
 INTERVALS = 200
 LARGEST_PATH = 100_000
-"""Intervals times joints of a path at first; twice as many in the end."""
+"""Largest number of intervals times joints in the first run; the second run may double it."""
 SMALLEST, LARGEST = 1e-9, 1e9
-"""What a limit can be."""
+"""Range of a limit; `LARGEST` also bounds the coordinates and travels of a path."""
 
 MARGIN = 1e-9
-"""The share of each limit that is left for rounding."""
+"""Fraction of each limit that is reserved for rounding errors."""
 _LEAST_INTERVALS = 4
-"""In each piece of the path, so that there is room from corner to corner."""
+"""Least number of intervals per piece of the path, to leave room between corners."""
 _NO_LENGTH = 1e-13
 _STILL = 1e-12
 _JUMP, _EXACT = 1e-9, 1e-12
-"""The jump of q, in fractions of the largest travel, that is no rounding any more; nor is one of less than so many rad
-or m, to which joints follow a path at best."""
+"""Largest jump of q that counts as rounding: as a fraction of the largest travel, or absolute, [rad or m], if larger;
+the absolute value is the best accuracy with which joints follow a path."""
 _CORNER = 1e-7
-"""The jump of q', in fractions of the largest, that is no rounding any more."""
+"""Jump of q', as a fraction of the largest |q'|, above which it counts as a corner."""
 _CHANGE = 0.25
-"""The change of q', in fractions of its size, above which an interval is cut."""
+"""Relative change of q' above which an interval is cut."""
 _MOST_PARTS = 8
 _NEAR = 1e-3
-"""How near to its stops a path is cut besides, in fractions of an interval: to see what u is there."""
+"""Distance of an extra node from each stop, as a fraction of an interval, to resolve u there."""
 _KEPT = 0.5
-"""How much of ṡ², in fractions of what even braking to the next stop leaves, is left at least by an interval."""
+"""Least ṡ² left after an interval, as a fraction of what uniform braking to the next stop leaves."""
 _SWITCH = 0.02
-"""The change of u, in fractions of the largest, that is a switch."""
+"""Change of u, as a fraction of the largest |u|, that counts as a switch."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +59,7 @@ class TimeOptimal:
     """The fastest motion along a path.
 
     Attributes:
-        time_law: s(t), a parabola a piece; one coordinate.
+        time_law: s(t), one parabola per piece; one coordinate.
         motion: q(s(t)), with the same breaks.
     """
 
@@ -72,11 +73,11 @@ class _Task:
 
     Attributes:
         path: q(s).
-        limits: Of velocity and acceleration, less the margin; shape (2, n).
-        is_corner: At which breaks it has to stop; shape (M + 1,).
-        start: The least and the largest ṡ² at its start.
-        end: The same at its end.
-        rows: Further limits; None for none.
+        limits: Limits of velocity and acceleration, less the margin; shape (2, n).
+        is_corner: Whether the motion has to stop at each break; shape (M + 1,).
+        start: Least and largest ṡ² at the start.
+        end: Least and largest ṡ² at the end.
+        rows: Further constraints, if any.
     """
 
     path: PiecewisePolynomial
@@ -97,27 +98,27 @@ def time_optimal(
     intervals: int = INTERVALS,
     further: Rows | None = None,
 ) -> TimeOptimal:
-    """The fastest motion along a path; the limits are kept everywhere.
+    """Plan the fastest motion along a path; the limits are kept everywhere.
 
-    At a corner, where q' jumps, the motion stops. Where q'' jumps so may the acceleration.
+    The motion stops at corners, where q' jumps. Where q'' jumps, the acceleration may jump too.
 
     Args:
         path: q(s), without jumps.
-        velocity: Limit of each joint; shape (n,), [rad/s or m/s].
-        acceleration: Limit of each joint; shape (n,), [rad/s² or m/s²].
+        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
+        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
         start_velocity: ṡ ≥ 0 at the start of the path.
         end_velocity: ṡ ≥ 0 at its end.
-        intervals: About how many, four in each piece of the path at least. More come nearer to the optimum: 200 are
-            within 1.5 % of it along splines through up to 20 knots.
-        further: What else u = s̈ and x = ṡ² at the start of each interval have to keep to, the path taken from 0 to 1;
-            u = x = 0 has to.
+        intervals: Approximate number of intervals, at least four per piece of the path. More come nearer to the
+            optimum: 200 are within 1.5 % of it along splines through up to 20 knots.
+        further: Further constraints on u = s̈ and x = ṡ² at the start of each interval, for the path scaled to
+            0 ≤ s ≤ 1; u = x = 0 has to satisfy them.
 
     Returns:
-        The motion, from time 0 on. Along a path of no length (≤ 1e-13) it is one piece whose two breaks are the same.
+        The motion, starting at time 0; along a path of zero length (≤ 1e-13), one piece whose two breaks coincide.
 
     Raises:
-        InvalidField: A limit is no positive number, the path jumps or stands still, or a velocity at one of its ends
-            cannot be had.
+        InvalidField: A limit is out of range, the path jumps or stands still, or a velocity at one of its ends is not
+            feasible.
         TooLarge: The path has too many pieces.
     """
     _check_limits(velocity, acceleration)
@@ -146,7 +147,7 @@ def _check_limits(velocity: Array, acceleration: Array) -> None:
 
 
 def _travels(path: PiecewisePolynomial) -> Array:
-    """About how far each joint goes in each piece, zero where it stands still; shape (M, n)."""
+    """Estimate how far each joint travels in each piece, zero if it stands still; shape (M, n)."""
     powers = np.diff(path.breaks)[:, None] ** np.arange(1, path.coefficients.shape[1])
     with np.errstate(over="ignore", invalid="ignore"):
         travels: Array = np.abs(path.coefficients[:, 1:] * powers[:, :, None]).sum(axis=1)
@@ -182,7 +183,7 @@ def _task(
 
 
 def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
-    """Values at the start and at the end of each piece; both of shape (M, n)."""
+    """Return values at the start and at the end of each piece; shape (M, n) each."""
     powers = np.diff(path.breaks)[:, None] ** np.arange(path.coefficients.shape[1])
     return path.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, path.coefficients)
 
@@ -190,7 +191,7 @@ def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
 def _speeds(
     field: str, speed: float, length: float, slope: Array, velocity: Array, smallest: float
 ) -> tuple[float, float]:
-    """The least and the largest ṡ² of the path of length 1 at an end."""
+    """Return the least and the largest ṡ² at an end of the path scaled to length 1."""
     with np.errstate(divide="ignore"):
         most = float((velocity / slope).min())
     if not 0.0 <= speed <= most * length * (1.0 + MARGIN):
@@ -198,13 +199,13 @@ def _speeds(
             field, f"must be a number from 0 to {most * length:g}, where a joint's velocity is at its limit"
         )
     if speed == 0.0 and slope.max() <= smallest:
-        return 0.0, np.inf  # Where the path itself stands still, so do the joints.
+        return 0.0, np.inf  # Where q' = 0, the joints are at rest at any ṡ.
     squared = min(speed / length, most * (1.0 - 2.0 * MARGIN)) ** 2
     return squared, squared
 
 
 def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
-    """Where the path is cut: evenly within a piece, more often in pieces that are long or take long, and near stops."""
+    """Choose nodes: evenly spaced within a piece, more in pieces that are long or take long, and extra near stops."""
     breaks = task.path.breaks
     times = (travels / task.limits[0]).max(axis=1)
     shares = 0.5 * (np.diff(breaks) + times / times.sum())
@@ -220,7 +221,7 @@ def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
 
 
 def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
-    """The x = ṡ² at each node of the fastest motion; shape (N + 1,)."""
+    """Return x = ṡ² of the fastest motion at each node; shape (N + 1,)."""
     lengths = np.diff(nodes)
     stops = np.append(task.path.breaks[task.is_corner], 1.0)
     next_stops = stops[np.searchsorted(stops, nodes[:-1], side="right")]
@@ -241,7 +242,7 @@ def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
 
 
 def _switches(nodes: Array, x: Array) -> Array:
-    """The place in an interval where u switches: where the lines of x(s) from both sides meet."""
+    """Return the places inside intervals at which u switches, where the lines of x(s) from both sides meet."""
     lengths = np.diff(nodes)
     u = 0.5 * np.diff(x) / lengths
     before, after, inner = u[:-2], u[2:], lengths[1:-1]
@@ -254,7 +255,7 @@ def _switches(nodes: Array, x: Array) -> Array:
 
 
 def _between(task: _Task, nodes: Array, law: PiecewisePolynomial, intervals: int) -> Array:
-    """Where to cut intervals that take longer than others, or in which q' changes much; evenly in time."""
+    """Return places at which to cut intervals that take long or in which q' changes much, evenly spaced in time."""
     lasting = np.diff(law.breaks)
     slopes = task.path.derivative().at(nodes) / task.limits[0]
     sizes = np.abs(slopes).max(axis=1)
@@ -268,7 +269,7 @@ def _between(task: _Task, nodes: Array, law: PiecewisePolynomial, intervals: int
 
 
 def _time_law(nodes: Array, x: Array) -> PiecewisePolynomial:
-    """s(t) with constant s̈ from node to node."""
+    """Return s(t) with constant s̈ between nodes."""
     speeds, lengths = np.sqrt(x), np.diff(nodes)
     if not ((speeds[:-1] + speeds[1:] > 0.0) & np.isfinite(x[1:])).all():
         raise InvalidField("path", "its slopes are too many powers of ten apart")

@@ -1,7 +1,7 @@
-"""Uniform time scaling: the same path in k times the time, velocities by 1/k, accelerations by 1/k², jerks by 1/k³.
+"""Uniform time scaling: in k times the time, velocities scale by 1/k, accelerations by 1/k², jerks by 1/k³.
 
-The course slows down alone: k = max{1, k_vel, √k_acc}, each k the largest ratio of a peak to its limit. Without the 1
-the same maximum also speeds up: some limit is then just reached. Peaks are exact, from the roots of the derivative.
+The course only slows down: k = max{1, k_vel, √k_acc}, where k_vel and k_acc are the largest ratios of a peak to its
+limit. Without the 1, k may also speed up, and some limit is just reached. Peaks are exact, from the derivative's roots.
 """
 
 from dataclasses import dataclass
@@ -16,15 +16,15 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 Quantity: TypeAlias = Literal["velocity", "acceleration", "jerk"]
 
 QUANTITIES: tuple[Quantity, ...] = ("velocity", "acceleration", "jerk")
-"""In the order of their derivatives, from the first one on."""
+"""All quantities in the order of their derivatives, starting with the first."""
 
 STANDS_STILL = 1e-12
-"""A factor below which a motion counts as none: there is no time that it would just take."""
+"""Factor below which a motion counts as standing still, so that it has no shortest duration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """The limits of each joint; each > 0, of shape (n,), None where there is no limit.
+    """Limits of each joint; > 0, shape (n,) each, None for no limit.
 
     Attributes:
         velocity: [rad/s or m/s].
@@ -37,23 +37,23 @@ class Limits:
     jerk: Array | None = None
 
     def of(self, quantity: Quantity) -> Array | None:
-        """The limits of a quantity."""
+        """Return the limits of a quantity."""
         found: Array | None = getattr(self, quantity)
         return found
 
 
 @dataclass(frozen=True, slots=True)
 class Bound:
-    """The joint that is nearest to its limit of a quantity, or furthest beyond it.
+    """The joint nearest to its limit of a quantity, or furthest beyond it.
 
     Attributes:
-        quantity: Which.
-        ratio: Its peak over its limit.
-        factor: The k that this quantity alone asks for: the ratio, its square root or its cube root.
-        joint: Which, from 0.
-        time: When, in the motion that is not scaled, [s].
-        peak: With its sign.
-        limit: Of this joint.
+        quantity: Limited quantity.
+        ratio: Ratio of the joint's peak to its limit.
+        factor: k that this quantity alone requires: the ratio, its square root or its cube root.
+        joint: Index of the joint, from 0.
+        time: Time of the peak in the unscaled motion, [s].
+        peak: Signed value of the peak.
+        limit: Limit of this joint.
     """
 
     quantity: Quantity
@@ -67,12 +67,12 @@ class Bound:
 
 @dataclass(frozen=True, slots=True)
 class Scaling:
-    """The factors by which a motion can be slowed down or sped up.
+    """Factors by which a motion can be slowed down or sped up.
 
     Attributes:
-        bounds: One a quantity that is limited.
-        binding: The one that asks for the largest k.
-        course_factor: k = max{1, k_vel, √k_acc}, as in the course: it slows down alone.
+        bounds: One bound per limited quantity.
+        binding: Bound that requires the largest k.
+        course_factor: k = max{1, k_vel, √k_acc} as in the course, which only slows down.
         factor: The same without the 1; None for a motion that stands still.
     """
 
@@ -83,11 +83,11 @@ class Scaling:
 
 
 def uniform_scaling(motion: PiecewisePolynomial, limits: Limits) -> Scaling:
-    """The factors by which a motion's time is to be multiplied.
+    """Compute the factors by which to multiply a motion's time.
 
     Args:
-        motion: The motion.
-        limits: At least one.
+        motion: Motion to scale.
+        limits: Limits of at least one quantity.
     """
     bounds = tuple(
         _bound(quantity, order, peaks(motion, order), limit)
@@ -103,7 +103,7 @@ def _bound(quantity: Quantity, order: int, found: Peaks, limit: Array) -> Bound:
     ratios = np.abs(found.values) / limit
     j = int(ratios.argmax())
     ratio = float(ratios[j])
-    # Of two joints at the same ratio, the first one that is as near as rounding tells.
+    # Among joints whose ratios differ only by rounding, take the first.
     j = int(np.argmax(ratios >= ratio * (1.0 - 1e-12)))
     return Bound(
         quantity, ratio, ratio ** (1.0 / order), j, float(found.times[j]), float(found.values[j]), float(limit[j])

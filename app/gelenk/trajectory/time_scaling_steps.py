@@ -1,4 +1,4 @@
-"""The worked solution of a uniform time scaling."""
+"""Worked solution of a uniform time scaling."""
 
 from gelenk.course.steps import Step, tex
 from gelenk.trajectory.time_scaling import Bound, Quantity, Scaling
@@ -12,7 +12,7 @@ _ROOTS: dict[Quantity, str] = {"velocity": "{}", "acceleration": r"\sqrt{{{}}}",
 
 
 def scaling_steps(scaling: Scaling, duration: float) -> tuple[Step, ...]:
-    """Ratios, the course's k, and the k without the 1."""
+    """Return the worked steps: ratios, the course's k, and k without the 1; `duration` in [s]."""
     roots = ", ".join(_ROOTS[bound.quantity].format(_SYMBOLS[bound.quantity][2]) for bound in scaling.bounds)
     k = scaling.course_factor
     steps = [

@@ -1,15 +1,14 @@
-"""The time that joints take along a path, from rest to rest: six laws, each as fast as limits of joints and tip allow.
+"""Timing of the joints along a path, from rest to rest: six laws, each as fast as limits of joints and tip allow.
 
-All is motion along s: the law s(t) is chosen, then scaled uniformly until some limit is just reached, the limits asked
-of the joints' polynomials in time and of the tip. Along the way:
+A law s(t) is chosen, then scaled uniformly until the joints' polynomials in time, or the tip, just reach some limit:
 
-- `cubic`, `quintic`, `septic`: one shape each, from uniform scaling alone; along blended lines one on each, with even
-  speed through the blends, where that takes less time (`chain_laws`).
+- `cubic`, `quintic`, `septic`: a fixed shape; along blended lines one law per line, with constant speed through the
+  blends, if that takes less time (`chain_laws`).
 - `trapezoidal`: the acceleration and the cruise speed of the shortest time.
-- `jerk_limited`: likewise, with a jerk along s; along blended lines it is chosen as the polynomials are.
+- `jerk_limited`: likewise, with a jerk along s; along blended lines, it is chosen like the polynomials.
 - `time_optimal`: some joint, or the tip, is at a limit nearly always.
 
-Limits of jerk count for the laws whose acceleration does not jump: `quintic`, `septic`, `jerk_limited`.
+Jerk limits apply to the laws with continuous acceleration: `quintic`, `septic`, `jerk_limited`.
 """
 
 from dataclasses import dataclass, replace
@@ -36,7 +35,7 @@ _ONE_LAW: Final = (
     "everywhere, `trapezoidal` and `time_optimal` only there"
 )
 _ROUNDING = 1e-9
-"""Share by which a duration may be less than the shortest one: it is meant to be that."""
+"""Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +43,12 @@ class Timed:
     """A motion along a path, from rest to rest.
 
     Attributes:
-        motion: Of the joints, from 0 s on; where nothing moves one piece whose two breaks are the same, or which lasts
-            as long as it is to.
+        motion: Joint motion, starting at 0 s; if nothing moves, one piece of zero or of the requested duration.
         law: s(t), of the same duration.
-        continuous: Derivatives of the motion up to this order do not jump.
-        has_bounded_jerk: Whether the limits of jerk hold throughout; where acceleration jumps they cannot.
-        binding: What does not allow a shorter time with this law, in words.
-        notes: What else is to be known.
+        continuous: Highest order up to which the motion's derivatives are continuous.
+        has_bounded_jerk: Whether the jerk limits hold throughout; where the acceleration jumps, they cannot.
+        binding: Limit that prevents a shorter time with this law, in words.
+        notes: Further remarks for the user.
     """
 
     motion: PiecewisePolynomial
@@ -73,31 +71,31 @@ def timed(
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> Timed:
-    """The motion of least duration with a law, or one of a given duration: the fastest one, slowed down uniformly.
+    """Plan the fastest motion with a law, slowed down uniformly if a longer duration is requested.
 
-    Where q' jumps, the motion stops. Where q'' does, the acceleration jumps with any law, and a limit of jerk holds on
-    both sides of it only.
+    The motion stops where q' jumps. Where q'' jumps, the acceleration jumps with any law, and a jerk limit holds only
+    before and after the jump.
 
-    The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Limits of the tip cost up to 0.25 % more where
-    the path bends (`tip_rows`), and a last uniform scaling by k ≥ 1, mostly by less than 1e-5, for what is between the
-    places at which they are checked. Where the trapezoid takes no longer it is that, of fewer pieces.
+    The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Where the path bends, tip limits cost up to
+    0.25 % more (`tip_rows`). A final uniform scaling by k ≥ 1, mostly by less than 1e-5, keeps them also between the
+    places at which they are checked. If the trapezoidal law takes no longer, it is used, because it has fewer pieces.
 
     Args:
-        path: What the tip follows, for its limits and for where it bends; None for a path of the joints alone.
-        joints: q(s), s from 0 on, perhaps not up to the end of the path.
-        law: Of time.
-        limits: Of joints and tip.
-        duration: It is to last, [s]; as long as the limits ask for if None.
-        slow_down: Whether the joints may slow the motion down locally, where they must, whatever the law: it is then
-            the time-optimal one.
-        tip_motion: The tip's motion from that of the joints (`tip_through`), to which its limits are then applied; that
-            of the path if left out, from which joints that follow it within a tolerance differ a little. With neither
-            the tip has no limits.
-        zones: Parts of the path where the tip has limits of its own.
-        corners: Where blends of lines begin and end.
+        path: Path of the tip, for its limits and the places where it bends; None for a path of the joints alone.
+        joints: q(s) from s = 0, possibly ending before the path does.
+        law: Time law.
+        limits: Limits of joints and tip.
+        duration: Requested duration, [s]; the shortest within the limits if None.
+        slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
+            replaces `law`.
+        tip_motion: Function from the joints' motion to the tip's (`tip_through`), to which the tip limits then apply;
+            by default they apply to the motion along `path`, from which joints that follow it within a tolerance differ
+            slightly. With neither, the tip has no limits.
+        zones: Parts of the path on which the tip has its own limits.
+        corners: s at the beginning and the end of each blend of lines.
 
     Raises:
-        InvalidField: The duration is shorter than the limits allow, or the numbers are too far apart.
+        InvalidField: The duration is shorter than the limits allow, or limits and path differ too much in magnitude.
     """
     geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
     chosen: Law = "time_optimal" if slow_down else law
@@ -122,20 +120,20 @@ def compared(
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> tuple[float, float, float, float]:
-    """A law scaled uniformly so that some limit is just reached, and the time-optimal one, along the same way.
+    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path.
 
     Args:
         path: See `timed`.
         joints: See `timed`.
-        law: The law that is scaled.
-        limits: Of joints and tip.
+        law: Law that is scaled.
+        limits: Limits of joints and tip.
         tip_motion: See `timed`.
         zones: See `timed`.
         corners: See `timed`.
 
     Returns:
-        The duration of the law; the k that limits of velocity, and those of acceleration, of joints and tip, ask for if
-        it lasts 1 s: the duration is the larger one of k_vel and √k_acc, unless jerk binds; the time-optimal duration.
+        The duration of the law, [s]; k_vel and k_acc that the velocity and acceleration limits of joints and tip
+        require if it lasts 1 s; the time-optimal duration, [s]. Unless jerk binds, the first is max{k_vel, √k_acc}.
     """
     uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones, corners=corners)
     optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones, corners=corners)
@@ -162,7 +160,7 @@ def _fastest(geometry: Geometry, law: Law) -> Timed:
 
 
 def _along(geometry: Geometry, law: Law, along: PiecewisePolynomial) -> Timed:
-    """A law in the least time."""
+    """Time the path with a law's shape s(t), scaled to the least time."""
     motion = in_time(geometry.joints, along)
     smooth = law in _SMOOTH
     peaks = peaks_of(geometry, motion, along, with_jerk=smooth)
@@ -178,7 +176,7 @@ def _along(geometry: Geometry, law: Law, along: PiecewisePolynomial) -> Timed:
 
 
 def _shape(geometry: Geometry, law: Law) -> PiecewisePolynomial:
-    """s(t), of any duration."""
+    """Return a law's s(t) with an arbitrary duration."""
     if law in POLYNOMIALS:
         return polynomial(law, geometry)
     return trapezoid(geometry) if law == "trapezoidal" else s_curve(geometry)
@@ -191,18 +189,18 @@ def _time_optimal(geometry: Geometry) -> Timed:
     if geometry.limits_tip:
         peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=False)
         timing = _scaled(timing, max(1.0, peaks.factor))
-    # Along a straight way the trapezoid is the optimum to the last digit, and of three pieces.
+    # Along a straight path the trapezoidal law is the exact optimum, with only three pieces.
     simple = _fastest(geometry, "trapezoidal")
     return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing
 
 
 def _scaled(timing: Timed, factor: float) -> Timed:
-    """The same in `factor` times the time."""
+    """Return the same motion in `factor` times the time."""
     return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
 
 
 def _in_a_row(parts: list[Timed]) -> Timed:
-    """Motions with a stop between each two."""
+    """Join motions with a stop between each two."""
     if len(parts) == 1:
         return parts[0]
     stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
@@ -218,17 +216,17 @@ def _in_a_row(parts: list[Timed]) -> Timed:
 
 
 def _standing(joints: PiecewisePolynomial) -> Timed:
-    """No motion, at the end of the way."""
+    """Return a motion of zero duration at the end of the path."""
     end = joints.breaks[-1:]
     motion = PiecewisePolynomial(np.zeros(2), joints.at(end)[None])
     return Timed(motion, PiecewisePolynomial(np.zeros(2), end[None, :, None].copy()), 2, True, "nothing moves")
 
 
 def _lasting(fastest: Timed, duration: float) -> Timed:
-    """A motion slowed down to a given duration.
+    """Slow a motion down to a given duration.
 
     Raises:
-        InvalidField: It cannot be as fast.
+        InvalidField: The motion cannot be that fast.
     """
     least = fastest.motion.duration
     if duration < least * (1.0 - _ROUNDING):
@@ -242,7 +240,7 @@ def _lasting(fastest: Timed, duration: float) -> Timed:
 
 
 def _ending(motion: PiecewisePolynomial, duration: float) -> PiecewisePolynomial:
-    """Its last break to the last digit."""
+    """Set the last break to exactly `duration`."""
     breaks = motion.breaks.copy()
     breaks[-1] = duration
     return PiecewisePolynomial(breaks, motion.coefficients)
