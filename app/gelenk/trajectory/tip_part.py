@@ -1,4 +1,4 @@
-"""Segments along which the tip follows a path: the path, the joints that follow it, and the time they take."""
+"""Segments along which the tip follows a path: plan the path, the joints that follow it, and the timing."""
 
 import math
 from collections.abc import Sequence
@@ -38,29 +38,29 @@ from gelenk.trajectory.ways import Way, way_of
 from gelenk.trajectory.words import Law
 
 _DONE = 1e-9
-"""Share of a segment that may be missing from one that counts as done."""
+"""Fraction of a segment that may be missing if it is to count as completed."""
 _EARLY = 1e-6
-"""Share of a path by which a motion can end before what ends it, without a word."""
+"""Fraction of a path by which a motion may end before its obstacle without a remark."""
 _ANGLE_SAMPLES = 65
 _SLACK = 1.05
-"""The audit looks more closely than what measured the deviation that damping costs."""
+"""Factor on the measured deviation due to damping, because the audit samples more finely."""
 
 
 def tip_part(
     robot: Robot, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: Problem
 ) -> Part:
-    """A line, a circle, a spline, or lines that are blended, as far as the joints can follow.
+    """Plan a line, a circle, a spline, or blended lines, as far as the joints can follow.
 
     Args:
         robot: The robot.
-        chain: What moves.
-        start: Configuration at its beginning; shape (n,), [rad or m].
-        segments: One, or lines all but the last of which are blended into the next.
-        first: Number of the first in the trajectory.
-        problem: Whose segments they are.
+        chain: Chain that moves.
+        start: Start configuration; shape (n,), [rad or m].
+        segments: One segment, or lines that are each blended into the next.
+        first: Index of the first segment in the trajectory.
+        problem: Request that contains the segments.
 
     Raises:
-        InvalidField: There is no such path, or not in the time that is given.
+        InvalidField: The path is impossible, or cannot be travelled in the given time.
     """
     following = problem.following
     positions, rotations = chain_poses(chain.flat, start[None])
@@ -81,7 +81,7 @@ def tip_part(
 
 
 def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
-    """What keeps to all of several limits of joints; of the tip those that all keep to, `Way.zones` has the others."""
+    """Return the tightest joint limits and the loosest tip limits of several; `Way.zones` has the tighter ones."""
     if len(limits) == 1:
         return limits[0]
     tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
@@ -92,7 +92,7 @@ def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
 
 
 def _stated(segments: Sequence[Segment]) -> Array | None:
-    """The limits of jerk that were requested."""
+    """Return the tightest requested jerk limits, shape (n,); None if none were requested."""
     stated = [one.stated_jerk for one in segments if one.stated_jerk is not None]
     return np.min(stated, axis=0) if stated else None
 
@@ -105,7 +105,7 @@ def _timed(
     limits: MotionLimits,
     first: int,
 ) -> Timed:
-    """The law of time; of a path that is not done wholly the fastest there is."""
+    """Time the path; an incomplete path gets the shortest time, whatever the request."""
     is_whole = joints.stop is None
     segment = segments[0]
     try:
@@ -128,7 +128,7 @@ def _timed(
 
 
 def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendReport]:
-    """The blends that the motion reaches."""
+    """Return reports of the blends that the motion reaches."""
     blends = []
     for corner in way.corners:
         if corner.begin >= joints.reached:
@@ -140,7 +140,7 @@ def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendR
 
 
 def _stretches(zones: Sequence[Zone], joints: JointWay, law: PiecewisePolynomial) -> tuple[Stretch, ...]:
-    """When the motion is where the tip has limits of its own."""
+    """Return the time intervals in which the tip has its own limits."""
     return tuple(
         Stretch(*_times_at(law, zone.begin, min(zone.end, joints.reached)), zone.tip)
         for zone in zones
@@ -156,7 +156,7 @@ def _demands(
     following: Following,
     stretches: tuple[Stretch, ...],
 ) -> Demands:
-    """What the motion must keep; at equal times its path is the wanted one."""
+    """Return the requirements on the motion, which include the pose of the tip at each time."""
     law = timing.law
     position, orientation = following.position_tolerance, following.orientation_tolerance
     if following.near_singularity == "damp":
@@ -178,14 +178,14 @@ def _demands(
 
 
 def _way_error(joints: JointWay, timing: Timed, limits: MotionLimits) -> WayError:
-    """How far the motion is from the exact path; None for one that leaves its path."""
+    """Bound how much ratios to limits differ from those of the exact path; ∞ if unknown, as off the path."""
     if joints.bend_errors is None:
         return WayError(math.inf, math.inf, math.inf)
     return way_error(joints.positions, joints.bend_errors, timing, limits)
 
 
 def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt | None:
-    """The place where the path could not continue, as a share of the segment there."""
+    """Return where and why the path could not continue; None if it is complete."""
     stop = joints.stop
     if stop is None:
         return None
@@ -211,7 +211,7 @@ def _reports(
     following: Following,
     blends: Sequence[BlendReport],
 ) -> tuple[SegmentReport, ...]:
-    """Reports of the segments that were started."""
+    """Return reports of the segments that were started."""
     begins = (0.0, *way.ends[:-1])
     damped = following.near_singularity == "damp" and joints.path_deviation > following.position_tolerance
     reports = []
@@ -239,12 +239,12 @@ def _reports(
 
 
 def _slows_at_corners(segments: Sequence[Segment]) -> bool:
-    """Whether a corner is to slow down the tip there alone: bang-coast-bang on each line, and through each corner."""
+    """Return whether a corner slows the tip down only there: accelerate, coast and brake on each line and corner."""
     return len(segments) > 1 and segments[0].law == "trapezoidal"
 
 
 def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
-    """Whose limits of joints hold on blended lines."""
+    """Return a note on the joint limits if they differ among blended lines."""
     if len(segments) == 1:
         return ()
     limits = [segment.limits for segment in segments]
@@ -255,7 +255,7 @@ def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
 
 
 def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
-    """Length of the position's path and angle of the orientation's between two places, [m] and [rad]."""
+    """Return the length of the position's path and the angle of the orientation's between two places, [m] and [rad]."""
     s = np.linspace(begin, end, _ANGLE_SAMPLES)
     rates = path.at(s).first
     length = end - begin if path.unit == "m" else 0.0
@@ -263,10 +263,10 @@ def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
 
 
 def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[float, float]:
-    """When a law that never goes back is at two places, at its ends to the last digit, [s]."""
+    """Return when a law that never goes backwards is at two places, exact at its ends, [s]."""
     places = np.array([begin, finish])
     first, last = law.at(law.breaks[[0, -1]])[:, 0]
-    # At rest a place of rounding beside the end is a time well before it.
+    # Near rest, a rounding error in s is a large error in time.
     rounding = 8.0 * np.spacing(last)
     times = np.where(places <= first + rounding, law.breaks[0], law.breaks[-1])
     inside = (places > first + rounding) & (places < last - rounding)
@@ -278,7 +278,7 @@ def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[fl
 def _comparison(
     chain: Chain, way: Way, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
 ) -> TimingComparison:
-    # The course scales the cubic: what is time-optimal has nothing to be compared with in itself.
+    # As in the course, scale the cubic: comparing the time-optimal law with itself would say nothing.
     law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law
     uniform, by_velocity, by_acceleration, optimal = compared(
         way.path,

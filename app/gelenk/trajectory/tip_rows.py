@@ -1,11 +1,11 @@
-"""What the tip's limits say of u = s̈ and x = ṡ² on each interval of a path, as rows αu + βx ≤ 1 for `reachability`.
+"""The tip's limits as constraints αu + βx ≤ 1 on u = s̈ and x = ṡ² on each interval of a path, for `reachability`.
 
-Speeds are rows already. An acceleration's norm ‖ξ_s u + ξ_s' x‖ ≤ a is a circle in the plane of ξ_s and ξ_s'; x is
-never negative, so that half of it counts. A polygon is put into it whose corners are at ±ξ_s, so that it takes nothing
-from a straight line, across it, so that it takes nothing from even motion round a circle, and at `_SIDES` - 2 places
-between. On its sides it leaves out up to 1 - cos(π / 2 _SIDES) of the acceleration, 0.5 %, which is 0.25 % in time.
+Speed limits have this form already. An acceleration limit ‖ξ_s u + ξ_s' x‖ ≤ a is a circle in the plane of ξ_s and
+ξ_s', of which half suffices because x ≥ 0. It is replaced by an inscribed polygon with corners at ±ξ_s, which costs
+nothing on a straight line; at a right angle to ξ_s, which costs nothing in uniform motion on a circle; and at `_SIDES`
+- 2 places between. Its sides cut off up to 1 - cos(π / 2 _SIDES) of the acceleration, 0.5 %, which is 0.25 % in time.
 
-In an interval the terms are taken as the parabolas through their values at both ends and in the middle.
+Within an interval, the terms are replaced by the parabolas through their values at both ends and in the middle.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ _WITHIN = np.cos(0.5 * np.pi / _SIDES)
 
 
 def tip_rows(geometry: Geometry) -> Callable[[Array], tuple[Array, Array]] | None:
-    """The rows of α and β on the intervals between nodes from 0 to 1 along a path; None where the tip has no limits."""
+    """Return the function from nodes in 0 ≤ s ≤ 1 to α and β on the intervals between them; None without tip limits."""
     if not geometry.limits_tip:
         return None
     begin, end = geometry.ends
@@ -42,14 +42,14 @@ def tip_rows(geometry: Geometry) -> Callable[[Array], tuple[Array, Array]] | Non
 
 
 def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) -> tuple[Array, Array]:
-    """The rows at all places of each interval.
+    """Compute the rows for the three places of each interval.
 
     Args:
-        along: What the acceleration is per u; shape (N, 3, 6).
-        bend: What it is per x.
-        slope: ξ_s.
-        gains: ṡ² there is x + gain u; shape (N, 3).
-        bounds: The tip's limits, infinite where there is none; shape (N, 4).
+        along: Coefficient of u in the tip's acceleration; shape (N, 3, 6).
+        bend: Coefficient of x in the tip's acceleration; shape (N, 3, 6).
+        slope: ξ_s; shape (N, 3, 6).
+        gains: Coefficient of u in ṡ² = x + gain u at each place; shape (N, 3).
+        bounds: Limits of the tip, infinite for none; shape (N, 4).
     """
     alphas, betas = [], []
     speeds, angular_speeds, accelerations, angular_accelerations = bounds.T[:, :, None]
@@ -71,14 +71,14 @@ def _rows(along: Array, bend: Array, slope: Array, gains: Array, bounds: Array) 
 
 
 def _control(values: Array) -> Array:
-    """The control points of the parabolas through three values each: what they keep to, all in between does."""
+    """Return the control points of the parabolas through three values each; their bounds hold for whole parabolas."""
     points = values.copy()
     points[:, 1] = 2.0 * values[:, 1] - 0.5 * (values[:, 0] + values[:, 2])
     return points
 
 
 def _polygon(along: Array, bend: Array) -> tuple[Array, Array]:
-    """Rows within ‖along u + bend x‖ ≤ 1; shape (N, 3) each → (N, `_SIDES`) each."""
+    """Return rows that imply ‖along u + bend x‖ ≤ 1; shape (N, 3) each → (N, `_SIDES`) each."""
     size = np.linalg.norm(along, axis=1)[:, None]
     direction = along / np.maximum(size, np.finfo(float).tiny)
     with_it = np.einsum("ni,ni->n", direction, bend)[:, None]

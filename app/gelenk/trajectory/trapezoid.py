@@ -1,10 +1,10 @@
-"""Bang-coast-bang: accelerate, coast, brake, in the shortest time or in a given one; one joint, or several in step.
+"""Trapezoidal velocity profiles (accelerate, coast, brake) of one or several synchronised joints.
 
-A profile goes from v_i to a coasting velocity v_p and on to v_f, each with the acceleration's full size. In the
-shortest time v_p = ±min(v_max, √(±a L + (v_i² + v_f²)/2)); without a coast the root is the smaller one. The sign is
+A profile goes from v_i to a coasting velocity v_p and on to v_f, always with the full acceleration. In the shortest
+time v_p = ±min(v_max, √(±a L + (v_i² + v_f²)/2)); there is no coast if the root is the smaller of the two. The sign is
 that of the distance, unless v_i and v_f already carry the joint too far: then it has to turn back, which is refused
-unless it is allowed. In a given time the acceleration is kept and v_p follows, from the distance as a function of
-v_p, which rises throughout.
+unless it is allowed. In a given time the acceleration is kept, and v_p follows from the distance, which increases
+monotonically with v_p.
 """
 
 import math
@@ -20,18 +20,18 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 _ROUNDING = 1e-12
 _MOST = 1e30
-"""A ratio above which no acceleration is named as feasible."""
+"""Ratio above which a refusal does not suggest an acceleration."""
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """The motion of one joint, signed along its axis.
+    """The motion required of one joint, signed along its axis.
 
     Attributes:
         distance: L, [rad or m].
         start_velocity: v_i, [rad/s or m/s].
-        end_velocity: v_f.
-        max_velocity: v_max > 0, at least |v_i| and |v_f|; infinite for none.
+        end_velocity: v_f, [rad/s or m/s].
+        max_velocity: v_max > 0, at least |v_i| and |v_f|; infinite for no limit, [rad/s or m/s].
         acceleration: a > 0, [rad/s² or m/s²].
     """
 
@@ -43,28 +43,28 @@ class Task:
 
     @property
     def is_at_rest(self) -> bool:
-        """Whether it begins and ends at rest, as the course has it."""
+        """Whether the joint starts and ends at rest, as in the course."""
         return self.start_velocity == 0.0 == self.end_velocity
 
     @property
     def stopping_distance(self) -> float:
-        """(v_f² - v_i²)/2a with the signs of both: what going from v_i straight to v_f takes, [rad or m]."""
+        """Signed distance covered from v_i directly to v_f, (v_i + v_f) |v_f - v_i| / 2a, [rad or m]."""
         v_i, v_f = self.start_velocity, self.end_velocity
         return (v_i + v_f) * abs(v_f - v_i) / (2.0 * self.acceleration)
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A velocity that goes from v_i to v_p, stays, and goes to v_f.
+    """A velocity profile that goes from v_i to v_p, stays there, and goes on to v_f.
 
     Attributes:
         start_velocity: v_i, [rad/s or m/s].
-        peak_velocity: v_p, at which it coasts.
-        end_velocity: v_f.
-        acceleration: Size of the acceleration in the first and the last phase, [rad/s² or m/s²].
+        peak_velocity: v_p, the coasting velocity, [rad/s or m/s].
+        end_velocity: v_f, [rad/s or m/s].
+        acceleration: Magnitude of the acceleration in the first and the last phase, [rad/s² or m/s²].
         first: Duration of the first phase, [s].
-        coast: Duration of the second, 0 where it does not coast, [s].
-        last: Duration of the third, [s].
+        coast: Duration of the coast, 0 if there is none, [s].
+        last: Duration of the last phase, [s].
     """
 
     start_velocity: float
@@ -77,22 +77,22 @@ class Profile:
 
     @property
     def duration(self) -> float:
-        """Of all three phases, [s]."""
+        """Total duration of the three phases, [s]."""
         return self.first + self.coast + self.last
 
     @property
     def reverses(self) -> bool:
-        """Whether the joint reverses."""
+        """Whether the joint reverses its direction."""
         return max(self._velocities()) > 0.0 > min(self._velocities())
 
     def phases(self) -> tuple[Phase, Phase, Phase]:
-        """Durations and signed accelerations."""
+        """Return the duration, [s], and the signed acceleration of each phase."""
         v_i, v_p, v_f = self._velocities()
         rise, fall = math.copysign(self.acceleration, v_p - v_i), math.copysign(self.acceleration, v_f - v_p)
         return (self.first, rise), (self.coast, 0.0), (self.last, fall)
 
     def slowed(self, factor: float) -> "Profile":
-        """The same path in `factor` times the time: v/k, a/k²."""
+        """Return the same motion in k = `factor` times the time: v/k, a/k²."""
         v_i, v_p, v_f = (velocity / factor for velocity in self._velocities())
         times = (self.first * factor, self.coast * factor, self.last * factor)
         return Profile(v_i, v_p, v_f, self.acceleration / factor**2, *times)
@@ -102,7 +102,7 @@ class Profile:
 
 
 def fastest(task: Task) -> Profile:
-    """The profile of the shortest time; it turns back where it cannot go straight."""
+    """Return the profile of the shortest time; it turns back if it cannot go straight."""
     L, a, direct = task.distance, task.acceleration, task.stopping_distance
     v_i, v_f = task.start_velocity, task.end_velocity
     if abs(L - direct) <= _ROUNDING * max(abs(L), abs(direct)):
@@ -120,10 +120,10 @@ def fastest(task: Task) -> Profile:
 
 
 def lasting(task: Task, duration: float) -> Profile | None:
-    """The profile of a given duration with the task's acceleration; None where there is none.
+    """Return the profile of a given duration with the task's acceleration; None if it does not exist.
 
     Args:
-        task: What is to be done; its greatest velocity counts too.
+        task: Motion required of the joint, with its velocity limit.
         duration: T, [s].
     """
     low, high = sorted((task.start_velocity, task.end_velocity))
@@ -147,7 +147,7 @@ def lasting(task: Task, duration: float) -> Profile | None:
 
 
 def _beyond(L: float, low: float, high: float, a: float, duration: float) -> float | None:
-    """The coasting velocity above both end velocities: the smaller root of a quadratic."""
+    """Return the coasting velocity above both end velocities, the smaller root of a quadratic; None without a root."""
     total = a * duration + low + high
     constant = a * L + 0.5 * (low**2 + high**2)
     discriminant = total**2 - 4.0 * constant
@@ -159,13 +159,13 @@ def _beyond(L: float, low: float, high: float, a: float, duration: float) -> flo
 
 @dataclass(frozen=True, slots=True)
 class PointToPoint:
-    """Several joints from one configuration to another, all starting and ending together.
+    """A motion from one configuration to another in which all joints start and end together.
 
     Attributes:
-        motion: Positions in time.
-        profiles: Of each joint, as it is driven.
-        own: The fastest profile of each joint by itself.
-        factors: k = T/T_j where the own profile was slowed; None where it was planned for the duration.
+        motion: Positions over time.
+        profiles: Profile of each joint in this motion.
+        own: Fastest profile of each joint by itself.
+        factors: k = T/T_j of each joint whose own profile was slowed down; None if it was planned for the duration.
     """
 
     motion: PiecewisePolynomial
@@ -177,21 +177,21 @@ class PointToPoint:
 def point_to_point(
     starts: Array, tasks: Sequence[Task], duration: float | None = None, *, may_reverse: bool = False
 ) -> PointToPoint:
-    """Bang-coast-bang of all joints, in step with the slowest of them or lasting a given time.
+    """Plan trapezoidal profiles for all joints, synchronised with the slowest or lasting a given time.
 
-    In step with the slowest, a joint that begins and ends at rest is slowed uniformly by k = T/T_j, as in the course:
-    v/k, a/k². With end velocities that would change them: such a joint keeps its acceleration, and coasts more
-    slowly; so do all joints where the duration is given.
+    When synchronised with the slowest, a joint that starts and ends at rest is slowed uniformly by k = T/T_j, as in the
+    course: v/k, a/k². This would change nonzero end velocities, so a joint that has them keeps its acceleration and
+    coasts more slowly. So do all joints if the duration is given.
 
     Args:
-        starts: Positions at first; shape (n,), [rad or m].
-        tasks: Of each joint.
-        duration: T, [s]; the slowest joint's if left out.
-        may_reverse: Whether a joint may turn back where it cannot go straight.
+        starts: Initial positions; shape (n,), [rad or m].
+        tasks: Motion required of each joint.
+        duration: T, [s]; by default that of the slowest joint.
+        may_reverse: Whether a joint may turn back if it cannot go straight.
 
     Raises:
-        InvalidField: End velocities that are impossible with this distance and these limits; a duration too short,
-            or too long for a joint that cannot go so slowly.
+        InvalidField: The end velocities are impossible with this distance and these limits, or the duration is too
+            short, or too long for a joint that cannot go so slowly.
     """
     for j, task in enumerate(tasks):
         _check(task, j, may_reverse)
@@ -215,7 +215,7 @@ def point_to_point(
 
 
 def _in_step(task: Task, own: Profile, joint: int, end: float, may_slow: bool) -> tuple[Profile, float | None]:
-    """A joint's profile of a common duration, and by which factor its own one was slowed."""
+    """Return a joint's profile of the common duration, and the factor by which its own one was slowed, if it was."""
     if abs(end - own.duration) <= _ROUNDING * end:
         return own, 1.0
     if may_slow and task.is_at_rest:
@@ -233,7 +233,7 @@ _OTHERS = "give another duration, smaller end velocities, or another acceleratio
 
 
 def _check(task: Task, joint: int, may_reverse: bool) -> None:
-    """Check that the end velocities are within the limit, and reached between start and end."""
+    """Check that the end velocities are within the limit and possible over the distance."""
     name = f"joint {joint + 1}"
     for field, velocity in (("start_velocity", task.start_velocity), ("end_velocity", task.end_velocity)):
         if abs(velocity) > task.max_velocity:

@@ -1,4 +1,4 @@
-"""Worked solutions of trapezoids of velocity, as the lecture writes them."""
+"""Worked solutions of trapezoidal velocity profiles, in the notation of the lecture."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ from gelenk.trajectory.trapezoid import PointToPoint, Profile, Task
 
 
 def trapezoid_steps(tasks: Sequence[Task], found: PointToPoint) -> tuple[Step, ...]:
-    """Bang-coast-bang, joint by joint, and how the joints are brought in step."""
+    """Return the steps of the profile of each joint, and those that synchronise the joints."""
     steps, joints = [], len(tasks)
     planned = any(factor is None for factor in found.factors)
     for j, task in enumerate(tasks[:SHOWN_JOINTS]):
@@ -41,7 +41,7 @@ def trapezoid_steps(tasks: Sequence[Task], found: PointToPoint) -> tuple[Step, .
 
 
 def _rest(task: Task, own: Profile) -> Step:
-    """The steps from rest to rest: with a coast, or without one where L ≤ v²/a."""
+    """Return the step from rest to rest: with a coast, or without one if L ≤ v²/a."""
     L, a = tex(abs(task.distance)), tex(task.acceleration)
     reach = task.max_velocity**2 / task.acceleration
     if own.duration == 0.0:
@@ -73,7 +73,7 @@ def _rest(task: Task, own: Profile) -> Step:
 
 
 def _moving(task: Task, own: Profile) -> Step:
-    """The steps with velocities at the ends."""
+    """Return the step with nonzero end velocities."""
     v_i, v_f, a = (tex_factor(value) for value in (own.start_velocity, own.end_velocity, task.acceleration))
     text = "v_p is what the length allows, at most the limit. "
     if own.reverses:
@@ -96,7 +96,7 @@ def _moving(task: Task, own: Profile) -> Step:
 
 
 def _given(task: Task, profile: Profile, duration: float) -> Step:
-    """The steps for a given time, with the acceleration kept."""
+    """Return the step for a given time, with the acceleration kept."""
     if not task.is_at_rest:
         text = "The acceleration is kept; the coasting velocity follows from the distance, which grows with it."
         return Step("In the given time", text, (rf"T = {tex(duration)},\quad v_p = {tex(profile.peak_velocity)}",))
@@ -117,7 +117,7 @@ def _given(task: Task, profile: Profile, duration: float) -> Step:
 
 
 def _three_pieces(profile: Profile) -> Step:
-    """σ(t) along the path, from rest to rest."""
+    """Return the step with σ(t) along the path, from rest to rest."""
     if profile.duration == 0.0 or profile.start_velocity != 0.0 or profile.end_velocity != 0.0:
         return Step("Velocity", "A trapezoid over time.", (r"\dot\sigma: v_i \to v_p \to v_p \to v_f",))
     return Step(
@@ -132,7 +132,7 @@ def _three_pieces(profile: Profile) -> Step:
 
 
 def blend_steps(found: Blends) -> tuple[Step, ...]:
-    """Straight segments and parabolic blends, joint by joint."""
+    """Return the steps of straight segments with parabolic blends, joint by joint."""
     joints = found.velocities.shape[1]
     steps = [
         Step(

@@ -1,4 +1,4 @@
-"""Tridiagonal systems, also with the two corners of a periodic one, in a time that grows with their size alone."""
+"""Tridiagonal systems, also with the two corners of a periodic one, solved in linear time."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from gelenk.model.arrays import Array
 
 @dataclass(frozen=True, slots=True)
 class Tridiagonal:
-    """A matrix by its diagonals; the corners are where the lower and the upper one go on round the other side.
+    """A tridiagonal matrix, given by its diagonals; two corner entries continue the outer ones periodically.
 
     Attributes:
         lower: lower[i] = A[i, i - 1], and lower[0] = A[0, -1]; shape (N,).
@@ -25,7 +25,7 @@ class Tridiagonal:
         return len(self.diagonal)
 
     def dense(self) -> Array:
-        """All of it; shape (N, N). Where two diagonals meet, as in a periodic one of two rows, they add up."""
+        """Return the full matrix of shape (N, N); diagonals that overlap, as in a periodic one of two rows, add up."""
         N = len(self)
         i = np.arange(N)
         A = np.diag(self.diagonal)
@@ -35,9 +35,9 @@ class Tridiagonal:
 
 
 def solution(A: Tridiagonal, b: Array) -> Array:
-    """Solve A x = b, for a matrix whose diagonal dominates; shape (N, n) as b.
+    """Solve A x = b for a diagonally dominant matrix; x has the shape (N, n) of b.
 
-    The corners are taken off as a matrix of rank one and put back by the formula of Sherman and Morrison.
+    The corners are split off as a rank-one matrix, which the Sherman-Morrison formula takes into account.
     """
     if len(A) <= 2:
         return np.asarray(np.linalg.solve(A.dense(), b), dtype=float)
@@ -59,13 +59,13 @@ def solution(A: Tridiagonal, b: Array) -> Array:
 
 
 def _reduced(lower: Array, diagonal: Array, upper: Array, b: Array) -> Array:
-    """The solution by cyclic reduction: each second unknown is eliminated, all at once, until one is left."""
+    """Solve by cyclic reduction: eliminate every second unknown, all at once, until one is left."""
     N = len(diagonal)
     if N == 1:
         x: Array = b / diagonal[:, None]
         return x
     if N % 2 == 0:
-        # A last row of its own, so that each odd row has two neighbours.
+        # A dummy last row gives every odd row two neighbours.
         one_more = np.concatenate([b, np.zeros((1, b.shape[1]))])
         return _reduced(np.append(lower, 0.0), np.append(diagonal, 1.0), np.append(upper, 0.0), one_more)[:N]
     before = -lower[1::2] / diagonal[:-1:2]

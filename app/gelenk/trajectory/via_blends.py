@@ -1,8 +1,8 @@
-"""Joints past via points on straight lines with parabolic blends, in the least time of their kind.
+"""Joint motion past via points on straight lines with parabolic blends, in the least time of this kind of motion.
 
-Without times each step is first as long as its slowest joint needs for it at its limit of velocity. Steps without room
-for their blends are stretched until they have it, as by Kunz and Stilman [Kunz2011]; then all times are multiplied by
-the least factor with which the limits are kept. The answer says how far a via point is missed.
+If no times are given, each step first lasts as long as its slowest joint needs at its velocity limit. Steps too short
+for their blends are stretched, as by Kunz and Stilman [Kunz2011]; then all times are multiplied by the least factor
+that keeps the limits. The result contains the distance by which each via point is missed.
 """
 
 from dataclasses import replace
@@ -21,7 +21,7 @@ _LARGEST_FACTOR = 1e12
 _STRETCHES = 200
 _LEAST_STRETCH, _LARGEST_STRETCH = 1.001, 1.5
 _LEAST_SHARE = 1e-3
-"""Of a step that is taken for its straight line, where its blends do not leave as much."""
+"""Least fraction of a step that is assumed for its straight line, even if the blends leave less."""
 
 
 def via_blends(
@@ -34,23 +34,23 @@ def via_blends(
     duration: float | None = None,
     field: str = "",
 ) -> Blends:
-    """From rest to rest past via points: velocities constant on straight lines, accelerations in the blends.
+    """Plan a motion from rest to rest past via points, with constant velocities on lines and accelerations in blends.
 
-    It begins and ends in its end points. An inner point it passes beside, at the point's time, by |Δv| t_b / 8: see
-    `Blends.deviations`. Limits of jerk are none of it.
+    The motion starts and ends exactly at its end points. It misses an inner point by |Δv| t_b / 8 at the point's time
+    (`Blends.deviations`). Jerk limits do not apply.
 
     Args:
-        start: Shape (n,), [rad or m].
-        configurations: Via points after the start, the last one the end; shape (m, n).
-        limits: Of the joints. Where no blend time is given, blends have the full acceleration.
-        times: Of the points, after the start; shape (m,), [s]; the least of their proportion if left out.
+        start: Start configuration; shape (n,), [rad or m].
+        configurations: Via points after the start, the last one being the end; shape (m, n), [rad or m].
+        limits: Joint limits; if no blend time is given, the blends have the full acceleration.
+        times: Times of the points after the start; shape (m,), [s]; the shortest found if not given.
         blend_time: t_b of each blend, [s].
-        duration: In the place of times, [s].
-        field: What this stands for in the request, before the names of its fields in refusals.
+        duration: Requested duration, given instead of times, [s].
+        field: Request field of this motion, put before the names of its fields in refusals.
 
     Raises:
-        InvalidField: Points or times that cannot be taken, a segment too short for its blends, limits that are passed
-            at these times, or a duration that is too short.
+        InvalidField: Points or times are invalid, a segment is too short for its blends, the limits are exceeded at
+            these times, or the duration is too short.
     """
     check_limits(limits, field)
     check_duration(duration, field)
@@ -94,7 +94,7 @@ def _blends(points: Knots, limits: MotionLimits, blend_time: float | None) -> Bl
 def _fastest(
     points: Knots, limits: MotionLimits, blend_time: float | None, duration: float | None, field: str
 ) -> Blends:
-    """At times that leave each blend its room: steps stretched one by one, then all by the least factor that does."""
+    """Plan with times that fit the blends: stretch steps one by one, then scale all by the least possible factor."""
     steps = np.diff(points.positions, axis=0)
     lengths = _stretched(np.diff(points.times), steps, limits, blend_time)
     low, high = 0.0, 1.0
@@ -116,7 +116,7 @@ def _fastest(
 
 
 def _stretched(lengths: Array, steps: Array, limits: MotionLimits, blend_time: float | None) -> Array:
-    """Each step longer until its blends have room in it; shape (N - 1,), [s]."""
+    """Lengthen each step until its blends fit; shape (N - 1,), [s]."""
     for _ in range(_STRETCHES):
         loads = _loads(lengths, steps, limits, blend_time)
         if (loads <= 1.0).all():
@@ -130,19 +130,19 @@ def _fits(lengths: Array, steps: Array, limits: MotionLimits, blend_time: float 
 
 
 def _loads(lengths: Array, steps: Array, limits: MotionLimits, blend_time: float | None) -> Array:
-    """How much each step is used by its blends and velocities, and by accelerations in its blends: 1 is all of it.
+    """Return the largest ratio of each step's blend times to its duration and of its rates to their limits; (N - 1,).
 
     Args:
-        lengths: Of the steps; shape (N - 1,), [s].
+        lengths: Durations of the steps; shape (N - 1,), [s].
         steps: Δq; shape (N - 1, n), [rad or m].
-        limits: Of the joints.
-        blend_time: Of each blend, [s]; as long as the full acceleration takes if None.
+        limits: Joint limits.
+        blend_time: Duration of each blend, [s]; that of the full acceleration if None.
     """
     h, sides = lengths[:, None], np.zeros((len(lengths), 1))
     sides[0] += 1.0
     sides[-1] += 1.0
     if blend_time is None:
-        # Of an end blend: h t_b - sides t_b²/2 = |Δq|/a, the smaller root; where there is none, more than there is.
+        # End blends: the smaller root of h t_b - sides t_b²/2 = |Δq|/a; without a root, more than the step has.
         needed = np.abs(steps) / limits.acceleration
         blends = 2.0 * needed / (h + np.sqrt(np.maximum(h**2 - 2.0 * sides * needed, 0.0)))
     else:
@@ -163,7 +163,7 @@ def _loads(lengths: Array, steps: Array, limits: MotionLimits, blend_time: float
 def _lasting(
     found: Blends, duration: float, points: Knots, limits: MotionLimits, blend_time: float | None, field: str
 ) -> Blends:
-    """The same in a given time: slowed as a whole, or at the blend time that is given."""
+    """Slow the motion down to a given duration: as a whole, or planned again with the given blend time."""
     least = found.motion.duration
     if duration < least * (1.0 - ROUNDING):
         raise InvalidField(named(field, "duration"), f"must be at least {least:.10g} s")

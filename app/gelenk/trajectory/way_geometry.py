@@ -1,7 +1,7 @@
-"""What of a path does not depend on time: the joints' derivatives by s, the tip's, and how near to limits they come.
+"""The time-independent geometry of a path: derivatives by s of the joints and the tip, and their ratios to limits.
 
-With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3 q'' ṡ s̈ + q''' ṡ³, and of the tip's twist ξ = ξ_s ṡ,
-ξ̇ = ξ_s s̈ + ξ_s' ṡ². All in fractions of their limits: uniform scaling by k divides a ratio by k, k² or k³.
+With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3 q'' ṡ s̈ + q''' ṡ³, and for the tip's twist ξ = ξ_s ṡ,
+ξ̇ = ξ_s s̈ + ξ_s' ṡ². Uniform scaling by k divides the ratio of such a quantity to its limit by k, k² or k³.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem import MotionLimits
 
 TipMotion: TypeAlias = Callable[[Array, Array, Array], tuple[Array, Array]]
-"""Twist and its derivative in time from q, q̇ and q̈, each of shape (N, n); shape (N, 6) both, [m/s, rad/s], per s."""
+"""Maps q, q̇ and q̈, shape (N, n) each, to the tip's twist and its time derivative, (N, 6) each, [m/s, rad/s], per s."""
 
 QUANTITIES: Final = (
     "velocity",
@@ -33,26 +33,26 @@ QUANTITIES: Final = (
     "acceleration",
     "angular acceleration",
 )
-"""Three of the joints, four of the tip."""
+"""Limited quantities: three of the joints, four of the tip."""
 ORDERS: Final = np.array([1, 2, 3, 1, 1, 2, 2])
-"""By which power of k each is divided."""
+"""Power of k by which uniform scaling divides each quantity."""
 JOINTS: Final = 3
-"""How many of them are the joints'."""
+"""Number of joint quantities, which come first in `QUANTITIES`."""
 ACCELERATION: Final = 2
-"""Which of the tip's is its linear acceleration."""
+"""Index of the linear acceleration among the tip's quantities."""
 
 _INSIDE = 1e-9
-"""How far inside of a piece its ends are examined where the path may jump, in fractions of the piece."""
+"""Distance inside a piece at which a path that may jump is examined for its ends, as a fraction of the piece."""
 _SAME = 1e-9
 _CORNER = 1e-7
-"""The jump of q', in fractions of the largest, that takes a stop; as for `time_optimal`."""
+"""Jump of q', as a fraction of the largest |q'|, that requires a stop; the same as in `time_optimal`."""
 _BEND = 1e-6
-"""The jump of q'', in fractions of the largest, that is no rounding any more."""
+"""Jump of q'', as a fraction of the largest |q''|, up to which it counts as rounding."""
 _NO_LENGTH = 1e-13
 
 
 def tip_through(chain: Chain) -> TipMotion:
-    """The tip's motion from that of the joints: J q̇, and J q̈ + (∂J/∂q q̇) q̇."""
+    """Return the function from the joints' motion to the tip's: J q̇, and J q̈ + (∂J/∂q q̇) q̇."""
 
     def motion(q: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
         J = chain_jacobians(chain.flat, q)[2]
@@ -65,12 +65,12 @@ def tip_through(chain: Chain) -> TipMotion:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A part of a path on which the tip has limits of its own, beside those that hold everywhere.
+    """A part of a path on which the tip has its own limits, in addition to those that hold everywhere.
 
     Attributes:
-        begin: s at which it begins.
-        end: s at which it ends.
-        tip: The limits.
+        begin: s at its beginning.
+        end: s at its end.
+        tip: Additional limits of the tip.
     """
 
     begin: float
@@ -84,10 +84,10 @@ class Slopes:
 
     Attributes:
         first: q'; shape (N, n), [rad or m per unit of s].
-        second: q''.
-        third: q'''.
-        tip: ξ_s and ξ_s', None where the tip has no limits; shape (2, N, 6).
-        bounds: The tip's limits there, in the order of `QUANTITIES`; shape (N, 4).
+        second: q''; shape (N, n).
+        third: q'''; shape (N, n).
+        tip: ξ_s and ξ_s'; shape (2, N, 6); None if the tip has no limits.
+        bounds: Limits of the tip, in the order of `QUANTITIES`; shape (N, 4).
     """
 
     first: Array
@@ -97,7 +97,7 @@ class Slopes:
     bounds: Array
 
     def take(self, rows: Indices) -> "Slopes":
-        """Some of the places."""
+        """Return the derivatives at some of the places."""
         tip = None if self.tip is None else self.tip[:, rows]
         return Slopes(self.first[rows], self.second[rows], self.third[rows], tip, self.bounds[rows])
 
@@ -107,12 +107,12 @@ class Geometry:
     """A path with its limits.
 
     Attributes:
-        joints: q(s), whose breaks are also those of the path.
-        limits: That hold on it.
-        path: Of the tip; None where there is none.
-        tip_motion: Of the tip through the joints, instead of that along the path; None for the path's.
-        zones: Parts of the path where the tip has limits of its own; each begins and ends at a break.
-        corners: Where blends of lines begin and end, which are breaks too.
+        joints: q(s), whose breaks include those of the tip's path.
+        limits: Limits on the whole path.
+        path: Path of the tip, if there is one.
+        tip_motion: Function from the joints' motion to the tip's; None to use the motion along `path`.
+        zones: Parts of the path on which the tip has its own limits; each begins and ends at a break.
+        corners: s at the beginning and the end of each blend of lines, which are breaks too.
     """
 
     joints: PiecewisePolynomial
@@ -124,7 +124,7 @@ class Geometry:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The ends of s."""
+        """Values of s at both ends."""
         return float(self.joints.breaks[0]), float(self.joints.breaks[-1])
 
     @property
@@ -137,12 +137,12 @@ class Geometry:
 
     @property
     def limits_tip(self) -> bool:
-        """Whether the tip has a limit that can be computed."""
+        """Whether the tip has a limit and its motion is known."""
         known = self.path is not None or self.tip_motion is not None
         return known and bool(np.isfinite(self.tip_bounds(np.arange(len(self.joints.breaks) - 1))).any())
 
     def tip_bounds(self, piece: Indices) -> Array:
-        """The tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
+        """Return the tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
         bounds = np.tile(_of_tip(self.limits.tip), (len(piece), 1))
         middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
         for zone in self.zones:
@@ -151,37 +151,37 @@ class Geometry:
         return bounds
 
     def piece_of(self, s: Array) -> Indices:
-        """The piece of q(s) that each place is in, the later one at a break; shape (N,)."""
+        """Return the index of the piece of q(s) at each place, the later one at a break; shape (N,)."""
         last = len(self.joints.breaks) - 2
         found: Indices = np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
         return found
 
     def at(self, piece: Indices, s: Array) -> Slopes:
-        """The derivatives at places within given pieces, which tell the two sides of a break apart; shape (N,) each."""
+        """Return the derivatives at places s; the pieces distinguish the two sides of a break; shape (N,) each."""
         local = (s - self.joints.breaks[piece])[:, None]
         _, first, second, third = derivatives(self.joints.coefficients[piece], local)
         tip = self.tip_at(piece, s) if self.limits_tip else None
         return Slopes(first, second, third, tip, self.tip_bounds(piece))
 
     def tip_at(self, piece: Indices, s: Array) -> Array:
-        """ξ_s and ξ_s', zero where nothing is known of the tip; shape (2, N, 6)."""
+        """Return ξ_s and ξ_s', zero if the tip's motion is unknown; shape (2, N, 6)."""
         if self.tip_motion is not None:
             local = (s - self.joints.breaks[piece])[:, None]
             return np.stack(self.tip_motion(*derivatives(self.joints.coefficients[piece], local)[:3]))
         return np.zeros((2, len(s), 6)) if self.path is None else np.stack(self.along(self.path, piece, s))
 
     def along(self, path: Path, piece: Indices, s: Array) -> tuple[Array, Array]:
-        """ξ_s and ξ_s' of a path, at the ends of a piece those within it; shape (N, 6) both."""
+        """Return ξ_s and ξ_s' of a path, evaluated slightly inside a piece at its ends; shape (N, 6) each."""
         begin, end = self.joints.breaks[piece], self.joints.breaks[piece + 1]
         inside = _INSIDE * (end - begin)
         samples = path.at(np.clip(s, begin + inside, end - inside))
         return samples.first, samples.second
 
     def samples(self, count: int, least: int) -> tuple[Indices, Array]:
-        """Places in order, about `count` in all and at least some intervals in each piece, both of its ends among them.
+        """Sample about `count` places in order, with at least `least` intervals and both ends of each piece.
 
         Returns:
-            Pieces and s; shape (N,) each.
+            Indices of the pieces, and s; shape (N,) each.
         """
         lengths = np.diff(self.joints.breaks)
         counts = np.maximum(np.ceil(lengths / lengths.sum() * count).astype(np.int64), least) + 1
@@ -193,14 +193,14 @@ class Geometry:
         )
 
     def bends(self) -> Array:
-        """The places where q'' jumps; shape (m,)."""
+        """Return the values of s at which q'' jumps; shape (m,)."""
         (jumps, bend), (_, slope) = _jumps(self.joints, 2), _jumps(self.joints, 1)
         scale = max(bend, _BEND * slope / self.joints.duration)
         found: Array = self.joints.breaks[1:-1][jumps > _BEND * scale]
         return found
 
     def parts(self) -> tuple["Geometry", ...]:
-        """The path cut where q' jumps: there it has to stop."""
+        """Cut the path where q' jumps, because the motion has to stop there."""
         jumps, scale = _jumps(self.joints, 1)
         inner = 1 + np.flatnonzero(jumps > _CORNER * scale)
         ends = [0, *inner.tolist(), len(self.joints.breaks) - 1]
@@ -219,7 +219,7 @@ def geometry_of(
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> Geometry:
-    """A path of the joints that has the breaks of the tip's path too."""
+    """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path."""
     breaks = joints.breaks
     extra = np.array([] if path is None else path.breaks)
     nearest = np.abs(extra[:, None] - breaks).min(axis=1) if len(extra) else extra
@@ -231,7 +231,7 @@ def geometry_of(
 
 
 def ratios(slopes: Slopes, limits: MotionLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:
-    """How near to its limit each of `QUANTITIES` comes at ṡ, s̈ and s⃛ of shape (N,); shape (N, 7), 0 without limit."""
+    """Return the ratio of each of `QUANTITIES` to its limit at ṡ, s̈ and s⃛ of shape (N,); (N, 7), 0 without limit."""
     v, a, j = speeds[:, None], accelerations[:, None], jerks[:, None]
     found = np.zeros((len(speeds), len(QUANTITIES)))
     velocity = slopes.first * v
@@ -247,13 +247,13 @@ def ratios(slopes: Slopes, limits: MotionLimits, speeds: Array, accelerations: A
 
 
 def tip_ratios(twists: Array, changes: Array, bounds: Array) -> Array:
-    """How near to its limit each of the tip's quantities comes; shapes (N, 6), (N, 6) and (N, 4) → (N, 4)."""
+    """Return the ratio of each of the tip's quantities to its limit; shapes (N, 6), (N, 6) and (N, 4) → (N, 4)."""
     parts = (twists[:, :3], twists[:, 3:], changes[:, :3], changes[:, 3:])
     return np.column_stack([np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]) / bounds
 
 
 def of_order(order: int) -> Flags:
-    """Which of `QUANTITIES` are velocities (1), accelerations (2) or jerks (3)."""
+    """Return which of `QUANTITIES` are velocities (1), accelerations (2) or jerks (3); shape (7,)."""
     found: Flags = np.equal(ORDERS, order)
     return found
 
@@ -263,7 +263,7 @@ def _of_tip(limits: TipLimits) -> Array:
 
 
 def _jumps(joints: PiecewisePolynomial, order: int) -> tuple[Array, float]:
-    """The largest jump of a derivative at each inner break, shape (M - 1,), and the derivative's size."""
+    """Return the largest jump of a derivative at each inner break, shape (M - 1,), and its largest magnitude."""
     c, lengths = joints.coefficients, np.diff(joints.breaks)[:, None]
     before, after = (derivatives(c, local)[order] for local in (lengths, np.zeros_like(lengths)))
     scale = max(float(np.abs(values).max(initial=0.0)) for values in (before, after))

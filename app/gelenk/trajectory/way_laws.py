@@ -1,8 +1,8 @@
-"""Time laws s(t) along a whole path from rest to rest: polynomials, bang-coast-bang and the seven phases of least jerk.
+"""Time laws s(t) along a whole path from rest to rest: polynomials, trapezoidal and seven-phase jerk-limited profiles.
 
-What has to be known of a law is its shape; how long it takes follows by uniform scaling. A polynomial has one shape. Of
-the others that one is looked for which takes the least time under the limits along this way: where joints bend much, a
-high cruise speed leaves less for the acceleration.
+Only the shape of a law is chosen here; its duration follows by uniform scaling. A polynomial has a single shape. For
+the other laws, the shape that takes the least time under the limits on this path is searched for: where the joints'
+path bends strongly, a high cruise speed leaves less for the acceleration.
 """
 
 from collections.abc import Callable
@@ -18,27 +18,27 @@ from gelenk.trajectory.time_laws import between
 from gelenk.trajectory.way_geometry import ORDERS, Geometry, Slopes, of_order, ratios
 
 POLYNOMIALS: Final = {"cubic": 2, "quintic": 3, "septic": 4}
-"""How many derivatives each has given at either end, the position counted as one."""
+"""Number of derivatives given at each end, counting the position as one."""
 
 _SAMPLES = 600
 _LEAST_SAMPLES = 4
 _SHORTEST = 1e-8
-"""Least length of a ramp, in fractions of the way: a double has no digits for less."""
+"""Least length of a ramp, as a fraction of the path: a double cannot resolve less."""
 _SAME = 1e-13
 _ZOOMS = 6
 _ZOOM_POINTS = 31
 
 _TABLE = 400
 _INSTANTS = 12
-"""In each phase."""
+"""Instants sampled in each phase."""
 _SEARCH = 5
 """Rounds of the search for a shape."""
 _FIRST_STEP = 2.0
-"""Of acceleration and jerk, as a power of two."""
+"""First step of the search for acceleration and jerk, as a power of two."""
 
 
 def polynomial(name: str, geometry: Geometry) -> PiecewisePolynomial:
-    """The cubic, quintic or septic from rest to rest, lasting 1 s."""
+    """Return the cubic, quintic or septic s(t) from rest to rest, lasting 1 s."""
     count = POLYNOMIALS[name]
     rows = np.zeros((2, count, 1))
     rows[0, 0], rows[1, 0] = geometry.ends
@@ -46,12 +46,12 @@ def polynomial(name: str, geometry: Geometry) -> PiecewisePolynomial:
 
 
 def trapezoid(geometry: Geometry) -> PiecewisePolynomial:
-    """Bang-coast-bang with the acceleration and the cruise speed that take the least time.
+    """Return the trapezoidal s(t) with the acceleration and the cruise speed that take the least time.
 
-    A ramp of length d and a cruise speed v are to be chosen; the acceleration is v²/2d. At a distance m ≤ d from
-    either end ṡ² = v² m/d, so that every limit there is a bound of v²/d, and between the ramps one of v². All bounds
-    for all d at once are largest values so far, from the ends inwards and from the middle outwards. The best d on a
-    grid is refined; the duration is (L + 2d)/v.
+    The unknowns are the length d of a ramp and the cruise speed v; the acceleration is v²/2d. At a distance m ≤ d from
+    either end, ṡ² = v² m/d, so every limit there bounds v²/d; between the ramps, every limit bounds v². The bounds for
+    all d at once are running maxima, from the ends inwards and from the middle outwards. The best d on a grid is
+    refined; the duration is (L + 2d)/v.
     """
     begin, end = geometry.ends
     length = end - begin
@@ -62,7 +62,7 @@ def trapezoid(geometry: Geometry) -> PiecewisePolynomial:
     for _ in range(_ZOOMS):
         d, _, durations = _ramps(rows, length)
         i = int(np.argmin(durations))
-        # Each distance is there twice, from both ends, but for rounding.
+        # Up to rounding, each distance occurs twice, once from either end.
         low = d[max(int(np.searchsorted(d, d[i] - _SAME * length)) - 1, 0)]
         high = d[min(int(np.searchsorted(d, d[i] + _SAME * length, side="right")), len(d) - 1)]
         inner = np.linspace(low, high, _ZOOM_POINTS + 2)[1:-1]
@@ -74,7 +74,7 @@ def trapezoid(geometry: Geometry) -> PiecewisePolynomial:
 
 
 def bang_coast_bang(geometry: Geometry, ramp: float, speed: float) -> PiecewisePolynomial:
-    """s(t) with ramps of a given length at both ends, and a cruise speed between them."""
+    """Return s(t) with ramps of a given length at both ends, and a given cruise speed between them."""
     begin, end = geometry.ends
     coast = (end - begin - 2.0 * ramp) / speed
     coasts = coast > _SHORTEST * 2.0 * ramp / speed
@@ -90,11 +90,11 @@ def bang_coast_bang(geometry: Geometry, ramp: float, speed: float) -> PiecewiseP
 
 
 def _bounds(geometry: Geometry, piece: Indices, s: Array) -> Array:
-    """What a law demands at each place, in fractions of the limits.
+    """Compute what a law demands at each place, as fractions of the limits.
 
     Returns:
-        Its distance m from the nearer end, an acceleration per s̈ on a ramp, a velocity squared per ṡ²/m, and the larger
-        one of a velocity squared and an acceleration per ṡ² on the coast; shape (N, 4).
+        Distance m from the nearer end; on a ramp, acceleration per s̈ and squared velocity per ṡ²/m; on the coast, the
+        larger of squared velocity and acceleration per ṡ²; shape (N, 4).
     """
     begin, end = geometry.ends
     distance = np.minimum(s - begin, end - s)
@@ -110,12 +110,12 @@ def _bounds(geometry: Geometry, piece: Indices, s: Array) -> Array:
 
 
 def _ramps(rows: Array, length: float) -> tuple[Array, Array, Array]:
-    """Lengths of ramps, the largest cruise speed with each, and how long the path then takes; shape (N,) each."""
+    """Return lengths of ramps, the largest cruise speed with each, and the duration; shape (N,) each."""
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
     d = rows[:, 0]
     on_ramp, gained = np.maximum.accumulate(rows[:, 1]), np.maximum.accumulate(rows[:, 2])
     on_coast = np.maximum.accumulate(rows[::-1, 3])[::-1]
-    # Of places that are equally far the last one has seen all of them on the ramp, the first one on the coast.
+    # Of places at the same distance, the last includes all of them in the ramp, the first all of them in the coast.
     first, last = np.searchsorted(d, d, side="left"), np.searchsorted(d, d, side="right") - 1
     with np.errstate(divide="ignore", invalid="ignore"):
         squares = np.fmin(np.fmin(2.0 * d / on_ramp[last], d / gained[last]), 1.0 / on_coast[first])
@@ -124,10 +124,10 @@ def _ramps(rows: Array, length: float) -> tuple[Array, Array, Array]:
 
 
 def s_curve(geometry: Geometry) -> PiecewisePolynomial:
-    """The seven phases of least jerk, with the speed, acceleration and jerk along s that take the least time found.
+    """Return the seven-phase s(t) with the speed, acceleration and jerk along s that take the least time found.
 
-    Searched from the largest that the limits allow each by itself: these are the best where the path is straight in
-    joint space.
+    The search starts from the largest values that the limits allow for each alone, which are best if the path is
+    straight in joint space.
     """
     begin, end = geometry.ends
     length = end - begin
@@ -152,10 +152,10 @@ def s_curve(geometry: Geometry) -> PiecewisePolynomial:
 
 
 def _searched(durations: Callable[[Array], Array]) -> Array:
-    """The exponents of acceleration and jerk of the least duration, on grids ever finer; shape (2,)."""
+    """Find the exponents of acceleration and jerk with the least duration on successively finer grids; shape (2,)."""
     best, step = np.zeros(2), _FIRST_STEP
     offsets = np.array([(x, y) for x in range(-2, 3) for y in range(-2, 3)], dtype=np.float64)
-    offsets = offsets[np.argsort(np.abs(offsets).sum(axis=1), kind="stable")]  # What does not matter stays.
+    offsets = offsets[np.argsort(np.abs(offsets).sum(axis=1), kind="stable")]  # Ties: the nearest.
     for _ in range(_SEARCH):
         grid = best + step * offsets
         best = grid[int(np.argmin(durations(grid)))]
@@ -164,7 +164,7 @@ def _searched(durations: Callable[[Array], Array]) -> Array:
 
 
 def _alone(slopes: Slopes, limits: MotionLimits) -> Array:
-    """The largest ṡ, s̈ and s⃛ that the limits of each order allow where there is nothing else; shape (3,)."""
+    """Return the largest ṡ, s̈ and s⃛ that the limits of each order allow if the other two are zero; shape (3,)."""
     count = len(slopes.first)
     largest = np.empty(3)
     for k in range(3):

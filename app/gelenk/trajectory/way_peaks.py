@@ -1,7 +1,7 @@
-"""How near a motion along a path comes to its limits: exactly for the joints, for the tip on samples that are refined.
+"""Largest ratios of a motion along a path to its limits: exact for the joints, from refined samples for the tip.
 
-A polynomial lies between its least and its largest Bernstein coefficient. So only the pieces and joints are examined
-closely whose coefficients reach beyond what is found anyway.
+A polynomial lies between its least and its largest Bernstein coefficient. So only pieces and joints whose coefficients
+exceed the largest value found by sampling are examined closely.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ from gelenk.trajectory.way_geometry import (
 )
 
 Ratios: TypeAlias = Callable[[Indices, Array], Array]
-"""The tip's ratios at times since the start of pieces; shape (N,) each → (N, 4)."""
+"""Maps pieces and times since their start to the tip's ratios; shape (N,) each → (N, 4)."""
 
 _ROUNDING = 1e-12
 _PROBES = np.linspace(0.0, 1.0, 9)
@@ -37,18 +37,18 @@ _SAMPLES = 600
 _LEAST_SAMPLES = 4
 _CANDIDATES = 16
 _DOUBT = 1e-2
-"""By how much, in fractions of the largest sample, a parabola may be wrong."""
+"""Assumed error of a parabola, as a fraction of the largest sample."""
 _ROUNDS = 6
 _OFFSETS = np.linspace(0.0, 1.0, 9)
 
 
 @dataclass(frozen=True, slots=True)
 class Peaks:
-    """The largest ratios to limits.
+    """Largest ratios of a motion to its limits.
 
     Attributes:
-        ratios: Of each of `QUANTITIES`; 0 where there is no limit or none that counts; shape (7,).
-        joints: Which joint it is, of the first three; shape (3,).
+        ratios: Largest ratio of each of `QUANTITIES`; 0 if it has no limit or is not considered; shape (7,).
+        joints: Index of the joint with this ratio, for each of the first three; shape (3,).
     """
 
     ratios: Array
@@ -56,15 +56,15 @@ class Peaks:
 
     @property
     def factor(self) -> float:
-        """The k by which the motion is to be slowed down so that some limit is just reached; 0 if it stands still."""
+        """Factor k by which slowing down the motion just reaches some limit; 0 if it stands still."""
         return float(self._factors().max())
 
     def of_order(self, order: int) -> float:
-        """The largest ratio of a velocity (1), an acceleration (2) or a jerk (3), of joints and tip."""
+        """Return the largest ratio of a velocity (1), an acceleration (2) or a jerk (3), of joints and tip."""
         return float(self.ratios[of_order(order)].max())
 
     def binding(self, limits: MotionLimits, *, in_blends: bool = False) -> str:
-        """The limit that is reached first, in words; blends may have their own."""
+        """Return the limit that is reached first, in words; blends may have their own."""
         i = int(self._factors().argmax())
         if i < JOINTS:
             joint = int(self.joints[i])
@@ -89,14 +89,14 @@ def peaks_of(
     with_jerk: bool,
     with_joints: bool = True,
 ) -> Peaks:
-    """The largest ratios of a motion.
+    """Compute the largest ratios of a motion to its limits.
 
     Args:
         geometry: The path and its limits.
-        motion: q(s(t)); its breaks are also those of the law.
+        motion: q(s(t)), whose breaks include those of the law.
         law: s(t).
-        with_jerk: Whether jerk counts.
-        with_joints: Whether the joints do; the tip always does, where it has limits.
+        with_jerk: Whether to consider jerk.
+        with_joints: Whether to consider the joints; the tip always counts if it has limits.
     """
     found, joints = np.zeros(len(QUANTITIES)), np.zeros(JOINTS, dtype=np.int64)
     limits = geometry.limits
@@ -109,7 +109,7 @@ def peaks_of(
 
 
 def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
-    """The largest magnitude in fractions of its limit, and of which coordinate."""
+    """Return the largest ratio of a magnitude to its limit, and the index of its coordinate."""
     if len(limits) == 0:
         return 0.0, 0
     powers = np.diff(values.breaks)[:, None] ** np.arange(values.coefficients.shape[1])
@@ -128,7 +128,7 @@ def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
 
 
 def _of_tip(geometry: Geometry, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
-    """The tip's largest ratios; shape (4,)."""
+    """Return the tip's largest ratios; shape (4,)."""
     widths = np.diff(motion.breaks)
     along = cut(law, motion.breaks)
     places = geometry.piece_of(derivatives(along, 0.5 * widths[:, None])[0][:, 0])
@@ -154,7 +154,7 @@ def _of_tip(geometry: Geometry, motion: PiecewisePolynomial, law: PiecewisePolyn
 
 
 def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high: Array) -> Array:
-    """The largest value of a column between two times in a piece, of each of N; shape (N,)."""
+    """Find the largest value of a column between two times in a piece, for each of N searches; shape (N,)."""
     each = np.arange(len(piece))
     for _ in range(_ROUNDS):
         local = low[:, None] + (high - low)[:, None] * _OFFSETS
@@ -167,7 +167,7 @@ def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high:
 
 
 def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: Array) -> Ratios:
-    """Ratios of the tip's motion to its limits, through the joints; bounds of shape (M, 4)."""
+    """Return a function for the tip's ratios, computed from the joints' motion; bounds of shape (M, 4)."""
 
     def ratios(piece: Indices, local: Array) -> Array:
         rates = derivatives(motion.coefficients[piece], local[:, None])
@@ -177,7 +177,7 @@ def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: 
 
 
 def _along_path(geometry: Geometry, path: Path, law: Array, places: Indices) -> Ratios:
-    """Of a law that is expanded about the start of each piece, and the path's pieces; shapes (M, d + 1, 1) and (M,)."""
+    """Return a function for the tip's ratios along the path; shapes (M, d + 1, 1) of `law` and (M,) of `places`."""
     bounds = geometry.tip_bounds(places)
 
     def ratios(piece: Indices, local: Array) -> Array:
@@ -189,11 +189,11 @@ def _along_path(geometry: Geometry, path: Path, law: Array, places: Indices) -> 
 
 
 def _promising(found: Array, within: Indices, steps: Indices) -> tuple[Indices, Indices]:
-    """Rows and columns around which the largest values between samples are to be expected; shape (N, 4), (K,) each.
+    """Return rows and columns around which to expect the largest values between samples; shape (N, 4) → (K,) each.
 
-    The parabola through three samples of a piece says how high it gets between them; one whose vertex is up to a step
-    beyond counts too, since it may be wrong by as much. Where many pieces are at a limit their samples alone would not
-    tell which one goes beyond.
+    The parabola through three samples of a piece estimates the maximum between them; one whose vertex is up to one step
+    outside counts too, since it may be wrong by that much. If many pieces are at a limit, the samples alone would not
+    show which piece exceeds it.
     """
     rows = np.flatnonzero((within > 0) & (within < steps))
     before, at, after = found[rows - 1], found[rows], found[rows + 1]

@@ -1,4 +1,4 @@
-"""Paths of the tip from the segments of a trajectory: lines, circles, splines, and lines blended into one path."""
+"""Paths of the tip, built from a trajectory's segments: lines, circles, splines, and lines blended into one path."""
 
 import math
 from collections.abc import Sequence
@@ -25,10 +25,10 @@ class Corner:
     """A blend of two lines.
 
     Attributes:
-        begin: s at which it begins.
-        end: s at which it ends.
-        radius: Distance from the corner at which the first line is left, [m].
-        acceleration: Of the tip between the two at most, ∞ where only its limits everywhere count, [m/s²].
+        begin: s at its beginning.
+        end: s at its end.
+        radius: Distance from the corner at which the blend begins, [m].
+        acceleration: Limit of the tip's acceleration in the blend, ∞ if only the general limits apply, [m/s²].
     """
 
     begin: float
@@ -39,14 +39,13 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A path of the tip.
+    """A path of the tip through one segment, or through blended lines.
 
     Attributes:
-        path: The path.
-        ends: s at which each of its segments ends, in the middle of the blend where there is one; the last is
-            `path.extent`.
-        corners: Its blends, of each what the acceleration may be in it.
-        notes: What else is to be known.
+        path: Path through all segments.
+        ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
+        corners: Blends of the lines.
+        notes: Further remarks for the user.
     """
 
     path: Path
@@ -56,14 +55,14 @@ class Way:
 
     @property
     def edges(self) -> tuple[tuple[float, float], ...]:
-        """The beginning and the end of each blend."""
+        """Values of s at the beginning and the end of each blend."""
         return tuple((corner.begin, corner.end) for corner in self.corners)
 
     def zones(self, segments: Sequence[Segment]) -> tuple[Zone, ...]:
-        """Where the tip has limits of its own: in blends that say so, and on lines with their blends on both sides.
+        """Return where the tip has its own limits: in blends that set one, and on lines and the blends beside them.
 
         Args:
-            segments: That make up the way.
+            segments: Segments of the path.
         """
         own = [
             Zone(corner.begin, corner.end, TipLimits(acceleration=corner.acceleration))
@@ -79,15 +78,15 @@ class Way:
 
 
 def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
-    """The path of one segment, or of lines that are blended.
+    """Build the path of one segment, or of blended lines.
 
     Args:
-        start: T_base_tip at its beginning; shape (4, 4).
-        segments: One, or lines all but the last of which are blended into the next.
-        first: Number of the first in the trajectory, for refusals.
+        start: T_base_tip at the start; shape (4, 4).
+        segments: One segment, or lines that are each blended into the next.
+        first: Index of the first segment in the trajectory, for refusals.
 
     Raises:
-        InvalidField: There is no such way.
+        InvalidField: The path is impossible.
     """
     if len(segments) > 1:
         return _blended(start, segments, first)
@@ -99,7 +98,7 @@ def way_of(start: Array, segments: Sequence[Segment], first: int) -> Way:
 
 
 def is_blended(segment: Segment) -> bool:
-    """Whether a line is left for the next one without a stop."""
+    """Return whether a line is blended into the next segment, without a stop."""
     given = (segment.blend_time, segment.blend_acceleration)
     return segment.blend_radius > 0.0 or any(one is not None for one in given)
 
@@ -116,7 +115,7 @@ def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
 
 
 def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
-    """A path has a tangent at its ends; that the tip rests there is up to the law of time."""
+    """Return a boundary condition with tangents at the ends of the path; the time law brings the tip to rest there."""
     if segment.boundary in {"clamped", "assigned"}:
         note = (
             f"boundary {segment.boundary} of a tip's spline: the law of time brings the tip to rest at its ends; the "
@@ -127,7 +126,7 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
 
 
 def _via(segment: Segment) -> ViaOrientation:
-    """How a path through several orientations turns."""
+    """Return how a path through several orientations turns."""
     return "smooth" if segment.orientation == "axis_angle" else segment.orientation
 
 
@@ -152,10 +151,10 @@ def _blended(start: Array, segments: Sequence[Segment], first: int) -> Way:
 
 
 def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
-    """From each orientation to the next; θ of ZYZ changes its sign where a line leads to the other triple.
+    """Return the turns from each orientation to the next; `zyz_other` changes the sign of θ.
 
     Raises:
-        InvalidField: Some turn about an axis and others by ZYZ angles: there would be no turn over the corner.
+        InvalidField: Some lines turn about an axis and others by ZYZ angles, which leaves no turn over the corner.
     """
     by_axis = [segment.orientation == "axis_angle" for segment in segments]
     if all(by_axis):
@@ -167,7 +166,7 @@ def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequenc
 
 
 def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
-    """The beginning and the end of each blend."""
+    """Return s at the beginning and the end of each blend."""
     ends, s = [], 0.0
     for part in path.parts:
         if isinstance(part, PolynomialPath):
@@ -178,12 +177,12 @@ def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
 
 @dataclass(frozen=True, slots=True)
 class _Blend:
-    """How a corner is cut.
+    """How a corner is blended.
 
     Attributes:
-        field: Which field of the segment tells.
-        radius: Distance from the corner at which the line is left, [m].
-        acceleration: Of the tip in it at most, infinite where the field does not say, [m/s²].
+        field: Request field that determines the blend.
+        radius: Distance from the corner at which the blend begins, [m].
+        acceleration: Limit of the tip's acceleration in the blend, ∞ if the field sets none, [m/s²].
     """
 
     field: str
@@ -192,7 +191,7 @@ class _Blend:
 
 
 def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend]:
-    """How each corner is cut."""
+    """Return how each corner is blended."""
     lengths = np.linalg.norm(legs, axis=1)
     for i, length in enumerate(lengths):
         if length <= POINT:
@@ -216,10 +215,10 @@ def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend
 
 
 def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> _Blend:
-    """How a line is left for the next: the course's fly-over, both lines at the tip's greatest speed v.
+    """Return how a line is blended into the next: the course's fly-over, with both lines at the tip's speed limit v.
 
-    d = v ΔT / 2, and the acceleration is a = ‖v K_BC - v K_AB‖ / ΔT: one of ΔT and a is given. Under this limit the
-    fastest motion through the parabola is the course's own, of constant acceleration, and takes ΔT.
+    d = v ΔT / 2 and a = ‖v K_BC - v K_AB‖ / ΔT, where ΔT or a is given. Under this limit of acceleration, the fastest
+    motion through the parabola is that of the course, with constant acceleration and duration ΔT.
     """
     if segment.blend_radius > 0.0:
         return _Blend(f"{field}.blend_radius", segment.blend_radius)

@@ -1,4 +1,4 @@
-"""One judgement of parts that follow each other: each part's own, against its own limits, and how they meet."""
+"""Audit of a whole motion, combined from the audits of its parts against their own limits and of how the parts meet."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import astuple, replace
@@ -16,13 +16,13 @@ _Timed = TypeVar("_Timed", Peak, Margin, Singularity, Reason)
 
 
 def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], starts: Sequence[float]) -> Audit:
-    """The judgement of a whole motion.
+    """Combine the audits of the parts into one of the whole motion.
 
     Args:
-        chain: What moves.
-        motion: All of it.
-        audits: Of its parts, at least one.
-        starts: When each begins, [s].
+        chain: Chain that moves.
+        motion: The whole motion.
+        audits: Audits of its parts, at least one.
+        starts: Start time of each part, [s].
     """
     if len(audits) == 1:
         return audits[0]
@@ -54,7 +54,7 @@ def _way_error(errors: Sequence[WayError]) -> WayError | None:
 
 
 def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
-    """The one nearest to its limit or furthest beyond it; the largest where none has one."""
+    """Return the peak nearest to its limit or furthest beyond it; the largest peak if none has a limit."""
     found = [_moved(peak, start) for peak, start in peaks if peak is not None]
     limited = [peak for peak in found if peak.ratio is not None]
     if limited:
@@ -63,7 +63,7 @@ def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
 
 
 def _of_tip(peaks: Sequence[Peak]) -> Peak:
-    """The largest value of all parts, and the largest ratio to the limit that holds in a part."""
+    """Return the largest value of all parts, with the largest ratio to the limit of a part."""
     largest = max(peaks, key=lambda peak: peak.value)
     return replace(largest, ratio=max((peak.ratio for peak in peaks if peak.ratio is not None), default=None))
 

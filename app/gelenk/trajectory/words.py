@@ -1,4 +1,4 @@
-"""Names of what a motion's request and answer may contain, without what plans it."""
+"""String values used in motion requests and results, which can be imported without the planner."""
 
 from typing import Literal, TypeAlias
 

@@ -1,10 +1,10 @@
-"""Ways through orientations by the Euler angles ZYZ, the course's alternative to one axis and an angle.
+"""Paths through orientations by ZYZ Euler angles, the course's alternative to axis and angle.
 
-Each angle goes on its own, the axis is another at each moment. An orientation has two triples, (φ, θ, ψ) and
-(φ + π, -θ, ψ + π), and so two ways lead from one to another: θ keeps its sign or changes it. The start is taken with
-θ ≥ 0: from its other triple the same two ways lead through the same orientations.
+Each angle changes independently, so the axis of rotation varies. An orientation has two triples, (φ, θ, ψ) and
+(φ + π, -θ, ψ + π), so two paths lead from one to another: θ keeps its sign or changes it. The start is taken with
+θ ≥ 0; from its other triple, the same two paths lead through the same orientations.
 
-Where θ = 0 only φ + ψ is determined, and where θ = π only φ - ψ: φ is then that of a neighbour.
+If θ = 0 only φ + ψ is determined, and if θ = π only φ - ψ; φ is then taken from an adjacent orientation.
 """
 
 import math
@@ -24,18 +24,18 @@ from gelenk.trajectory.splines import cubic_spline
 ZyzBranch: TypeAlias = Literal["regular", "flipped"]
 
 _DEGENERATE = 1e-14
-"""Sine of θ below which only φ + ψ or φ - ψ is determined."""
+"""Sine of θ up to which only φ + ψ or φ - ψ counts as determined."""
 
 
 @dataclass(frozen=True, slots=True)
 class ZyzPath:
-    """φ, θ and ψ each at a rate of their own, constant in x.
+    """A path on which φ, θ and ψ change at constant rates in x.
 
     Attributes:
         start: (φ, θ, ψ) of R_i; shape (3,), [rad].
-        change: To those of R_f; shape (3,), [rad].
-        branch: Which of R_f's triples it leads to: `regular` where the sign of θ stays, `flipped` where it changes.
-        degenerate: Of the two ends those at which only φ + ψ or φ - ψ is determined; there φ is that of the other end.
+        change: Change of the angles up to R_f; shape (3,), [rad].
+        branch: Triple of R_f that it leads to: `regular` if the sign of θ stays, `flipped` if it changes.
+        degenerate: Ends at which only φ + ψ or φ - ψ is determined; φ is there taken from the other end.
     """
 
     start: Array
@@ -45,16 +45,16 @@ class ZyzPath:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None."""
+        """Always empty: the rates of the angles are constant."""
         return ()
 
     @property
     def angle(self) -> float:
-        """See `OrientationPath`; by Gauss's formula."""
+        """See `OrientationPath`; computed by `travelled`."""
         return travelled(self)
 
     def triple_at(self, x: float) -> Array:
-        """(φ, θ, ψ); shape (3,), [rad]."""
+        """Return (φ, θ, ψ) at x; shape (3,), [rad]."""
         triple: Array = self.start + x * self.change
         return triple
 
@@ -70,17 +70,17 @@ class ZyzPath:
 
 @dataclass(frozen=True, slots=True)
 class ZyzCurve:
-    """φ, θ and ψ as polynomials of x.
+    """A path on which φ, θ and ψ are piecewise polynomials of x.
 
     Attributes:
-        angles: Over x from 0 to 1, twice differentiable; 3 coordinates, [rad].
+        angles: (φ, θ, ψ) for x from 0 to 1, twice differentiable; 3 coordinates, [rad].
     """
 
     angles: PiecewisePolynomial
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """None: the angular rate is continuous."""
+        """Always empty: the angular rate is continuous."""
         return ()
 
     @property
@@ -94,7 +94,7 @@ class ZyzCurve:
 
 
 def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
-    """The two ways by ZYZ angles, to either triple of R_f; φ and ψ go the short way round.
+    """Return the two paths by ZYZ angles, to either triple of R_f; φ and ψ change by at most π.
 
     Args:
         start: R_i; shape (3, 3).
@@ -106,11 +106,11 @@ def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
 
 
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
-    """The turns from each orientation to the next, each starting with the angles at which the one before ends.
+    """Return the turns from each orientation to the next, each starting with the angles at which the previous one ends.
 
     Args:
-        rotations: Shape (M + 1, 3, 3).
-        flips: On which of the M paths θ changes its sign.
+        rotations: Orientations; shape (M + 1, 3, 3).
+        flips: Whether θ changes its sign, for each of the M turns.
     """
     triples = zyz_triples(rotations, flips)
     flat = _degenerate(rotations)
@@ -123,36 +123,36 @@ def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
 
 
 def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurve:
-    """The natural cubic spline of the angles: C², straight between two orientations.
+    """Return the natural cubic spline of the angles: C², and linear if there are only two orientations.
 
     Args:
-        rotations: At least two; shape (M + 1, 3, 3).
-        knots: Where x is at each, increasing from 0 to 1; shape (M + 1,).
-        flips: On which of the M paths θ changes its sign.
+        rotations: At least two orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
+        flips: Whether θ changes its sign, for each of the M intervals.
     """
     return ZyzCurve(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
 
 
 def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzCurve:
-    """The turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
+    """Return the turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
 
-    Its rates at both ends are those of the turns that it connects, as with the parabola of positions.
+    As with the parabola of positions, its rates at both ends are those of the turns that it connects.
 
     Args:
-        entry: e, the triple at A'; shape (3,), [rad].
-        corner: c, that at B, which is not reached.
-        leaving: l, that at C'.
+        entry: e, the triple at A', where the blend begins; shape (3,), [rad].
+        corner: c, the triple at B, which is not reached; shape (3,), [rad].
+        leaving: l, the triple at C', where the blend ends; shape (3,), [rad].
     """
     a, b = entry - corner, leaving - corner
     return ZyzCurve(PiecewisePolynomial(np.array([0.0, 1.0]), np.array([[entry, -2.0 * a, a + b]])))
 
 
 def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
-    """Triples of orientations, φ and ψ going the short way from each to the next; shape (M + 1, 3), [rad].
+    """Return triples of orientations; φ and ψ change by at most π from each to the next; shape (M + 1, 3), [rad].
 
     Args:
-        rotations: Shape (M + 1, 3, 3).
-        flips: On which of the M paths θ changes its sign.
+        rotations: Orientations; shape (M + 1, 3, 3).
+        flips: Whether θ changes its sign, for each of the M intervals.
     """
     triples = zyz_from_rotations(rotations)
     other = np.logical_xor.accumulate(np.array([False, *flips]))
@@ -165,13 +165,13 @@ def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
 
 
 def _degenerate(rotations: Array) -> Flags:
-    """Whether only φ + ψ or φ - ψ is determined; shape (N,)."""
+    """Return at which orientations only φ + ψ or φ - ψ is determined; shape (N,)."""
     flat: Flags = np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE
     return flat
 
 
 def _settle(triples: Array, flat: Flags) -> None:
-    """Give degenerate triples the φ of the one before; those at the beginning that of the first that has one."""
+    """Give degenerate triples the φ of the previous one; those at the start get the first φ that is determined."""
     first = int(np.argmin(flat))
     for i in (*range(first - 1, -1, -1), *range(first + 1, len(triples))):
         if flat[i]:
@@ -179,14 +179,14 @@ def _settle(triples: Array, flat: Flags) -> None:
 
 
 def _move_phi(triple: Array, phi: float) -> None:
-    """Another φ of a degenerate triple: φ + ψ stays where θ = 0, φ - ψ where θ = π."""
+    """Change φ of a degenerate triple, keeping φ + ψ if θ = 0 and φ - ψ if θ = π."""
     sign = 1.0 if math.cos(triple[1]) > 0.0 else -1.0
     triple[2] += sign * (triple[0] - phi)
     triple[0] = phi
 
 
 def _motion(triples: Array, rates: Array, changes: Array) -> tuple[Array, Array, Array]:
-    """R, ω_x and dω_x/dx of angles and their two derivatives; shape (N, 3) each → (N, 3, 3), (N, 3), (N, 3).
+    """Return R, ω_x and dω_x/dx from angles and two derivatives; shape (N, 3) each → (N, 3, 3), (N, 3), (N, 3).
 
     ω = φ' z + θ' y' + ψ' z'' with y' = (-sin φ, cos φ, 0) and z'' the tip's z.
     """
