@@ -25,8 +25,7 @@ BodyMotion: TypeAlias = list[pin.Motion]
 QUANTITIES = ("the twist", "the acceleration", "the jerk", "the snap")
 
 _STEP, _LEVELS = 0.02, 3
-"""First step of the difference quotient, as a share of the time in which all joints together turn by about 1 rad;
-and the number of steps, each half the one before."""
+"""First step of the difference quotient, as a share of the time for about 1 rad of joint motion; number of steps."""
 _STEPS_LOST = 1e-3
 """Relative increase of the snap's allowed error per radian of joint position."""
 _SLOWEST = 1e-6

@@ -40,15 +40,13 @@ class JointBounds:
 
 @dataclass(frozen=True, slots=True)
 class LimitedMotion:
-    """Velocities and forces within the joint limits at one configuration, in D directions.
-
-    They are translational, [m/s] and [N], or rotational, [rad/s] and [N m].
+    """Velocities, [m/s] or [rad/s], and forces, [N] or [N m], within the joint limits at one configuration.
 
     Attributes:
-        velocities: Largest velocity purely along each direction, and largest component along it; shape (D, 2). None if
-            a joint has no velocity limit.
-        velocity_vertices: Vertices of the velocity polytope, in the rows used; shape (V, k). None unless all motion
-            stays in a plane and all joints have limits.
+        velocities: Largest velocity purely along each of D directions, and largest component along it; shape (D, 2).
+            None if a joint has no velocity limit.
+        velocity_vertices: Vertices of the velocity polytope if all motion stays in a plane, else None; shape (V, k).
+            None also if a joint has no velocity limit.
         forces: Largest forces in the same way, NaN where unbounded; None if a joint has no effort limit.
         force_vertices: Vertices of the force polytope in the same way; None also if it is unbounded.
     """

@@ -3,9 +3,8 @@
 Where a direction is lost, the block F = Uᵀ J V of the Jacobian vanishes; U and V are the singular vectors from number r
 on, r being the structural rank. Joint j changes F by Uᵀ ∂J/∂q_j V, so sequential quadratic programming projects onto
 the singular set: x = q + A⁺(-F - A(q - x_k)). A fixed point has F = 0, and the line from q meets the set at a right
-angle. Many starts reduce the risk of missing the nearest such point: minima of the manipulability measure along rays
-from q, then again inside the ball given by the first result. The result is certainly singular, but not proven to be
-the nearest.
+angle. To avoid missing the nearest such point, many starts are used: minima of the manipulability measure along rays
+from q, then again inside the ball given by the first result. The result is singular, but not proven to be the nearest.
 """
 
 from dataclasses import dataclass
@@ -67,8 +66,7 @@ class Search:
 def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search) -> NearestSingularity | None:
     """Find the nearest configuration that loses a direction the arm has elsewhere; None if none was found.
 
-    The search is deterministic. Revolute joints are not wrapped: the distance is between joint positions, not angles
-    modulo a turn.
+    The search is deterministic. Joint positions are compared without wrapping by full turns.
 
     Args:
         chain: Base and tip.

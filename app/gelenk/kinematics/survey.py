@@ -183,7 +183,7 @@ class Survey:
 
 
 def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float, float]:
-    """Bound the volume of the region that the samples come from, [m³, m² or m].
+    """Return a lower and an upper bound of the volume of the region that the samples come from, [m³, m² or m].
 
     The region contains the inner cells, and lies within the cells it meets. If the samples are too few to find nearly
     all of these, cells of twice the size are used. The number of cells still missing is estimated from those with one
@@ -193,9 +193,6 @@ def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float
         grid: The grid of cells.
         table: The cells that contain samples.
         farthest: Upper bound of the tip's distance from the base's origin, [m].
-
-    Returns:
-        Lower and upper bound.
     """
     d = grid.dimensions
     if d == 0:

@@ -45,9 +45,7 @@ class Grid:
         return self.size**self.dimensions if self.dimensions else 0.0
 
     def most_cells(self, radius: float) -> float:
-        """Compute an upper bound of the number of cells that meet a ball.
-
-        All these cells lie within a ball that is one cell diagonal larger.
+        """Bound the number of cells that meet a ball: they all lie within a ball that is one cell diagonal larger.
 
         Args:
             radius: Radius of the ball, [m].

@@ -174,7 +174,6 @@ def _grid(motion: Motion, wish: Wish) -> Grid:
 
 
 def _rounded(length: float) -> float:
-    """Round a length to two digits."""
     return float(f"{length:.1e}")
 
 

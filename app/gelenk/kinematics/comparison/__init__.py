@@ -1,6 +1,7 @@
-"""Does a DH table describe a chain, and if not, what is wrong with it.
+"""Parts of the check whether a DH table describes a chain, and of the search for its mistakes if not.
 
-`screws` chains by their axes, and least squares on them · `alignment` which axis goes where, to start from ·
-`placement` base, tool, zeros and senses, with the errors that Pinocchio measures · `rows` numbers that would have to
-be others · `mistakes` what people get wrong, tried one after the other · `words` their names.
+`screws`: joint axes, and least squares on them · `alignment`: starting values · `placement`: base, tool, zeros and
+senses, with errors through Pinocchio · `numbers`: single wrong numbers · `repairs`: tables with mistakes corrected ·
+`invariants`: fast filter of tables · `trials`: tests of repaired tables · `several`: wrong numbers with another
+mistake · `mistakes`: the search through common mistakes · `words`: their names.
 """

@@ -1,9 +1,9 @@
-"""Where to lay a table's axes so that they cover a chain's: a base, zeros and senses of the joints, to start from.
+"""Alignment of a table's axes with a chain's: starting values for base, zeros and senses of the joints.
 
-One joint after the other, from the base on. What stands behind joint i can still turn about its axis where the joint's
-zero is free, and everything can turn about the first axis where the base is: such a slack is taken up by the next axis
-that is not parallel, else by the way to the next parallel one. Only rotations are looked for: once they are known
-positions follow by linear least squares. Where senses are free each is tried in both, and every way that fits is kept.
+The alignment goes joint by joint from the base. If the zero of joint i is free, everything after it can still rotate
+about its axis, and if the base is free, everything can rotate about the first axis. The next axis that is not parallel
+fixes this slack, else the displacement to the next parallel axis. Only rotations are needed: positions then follow by
+linear least squares. If senses are free both are tried for each joint, and every alignment that fits is kept.
 """
 
 import math
@@ -17,19 +17,19 @@ from gelenk.model.arrays import Array
 from gelenk.model.notations import rotations_from_vectors
 
 _PARALLEL = 1e-3
-"""Angle below which two axes give no direction to turn by, [rad]; least squares does the rest."""
+"""Sine of the angle below which two axes do not determine a rotation; least squares does the rest."""
 _COLLINEAR = 1e-6
-"""Distance below which two parallel axes give none, [m]."""
+"""Distance below which two parallel axes do not determine a rotation, [m]."""
 _MISFIT = 0.02
-"""Angle between axes beyond which a sense is given up, [rad]."""
+"""Angle between axes at which a sense is rejected, [rad]."""
 _MOST_BRANCHES = 256
 _MOST_STEPS = 4096
-"""Of joints, all branches together: with more than 16 joints there are fewer branches."""
+"""Limit of joints times branches: chains with more than 16 joints get fewer branches."""
 _BASE = -1
 
 
 class Freedom(NamedTuple):
-    """What is to be found; the rest is as the table has it, zeros at 0 and senses at 1."""
+    """The quantities to find; others are as in the table, with offsets of 0 and signs of 1."""
 
     base: bool
     tool: bool
@@ -38,12 +38,12 @@ class Freedom(NamedTuple):
 
 
 class Alignment(NamedTuple):
-    """A start.
+    """Starting values for least squares.
 
     Attributes:
-        base: Rotation to be laid before the table's base; shape (3, 3).
-        offsets: Of the joints, along their motion in the table; zero where they slide; shape (n,), [rad].
-        signs: 1 or -1 each; shape (n,).
+        base: Rotation that premultiplies the table's base; shape (3, 3).
+        offsets: Offsets of the joints, in the table's sense, zero if prismatic; shape (n,), [rad].
+        signs: Sense of each joint, 1 or -1; shape (n,).
     """
 
     base: Array
@@ -52,7 +52,7 @@ class Alignment(NamedTuple):
 
 
 class _Axes(NamedTuple):
-    """A chain's axes: directions and points, shape (n, 3) each, and which of them slide."""
+    """A chain's axes: directions and points, shape (n, 3) each, and which are prismatic."""
 
     directions: Array
     points: Array
@@ -64,7 +64,7 @@ class _Axes(NamedTuple):
 
 
 class _Slack(NamedTuple):
-    """A rotation that is still open: about an axis of the chain, any where None; whose it is, and a point on it."""
+    """An undetermined rotation: about an axis (any if None), due to joint or base `owner`, through points `anchor`."""
 
     axis: Array | None
     owner: int
@@ -73,7 +73,7 @@ class _Slack(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Branch:
-    """Senses chosen so far. `R` maps directions of the table, at zero, to the chain's, behind the joints so far."""
+    """A partial alignment. After the joints so far, `R` maps directions in the table, at zero, to the chain's."""
 
     R: Array
     base: Array
@@ -86,17 +86,16 @@ class _Branch:
 def alignments(
     target: Screws, table: Screws, freedom: Freedom, signs: Array | None = None, strict: bool = False
 ) -> list[Alignment]:
-    """Ways to lay the axes of a table along those of a chain, the fewest reversed senses first.
+    """Align the axes of a table with those of a chain; the fewest reversed senses come first.
 
-    Of more than 256 ways those with the fewest reversed senses are kept.
+    At most 256 alignments are kept, those with the fewest reversed senses.
 
     Args:
         target: The chain.
-        table: The table with a base that is the identity where it is free; its joints are the chain's in number and
-            type.
-        freedom: What may be found.
-        signs: Senses to hold where they are not to be found; all 1 if left out.
-        strict: Give none where an axis does not fit, instead of the ways that fit best.
+        table: The table, with joints that match the chain's in number and type; a free base must be the identity.
+        freedom: The quantities to find.
+        signs: Senses to hold if they are not to be found; all 1 if None.
+        strict: Return nothing if an axis does not fit, instead of the best alignment.
     """
     n = len(target)
     most = min(_MOST_BRANCHES, _MOST_STEPS // n)
@@ -118,12 +117,12 @@ def alignments(
 
 
 def _beyond(branch: _Branch, i: int, sense: float, target: _Axes, table: _Axes, free_zeros: bool) -> _Branch:
-    """A branch past joint i."""
+    """Extend a branch by joint i."""
     signs = branch.signs.copy()
     signs[i] = sense
     branch = _taken_up(replace(branch, signs=signs), i, target, table)
     w, w_target = sense * (branch.R @ table.directions[i]), target.directions[i]
-    # From sine and cosine, as the cosine alone is blind near zero.
+    # From sine and cosine, as the cosine alone cannot resolve small angles.
     misfit = math.atan2(_length(_cross(w, w_target)), float(w @ w_target))
     slack = branch.slack
     turns = not target.slides[i]
@@ -135,7 +134,7 @@ def _beyond(branch: _Branch, i: int, sense: float, target: _Axes, table: _Axes, 
 
 
 def _taken_up(branch: _Branch, i: int, target: _Axes, table: _Axes) -> _Branch:
-    """A branch whose slack joint i has taken up, as far as it can."""
+    """Let joint i fix the slack of a branch, as far as it can."""
     slack = branch.slack
     if slack is None:
         return branch
@@ -156,7 +155,7 @@ def _taken_up(branch: _Branch, i: int, target: _Axes, table: _Axes) -> _Branch:
 
 
 def _taken(branch: _Branch, axis: Array, angle: float) -> _Branch:
-    """A branch whose slack is taken up by a turn."""
+    """Fix the slack of a branch by a rotation."""
     owner = branch.slack.owner if branch.slack else _BASE
     turn = _rotation(angle * axis)
     if owner == _BASE:
@@ -171,7 +170,7 @@ def _turned(branch: _Branch, turn: Array) -> _Branch:
 
 
 def _closed(branch: _Branch, target: Array, table: Array) -> _Branch:
-    """A branch whose last slack the orientation of the tip takes up."""
+    """Fix the last slack of a branch by the orientation of the tip."""
     if branch.slack is None or branch.slack.axis is None:
         return branch
     axis = branch.slack.axis
@@ -181,7 +180,7 @@ def _closed(branch: _Branch, target: Array, table: Array) -> _Branch:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """The cross product; NumPy's takes longer to look at its arguments than to multiply them."""
+    """Cross product; NumPy's spends more time checking its arguments than multiplying them."""
     (ax, ay, az), (bx, by, bz) = a.tolist(), b.tolist()
     return np.array((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
@@ -191,13 +190,13 @@ def _length(vector: Array) -> float:
 
 
 def _across(vector: Array, axis: Array) -> Array:
-    """The part of a vector across an axis."""
+    """Component of a vector perpendicular to an axis."""
     across: Array = vector - (vector @ axis) * axis
     return across
 
 
 def _shortest(a: Array, b: Array) -> Array:
-    """The smallest rotation from one unit vector to another; of opposite ones about x, or about y along x."""
+    """Smallest rotation from one unit vector to another; if opposite, about an axis near x, or near y if along x."""
     normal = _cross(a, b)
     sine = _length(normal)
     if sine < 1e-12:

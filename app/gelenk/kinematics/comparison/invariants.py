@@ -1,8 +1,8 @@
-"""Whether tables may describe a chain, thousands at a time, by what no choice of a base changes.
+"""Fast test whether tables may describe a chain, thousands at a time, by invariants under any choice of base.
 
-Two axes have an angle and a moment about each other, parallel ones a distance, three of them a handedness. A base that
-is held takes part with the axes of its frame, and so does a tip where the tool is held: then nothing is left open.
-Such numbers are necessary, not always enough, so what agrees here is laid on the chain afterwards.
+Two axes have an angle and a mutual moment, parallel axes a distance, three axes a handedness. A base that is held adds
+the axes of its frame, and so does the tip if the tool is held. Equal invariants are necessary but not always
+sufficient, so the tables that pass are then fitted to the chain.
 """
 
 from collections.abc import Callable
@@ -16,23 +16,23 @@ from gelenk.model.arrays import Array, Flags, Indices
 from gelenk.model.dh import Convention, DhTable
 
 _LOOSENESS = 10.0
-"""How many tolerances two axes may be off where a table may still be within them."""
+"""Number of tolerances by which invariants may differ if the table may still be within tolerance."""
 _PARALLEL = 1e-6
 
 
 class Axes(NamedTuple):
-    """Axes of C tables, from base to tip: directions and moments; shape (m, 3, C) each."""
+    """Axes of C tables, from base to tip, as directions and moments; shape (m, 3, C) each."""
 
     directions: Array
     moments: Array
 
     def only(self, chosen: Flags) -> "Axes":
-        """Those of some tables."""
+        """Select the axes of some tables."""
         return Axes(self.directions[..., chosen], self.moments[..., chosen])
 
 
 class _Invariant(NamedTuple):
-    """Of two or three axes by their number; whether two are parallel, and whether positions count."""
+    """An invariant of two or three axes, by their indices; whether two are parallel, and whether positions count."""
 
     axes: tuple[int, ...]
     parallel: bool
@@ -40,15 +40,15 @@ class _Invariant(NamedTuple):
 
 
 class Invariants:
-    """Those of a chain, and which of them tables have.
+    """The invariants of a chain, to be compared with those of tables.
 
     Attributes:
-        straddles: Whether an invariant reaches across a link: link k leads from joint k - 1 to joint k, counted from 0,
-            the first one from the base and the last one to the tip; shape (invariants, n + 1).
+        straddles: Whether an invariant spans a link: link k leads from joint k - 1 to joint k, counted from 0, the
+            first one from the base and the last one to the tip; shape (invariants, n + 1).
     """
 
     def __init__(self, on: Subject, freedom: Freedom) -> None:
-        """Of a chain, as far as what is free leaves them: where zeros are, those of neighbours."""
+        """Compute the invariants that the given freedom leaves: with free zeros, only those of neighbours."""
         n, target = len(on.target), on.target
         self._freedom, self._slides = freedom, target.slides
         moments = np.where(target.slides[:, None], 0.0, target.twists[:, :3])
@@ -65,7 +65,7 @@ class Invariants:
         self._tolerances = _LOOSENESS * orientation, _LOOSENESS * (position + orientation * reach)
 
     def _chosen(self, places: list[int]) -> list[_Invariant]:
-        """Pairs, neighbours first, then three joints each."""
+        """Pairs of axes, neighbours first, then triples of joints."""
         n, free_zeros = len(self._slides), self._freedom.offsets
         turns = [not (0 <= place < n and self._slides[place]) for place in places]
         found = []
@@ -79,7 +79,7 @@ class Invariants:
         return found + [_Invariant((k, k + 1, k + 2), parallel=False, placed=False) for k in triples]
 
     def axes(self, convention: Convention, rows: Array, senses: Array, table: DhTable) -> Axes:
-        """The axes of tables that differ from one in numbers and senses; shapes (C, n, 4), (C, n)."""
+        """Compute the axes of tables that differ from one table in numbers and senses; shapes (C, n, 4), (C, n)."""
         base = np.eye(4) if self._freedom.base else table.base
         x, y, z, p = (np.repeat(base[:3, k, None], len(rows), axis=1) for k in range(4))
         numbers = np.ascontiguousarray(rows.transpose(1, 2, 0))
@@ -101,7 +101,7 @@ class Invariants:
         return _with_ends(joints, tips, self._freedom)
 
     def agreeing(self, axes: Axes) -> Indices:
-        """The tables that have every invariant, by their number."""
+        """Return the indices of the tables that have every invariant."""
         alive = np.arange(axes.directions.shape[-1])
         for each in self._invariants:
             fits = self._fits(each, axes)
@@ -110,7 +110,7 @@ class Invariants:
         return alive
 
     def misfits(self, axes: Axes) -> Flags:
-        """Which invariants each table does not have; shape (C, invariants)."""
+        """Return which invariants each table violates; shape (C, invariants)."""
         misfits = np.empty((axes.directions.shape[-1], len(self._invariants)), dtype=bool)
         for k, each in enumerate(self._invariants):
             misfits[:, k] = ~self._fits(each, axes)
@@ -129,7 +129,7 @@ class Invariants:
 
 
 def _with_ends(joints: list[tuple[Array, Array]], tips: Array, freedom: Freedom) -> Axes:
-    """Axes of joints, with those of the base's frame before and of the tip's behind them where these are held."""
+    """Axes of joints, preceded by those of the base frame and followed by those of the tip if these are held."""
     bases = np.repeat(np.eye(4)[..., None], tips.shape[-1], axis=2)
     before, behind = (
         [(T[:3, k], _cross(T[:3, 3], T[:3, k])) for k in range(3) if not free]
@@ -140,19 +140,19 @@ def _with_ends(joints: list[tuple[Array, Array]], tips: Array, freedom: Freedom)
 
 
 def _angular(which: tuple[int, ...], axes: Axes) -> Array:
-    """The cosine between two axes, the triple product of three."""
+    """Cosine of the angle between two axes, or triple product of three."""
     u, w, *rest = (axes.directions[k] for k in which)
     return _dot(_cross(u, w), rest[0]) if rest else _dot(u, w)
 
 
 def _moment(which: tuple[int, ...], axes: Axes) -> Array:
-    """The moment of two axes about each other."""
+    """Mutual moment of two axes."""
     i, j = which
     return _dot(axes.directions[i], axes.moments[j]) + _dot(axes.directions[j], axes.moments[i])
 
 
 def _distance(which: tuple[int, ...], axes: Axes) -> Array:
-    """Between parallel axes."""
+    """Distance between parallel axes."""
     i, j = which
     apart = axes.moments[i] - _dot(axes.directions[i], axes.directions[j]) * axes.moments[j]
     return np.sqrt(_dot(apart, apart))

@@ -1,8 +1,8 @@
-"""What people get wrong in a DH table, each mistake made good and the table tried again; then two of them together.
+"""Search for common mistakes in a DH table: each is corrected and the table tested again, then pairs of mistakes.
 
-Beside single numbers: the other convention, units, columns or rows exchanged, a row missing or there twice, signs
-throughout, a joint's sense, a shifted zero, a base or tool that is not as given. What makes the table describe the
-chain is a diagnosis.
+Besides single numbers: the other convention, units, exchanged columns or rows, a missing or doubled row, wrong signs
+throughout, a joint's sense, a shifted zero, a wrong base or tool. A correction that makes the table describe the chain
+is a diagnosis.
 """
 
 import itertools
@@ -22,22 +22,22 @@ from gelenk.model.dh import DhTable
 from gelenk.model.errors import quoted
 
 _ROWS_WITH_TRIALS = 16
-"""Longest table of which each row's slips are tried."""
+"""Largest number of rows for which mistakes in single rows are tried."""
 ROWS_WITH_PAIRS = 8
-"""Longest table of which two mistakes together are tried."""
+"""Largest number of rows for which pairs of mistakes are tried."""
 _POWERS_IN_PAIRS = 3
 _WEAK = {"joint_zero", "joint_sense", "base", "tool"}
-"""Mistakes that may hide two others: those are reported too."""
+"""Mistakes that may mask two others, which are then reported too."""
 
 
 def diagnoses(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Diagnosis]:
-    """Single mistakes that explain why a table does not describe a chain, or else two together; the likeliest first.
+    """Find single mistakes, or else pairs, that explain why a table does not describe a chain; the likeliest first.
 
     Args:
         on: The chain.
-        table: Its rows are the chain's joints in number and type.
-        freedom: What may be found.
-        signs: Senses of the joints while single numbers are looked for; shape (n,).
+        table: The table, with rows that match the chain's joints in number and type.
+        freedom: The quantities that may be found.
+        signs: Senses of the joints in the search for single numbers; shape (n,).
     """
     numbers = _wrong_numbers(on, table, freedom, signs)
     slips = [each for each in numbers if each.mistakes != ("number",)]
@@ -55,7 +55,7 @@ def diagnoses(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> li
 
 
 def diagnoses_of_rows(on: Subject, table: DhTable, freedom: Freedom) -> list[Diagnosis]:
-    """The same for a table whose rows are not the chain's joints in number or type."""
+    """Find mistakes in a table whose rows do not match the chain's joints in number or type."""
     n, excess = len(table.joints), len(table.joints) - len(on.target)
     if abs(excess) > 2 or max(n, len(on.target)) > _ROWS_WITH_TRIALS:
         return []
@@ -91,16 +91,16 @@ def _wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) 
 
 
 def _repairs(on: Subject, table: DhTable, freedom: Freedom, powers: int) -> Repairs:
-    """Single mistakes that leave the count of rows."""
+    """Repairs of single mistakes that keep the number of rows."""
     names = [row.name for row in table.joints]
-    # Rows that follow others are placed where their leaders' names lead.
+    # Mimic rows depend on the order of rows through the names of their leaders.
     plain = len(on.chain) == len(on.target) and all(row.mimic is None for row in table.joints)
     numbers = numbers_of(table)
     return repairs.of_rows(numbers, table.convention, names, powers, reorder=plain, turn=plain and not freedom.signs)
 
 
 def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely: bool) -> list[Diagnosis]:
-    """Two mistakes that together explain it; only where nothing else does so with zeros, senses, base or tool free."""
+    """Pairs of mistakes; if `loosely` and no pair in the rows is found, also with zeros, senses, base or tool free."""
     single = _repairs(on, table, freedom, _POWERS_IN_PAIRS)
     found = _two(on, table, freedom, single)
     if found or not loosely:
@@ -109,7 +109,7 @@ def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely:
         found += _loosened(on, table, freedom, wider)
     for wider in _wider(on, freedom, 1):
         found += [_and_loose(on, each, freedom, wider) for each in explaining(on, table, wider, single)]
-        # One joint's sense or zero beside a number has been tried: these would be those of several joints.
+        # One joint's sense or zero with a wrong number was tried before: here several joints would be affected.
         placed_only = wider[2:] == freedom[2:] and not (
             wider.base and wider.tool and not (freedom.base or freedom.tool)
         )
@@ -119,13 +119,13 @@ def _pairs(on: Subject, table: DhTable, freedom: Freedom, signs: Array, loosely:
 
 
 def _two(on: Subject, table: DhTable, freedom: Freedom, single: Repairs) -> list[Diagnosis]:
-    """Two mistakes in the rows."""
+    """Pairs of mistakes in the rows."""
     found = explaining(on, table, freedom, single.then(single))
     if found or len(on.chain) != len(on.target):
         return found
     n = len(table.joints)
     once = repairs.without_a_row(numbers_of(table))
-    # To leave out any row and put one in its place would be to make up four numbers.
+    # Replacing an arbitrary row would invent four numbers.
     once = once.only(np.array([each.mistake == "row_doubled" for each in once.undone[:, 0]]))
     swapped = once.then(repairs.with_a_row(n - 1))
     return [
@@ -136,12 +136,12 @@ def _two(on: Subject, table: DhTable, freedom: Freedom, single: Repairs) -> list
 
 
 def _counted(on: Subject, table: DhTable, freedom: Freedom, some: Repairs) -> list[Diagnosis]:
-    """Repairs that leave another count of rows, the numbers of those that are missing found."""
+    """Diagnoses from repairs that change the number of rows; the numbers of missing rows are found."""
     return with_numbers(on, table, freedom, some, 0) if (some.rows < 0).any() else explaining(on, table, freedom, some)
 
 
 def _wider(on: Subject, freedom: Freedom, count: int) -> list[Freedom]:
-    """So much more freedom, senses first, then zeros, base and tool."""
+    """Freedoms with `count` more free quantities, senses first, then zeros, base and tool."""
     names = ["signs", "offsets"] if len(on.chain) == len(on.target) <= _ROWS_WITH_TRIALS else []
     held = [name for name in (*names, "base", "tool") if not getattr(freedom, name)]
     wider = [freedom._replace(**dict.fromkeys(some, True)) for some in itertools.combinations(held, count)]
@@ -151,13 +151,13 @@ def _wider(on: Subject, freedom: Freedom, count: int) -> list[Freedom]:
 
 
 def _loosened(on: Subject, table: DhTable, freedom: Freedom, wider: Freedom) -> list[Diagnosis]:
-    """Senses, zeros, a base or a tool that are not the chain's."""
+    """Diagnosis that senses, zeros, base or tool are wrong, if more freedom makes the table fit."""
     placement = placed(on.fewer(LOOKS), table, wider, strict=True)
     return [] if placement is None else [_and_loose(on, Diagnosis((), "", (), placement), freedom, wider)]
 
 
 def _and_loose(on: Subject, diagnosis: Diagnosis, freedom: Freedom, wider: Freedom) -> Diagnosis:
-    """A diagnosis with what more freedom has found."""
+    """A diagnosis extended by the quantities found with more freedom."""
     placement = diagnosis.placement
     joints = placement.table.joints
     mistakes, details, differences = list(diagnosis.mistakes), [diagnosis.detail], list(diagnosis.differences)

@@ -1,8 +1,8 @@
-"""Which number of a table would have to be another one, and which.
+"""Search for a single wrong number in a table, and its correct value.
 
-A number is wrong when another one in its place, alone, makes the table describe the chain. Each number is tried, all
-of them side by side, from several values: a turn may hide half a turn away, and a length behind its sign or its unit.
-Where several would do (the d of parallel axes count by their sum) the likeliest slip comes first.
+A number is wrong if changing it alone makes the table describe the chain. Least squares tries all numbers side by side,
+from several starting values: an angle may be off by half a turn, a length by its sign or its unit. If several numbers
+qualify (only the sum of the d of parallel axes matters), the likeliest slip comes first.
 """
 
 import math
@@ -30,33 +30,33 @@ from gelenk.model.arrays import Array
 from gelenk.model.dh import Convention, DhTable
 
 _ANGLES = 8
-"""Values of an angle to start from, all the way round."""
+"""Number of starting values per angle, over a full turn."""
 MISFIT = 5.0
-"""How many tolerances the screws of a table that fits may be off."""
+"""Number of tolerances by which the screws of a fitting table may be off."""
 MOST_POWERS = 6
-"""Highest power of ten by which a length is reported to be off."""
+"""Highest power of ten reported as the error of a length."""
 _TELLING = 10.0
-"""Tolerances that a length must measure for its power of ten to tell anything."""
+"""Number of tolerances that a length must exceed for its power of ten to be significant."""
 
 Slip: TypeAlias = Literal["sign", "degrees"] | int
-"""What happened to a number; an integer is the power of ten by which a length is off."""
+"""How a number went wrong; an integer is the power of ten by which a length is off."""
 _WINDOW = 8
-"""Rows in which a wrong number is looked for; all of them in a shorter table."""
+"""Number of rows searched for a wrong number; a shorter table is searched in full."""
 _LOOKS = 24
-"""Configurations at which a repaired table is examined."""
+"""Number of configurations at which a repaired table is tested."""
 _ZERO = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """What a table has, and what it should have.
+    """A difference between a table and what the chain needs.
 
     Attributes:
-        row: The row, from 1 as in the textbooks: d₁ stands in row 1; None for what is no row's.
-        joint: The row's name.
-        parameter: One of a, alpha, d, theta; or sign, type, mimic, joints (their count), base, tool.
-        value: As the table has it, [rad or m].
-        expected: As the chain needs it, [rad or m].
+        row: The row, from 1 as in textbooks: d₁ is in row 1; None if no row is concerned.
+        joint: Name of the row's joint.
+        parameter: One of a, alpha, d, theta; or sign, type, mimic, joints (their number), base, tool.
+        value: Value in the table, [rad or m].
+        expected: Value that the chain needs, [rad or m].
     """
 
     row: int | None
@@ -67,7 +67,7 @@ class Difference:
 
     @property
     def difference(self) -> float | None:
-        """Value - expected, [rad or m], where both are numbers."""
+        """`value` - `expected`, [rad or m]; None unless both are numbers."""
         if isinstance(self.value, str | None) or isinstance(self.expected, str | None):
             return None
         return self.value - self.expected
@@ -75,12 +75,12 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class WrongNumber:
-    """A number that is the only wrong one.
+    """A number whose correction alone makes the table describe the chain.
 
     Attributes:
-        difference: Where, what, and what instead.
-        slip: How it may have come about; None where the number tells nothing.
-        placement: The table with the number put right, on the chain.
+        difference: The number and its correct value.
+        slip: The likely slip; None if the number suggests none.
+        placement: The corrected table fitted to the chain.
     """
 
     difference: Difference
@@ -89,24 +89,24 @@ class WrongNumber:
 
 
 class Candidate(NamedTuple):
-    """A number that least squares find, before it is tried."""
+    """A corrected number found by least squares, not yet tested."""
 
     difference: Difference
     slip: Slip | None
 
 
 def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[WrongNumber]:
-    """Every number that, put right alone, makes a table describe a chain; the likeliest first.
+    """Find every number whose correction alone makes a table describe a chain; the likeliest first.
 
     Args:
         on: The chain.
-        table: Its rows are the chain's joints in number and type.
-        freedom: What may be found beside the number.
-        signs: Senses of the joints while it is looked for; shape (n,).
+        table: The table, with rows that match the chain's joints in number and type.
+        freedom: The quantities that may be found besides the number.
+        signs: Senses of the joints during the search; shape (n,).
     """
     n, first = len(on.target), 0
     if n > _WINDOW:
-        # Behind the first joint that is off a number cannot be wrong alone, and one far before it shows earlier.
+        # The wrong number cannot come after the first joint that is off; far before it, an earlier joint would be off.
         first = max(0, _first_misfit(on, table, freedom, signs) - _WINDOW)
     found = []
     for number in _candidates(on, table, freedom, signs, n, first):
@@ -117,13 +117,13 @@ def wrong_numbers(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -
 
 
 def first_wrong_row(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> list[Difference]:
-    """What is wrong where a table first leaves a chain, seen from the base; where no single number explains it all.
+    """Find what is wrong where a table first departs from a chain, seen from the base, if no single number explains it.
 
-    The first joints alone are compared, as few as show a difference: with one number put right, else with all four
-    of the row (Craig: of the link) that leads to the last of them.
+    Only the first joints are compared, as few as show a difference: one number is corrected, or else all four of the
+    row (Craig: of the link) that leads to the last of them.
 
     Returns:
-        The numbers that differ in one row, in the order a, α, d, θ; or base or tool, where no row can make up for it.
+        The numbers of one row or link that differ; or base or tool, if no row can account for the difference.
     """
     count = _first_misfit(on, table, freedom, signs)
     if count > len(on.target):
@@ -136,7 +136,7 @@ def first_wrong_row(on: Subject, table: DhTable, freedom: Freedom, signs: Array)
 
 
 def _first_misfit(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> int:
-    """The first joint, from 1, at which a table leaves a chain, found by bisection; n + 1 where only the tip is off."""
+    """First joint, from 1, at which a table departs from a chain, by bisection; n + 1 if only the tip is off."""
     fits, fails = 0, len(on.target) + 1
     while fails - fits > 1:
         count = (fits + fails) // 2
@@ -147,7 +147,7 @@ def _first_misfit(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -
 
 
 def repaired(table: DhTable, differences: Sequence[Difference]) -> DhTable:
-    """A table with numbers put right."""
+    """Return a table with its numbers corrected."""
     joints = list(table.joints)
     for each in differences:
         if each.row is not None and each.parameter in PARAMETERS:
@@ -161,7 +161,7 @@ def _place(name: str) -> Difference:
 
 
 def _candidates(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: int, first: int) -> list[Candidate]:
-    """Numbers of a few rows that, put right, let the screws of the first joints agree; the likeliest first."""
+    """Corrections of single numbers in a few rows that make the first joints' screws agree; the likeliest first."""
     rows, places = _trials(table, freedom, count, range(first, first + _WINDOW))
     if not places:
         return []
@@ -185,7 +185,7 @@ def _candidates(on: Subject, table: DhTable, freedom: Freedom, signs: Array, cou
 
 
 def _trials(table: DhTable, freedom: Freedom, count: int, among: range) -> tuple[Array, list[int]]:
-    """Tables with one number changed, and the place of it: what base or tool make up for is left out."""
+    """Tables with one number changed, and its place; numbers that a free base or tool compensates are omitted."""
     start = parameters_of(table)
     rows, places = [], []
     for place in range(4 * len(start)):
@@ -211,7 +211,7 @@ def _trials(table: DhTable, freedom: Freedom, count: int, among: range) -> tuple
 
 
 def is_absorbed(convention: Convention, count: int, freedom: Freedom, row: int, column: int) -> bool:
-    """Whether a free base or tool makes up at once for a number of a table of so many rows."""
+    """Return whether a free base or tool directly compensates a number in a table of `count` rows."""
     before_motion = column >= 2 or convention == "modified"
     if freedom.base and row == 0 and before_motion:
         return True
@@ -220,7 +220,7 @@ def is_absorbed(convention: Convention, count: int, freedom: Freedom, row: int, 
 
 
 def _counts(table: DhTable, row: int, column: int, count: int, freedom: Freedom) -> bool:
-    """Whether a number stands before the last of the first joints, or before a tip that counts."""
+    """Whether a number comes before the last of the first `count` joints, or before a tip that counts."""
     if count == len(table.joints) and not freedom.tool:
         return True
     return row < count - 1 or (row == count - 1 and column < 2 and table.convention == "modified")
@@ -231,13 +231,13 @@ def _unbased(table: DhTable, freedom: Freedom) -> DhTable:
 
 
 def _first_joints(on: Subject, count: int) -> Subject:
-    """The chain up to a joint."""
+    """The first `count` joints of a chain."""
     target = on.target
     return replace(on, target=Screws(target.twists[:count], target.slides[:count], target.tip))
 
 
 def _start(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> Tables:
-    """The first joints of a table laid on those of a chain, the tip left out."""
+    """The first joints of a table fitted to those of a chain, without the tip."""
     count = len(on.target)
     loose = freedom._replace(tool=True, signs=False)
     held = replace(on, senses=signs[:count])
@@ -246,14 +246,14 @@ def _start(on: Subject, table: DhTable, freedom: Freedom, signs: Array) -> Table
 
 
 def misfits(on: Subject, tables: Tables, with_tip: bool) -> Array:
-    """How many tolerances the screws of each table are off at most; shape (C,)."""
+    """Compute the largest error of each table's screws, in tolerances; shape (C,)."""
     r = np.abs(residuals(on.target, geometry(tables), with_tip)).reshape(len(tables.rows), -1, 2, 3)
     worst: Array = (r.max(axis=(1, 3)) / on.tolerances).max(axis=1)
     return worst
 
 
 def _link(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: int) -> list[Difference]:
-    """All numbers of the link before a joint (from 1; n + 1 is the tip) put right: those that had to change."""
+    """Numbers that change when all those of the link before a joint (from 1; n + 1 is the tip) are corrected."""
     places = _places_of_link(table, count)
     if not places:
         return []
@@ -280,7 +280,7 @@ def _link(on: Subject, table: DhTable, freedom: Freedom, signs: Array, count: in
 
 
 def _places_of_link(table: DhTable, count: int) -> list[int]:
-    """Numbers between two joints, the second one given from 1, by row: a and α of a link, d and θ of a joint."""
+    """Places of the numbers between a joint (from 1; n + 1 is the tip) and the one before it, row by row."""
     n = len(table.joints)
     if table.convention == "standard":
         row = count - 2
@@ -299,11 +299,11 @@ def _size(differences: Sequence[Difference]) -> float:
 
 
 def explained(on: Subject, table: DhTable, place: int, found: float) -> Candidate:
-    """A number that was found to fit, in the place of the one that stands there, and the slip that the two tell of."""
+    """Return a number found to fit, instead of the one in its place, with the likely slip."""
     row, column = divmod(place, 4)
     joint, parameter = table.joints[row], PARAMETERS[column]
     value = float(getattr(joint, parameter))
-    # What a row that follows another joint adds is not written in it.
+    # A mimic row's offset is not part of its written number.
     expected = found - float(parameters_of(table)[row, column] - value)
     is_angle = column in {1, 3}
     if is_angle:
@@ -335,7 +335,7 @@ def _slip(value: float, expected: float, is_angle: bool, tolerance: float) -> Sl
 
 
 def in_words(number: Candidate | WrongNumber) -> Undone:
-    """What is wrong with a number."""
+    """Describe a wrong number."""
     each = number.difference
     where, should_be = f"{each.parameter} in row {each.row}", f": it should be {each.expected:.9g}"
     if number.slip is None:
@@ -349,12 +349,12 @@ def in_words(number: Candidate | WrongNumber) -> Undone:
 
 
 def _likelihood(number: Candidate) -> tuple[bool, bool, int, int]:
-    """Sorts the likelier first: a known slip, a number rather than a zero, the earlier row."""
+    """Sort key, the likelier first: a known slip, then a nonzero number, then the earlier row."""
     difference = number.difference
     value = 0.0 if isinstance(difference.value, str | None) else difference.value
     return number.slip is None, abs(value) <= _ZERO, difference.row or 0, PARAMETERS.index(difference.parameter)
 
 
 def wrapped(angle: float) -> float:
-    """An angle within half a turn of zero, [rad]."""
+    """Wrap an angle to within half a turn of zero, [rad]."""
     return math.remainder(angle, 2.0 * math.pi)

@@ -1,4 +1,4 @@
-"""A table laid on a chain: base, tool, zeros and senses of the joints, and how far the two are then apart."""
+"""Fit of a table to a chain by base, tool, zeros and senses of the joints, and the remaining errors."""
 
 import itertools
 from dataclasses import dataclass, replace
@@ -26,12 +26,12 @@ from gelenk.model.poses import Poses, inverse, nearest_rotation, transform
 from gelenk.model.robot import Robot
 
 _INDEPENDENT = 1e-6
-"""Part of a unit change that others must leave for it to count as a change of its own."""
+"""A unit change is independent of others if they leave more than this part of it."""
 _ROUNDING = 1e-9
-"""Errors that a plain base or tool may always bring with it, [m] and [rad]."""
+"""Errors that a plain base or tool may always cause, [m] and [rad]."""
 _STEPS_WHERE_IT_FITS = 8
 _LOOSENESS = 30.0
-"""How much larger than the tolerances least squares may be where a look through Pinocchio is still worth it."""
+"""Ratio of least-squares error to tolerance up to which a test through Pinocchio is worthwhile."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +42,10 @@ class Subject:
         robot: The robot.
         chain: Base → tip.
         target: The screws of its joints.
-        senses: 1 or -1 where a table turns the same way or the other by its own account (multipliers); shape (n,).
+        senses: -1 where the multipliers of table and chain have opposite signs, else 1; shape (n,).
         tolerances: Position [m] and orientation [rad] within which poses count as equal.
-        qs: Configurations to compare at; shape (N, variables).
-        expected: Pinocchio's poses there.
+        qs: Configurations to compare; shape (N, variables).
+        expected: Pinocchio's poses at these configurations.
     """
 
     robot: Robot
@@ -57,30 +57,30 @@ class Subject:
     expected: Poses
 
     def accepts(self, errors: tuple[float, float]) -> bool:
-        """Whether poses so far apart count as equal."""
+        """Return whether poses with these errors, [m] and [rad], count as equal."""
         return errors[0] <= self.tolerances[0] and errors[1] <= self.tolerances[1]
 
     @property
     def promising(self) -> float:
-        """Sum of squares, its root, within which least squares speak for a table."""
+        """Root of the sum of squares up to which least squares makes a table a candidate."""
         return _LOOSENESS * max(self.tolerances) * float(np.sqrt(len(self.target)))
 
     def fewer(self, count: int) -> "Subject":
-        """The same with the first few configurations."""
+        """Return the subject with only the first `count` configurations."""
         fewer = Poses(self.expected.positions[:count], self.expected.rotations[:count])
         return replace(self, qs=self.qs[:count], expected=fewer)
 
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """How a table lies on a chain.
+    """A table fitted to a chain.
 
     Attributes:
-        table: The table with base and tool as they are given or found.
-        offsets: Of each variable, added to it; shape (n,), [rad or m].
-        signs: 1 or -1 each; shape (n,).
-        position_error: Largest distance between the two, [m].
-        orientation_error: Largest angle between the two, [rad].
+        table: The table with the given or found base and tool.
+        offsets: Offset added to each variable; shape (n,), [rad or m].
+        signs: Sense of each variable, 1 or -1; shape (n,).
+        position_error: Largest distance between the poses of table and chain, [m].
+        orientation_error: Largest angle between these poses, [rad].
     """
 
     table: DhTable
@@ -91,14 +91,14 @@ class Placement:
 
     @property
     def errors(self) -> tuple[float, float]:
-        """Both errors, [m] and [rad]."""
+        """Position and orientation error, [m] and [rad]."""
         return self.position_error, self.orientation_error
 
 
 def subject(
     robot: Robot, chain: Chain, target: Screws, senses: Array, tolerances: tuple[float, float], samples: int, seed: int
 ) -> Subject:
-    """A chain with random configurations to compare at: all the way round for turning joints, ±1 m for sliding ones."""
+    """Create a subject with random configurations: within ±π for revolute and ±1 m for prismatic joints."""
     reach = np.full(len(chain), np.pi)
     for slides, variable in chain.flat.joints:
         if slides:
@@ -111,14 +111,14 @@ def subject(
 def placed(
     on: Subject, table: DhTable, freedom: Freedom, strict: bool = False, senses: Array | None = None
 ) -> Placement | None:
-    """Lay a table on a chain as well as it goes.
+    """Fit a table to a chain as closely as possible.
 
     Args:
         on: The chain.
-        table: Its rows are the chain's joints in number and type; base and tool count where they are not free.
-        freedom: What may be found.
-        strict: Give None where it does not fit, rather than the nearest.
-        senses: -1 where a joint of the table turns the other way; shape (n,). None turns where left out.
+        table: The table, with rows that match the chain's joints in number and type; a free base or tool is ignored.
+        freedom: The quantities that may be found.
+        strict: Return None if the table does not fit, rather than the closest fit.
+        senses: -1 where a joint of the table is reversed, else 1; shape (n,). All 1 if None.
     """
     turned = on if senses is None else replace(on, senses=on.senses * senses)
     tables, costs = fitted(turned, table, freedom, strict)
@@ -135,7 +135,7 @@ def placed(
 
 
 def _best(on: Subject, tables: Tables, costs: Array, freedom: Freedom) -> Tables:
-    """The table that fits best, of those that fit as well the one with the fewest reversed senses, polished."""
+    """The best-fitting table, polished; of equally good ones the one with the fewest reversed senses."""
     equally_good = np.flatnonzero(costs <= 3.0 * costs.min() + 1e-9)
     best = min(equally_good, key=lambda c: (-tables.signs[c].sum(), costs[c]))
     unknowns = unknowns_of(on.target, tables, freedom)[None]
@@ -143,7 +143,7 @@ def _best(on: Subject, tables: Tables, costs: Array, freedom: Freedom) -> Tables
 
 
 def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: Freedom) -> Placement:
-    """What Pinocchio says of a table, its tool found where that is free; base and tool as plain as costs nothing."""
+    """Measure a table through Pinocchio, finding a free tool; simplify base and tool if that adds no error."""
     bare = replace(table, base=np.eye(4), tool=np.eye(4))
     products = np.array([bare.pose(tuple(signs * q + offsets)) for q in on.qs])
     if freedom.tool:
@@ -158,27 +158,27 @@ def _judged(on: Subject, table: DhTable, offsets: Array, signs: Array, freedom: 
 
 
 def fitted(on: Subject, table: DhTable, freedom: Freedom, strict: bool) -> tuple[Tables, Array]:
-    """Least squares from every alignment of a table: the tables, and the root of each one's sum of squares."""
+    """Fit a table by least squares from each of its alignments; return tables and roots of their sums of squares."""
     free_base = replace(table, base=np.eye(4)) if freedom.base else table
     tables = started(on, free_base, parameters_of(table)[None], freedom, strict=strict)
     if not len(tables.rows):
         return tables, np.empty(0)
     unknowns = np.tile(unknowns_of(on.target, tables, freedom), (len(tables.rows), 1))
     if strict:
-        # Aligned axes need no long way.
+        # Aligned axes need only a few steps.
         return fit(on.target, tables, unknowns, not freedom.tool, _STEPS_WHERE_IT_FITS)
     return fit(on.target, tables, unknowns, with_tip=not freedom.tool)
 
 
 def started(on: Subject, table: DhTable, rows: Array, freedom: Freedom, strict: bool = False) -> Tables:
-    """Tables that differ from one in their numbers, each aligned in every way that fits.
+    """Align tables that differ from one in their numbers, with one result per alignment that fits.
 
     Args:
         on: The chain.
-        table: Convention, types, base and tool of all of them.
-        rows: Numbers; shape (C, n, 4).
-        freedom: What alignment may turn.
-        strict: Leave out what does not fit.
+        table: The table that gives convention, types, base and tool of all.
+        rows: Numbers of the tables; shape (C, n, 4).
+        freedom: The quantities that the alignment may change.
+        strict: Omit tables that do not fit.
     """
     plain = Tables(
         table.convention, on.target.slides, np.ones(rows.shape[:2]), rows, _repeated(table, rows), table.tool
@@ -204,15 +204,15 @@ def _repeated(table: DhTable, rows: Array) -> Array:
 
 
 def variable_columns(target: Screws) -> Indices:
-    """The parameter of each row that its joint's variable adds to: θ, or d where it slides; shape (n,)."""
+    """Return the column of the joint variable in each row: θ, or d if prismatic; shape (n,)."""
     return np.where(target.slides, 2, 3)
 
 
 def unknowns_of(target: Screws, tables: Tables, freedom: Freedom) -> Indices:
-    """Numbers of the unknowns that are free: the base's, and of the joints' zeros those that nothing else makes up for.
+    """Return the indices of the free unknowns: the base's, and the joint zeros that nothing else compensates.
 
-    The first variable's zero goes into a free base, the last one's into a free tool, that of one of two collinear
-    joints into the other's: those stay at zero.
+    A free base absorbs the first variable's zero, a free tool the last one's, and of two collinear joints one absorbs
+    the other's: absorbed zeros stay at 0.
     """
     n = len(target)
     base = np.arange(BASE_DIRECTIONS) if freedom.base else np.empty(0, dtype=np.int64)
@@ -228,12 +228,12 @@ def unknowns_of(target: Screws, tables: Tables, freedom: Freedom) -> Indices:
 
 
 def independent(vectors: Array, given: Array) -> Indices:
-    """Which vectors are no combination of given ones and of those before them; shapes (k, m), (g, m)."""
+    """Return which vectors are independent of the given ones and of those before them; shapes (k, m), (g, m)."""
     basis: list[Array] = []
     kept = []
     for i, vector in enumerate(itertools.chain(given, vectors)):
         rest = vector.copy()
-        for _ in range(2):  # once more, against what rounding leaves
+        for _ in range(2):  # twice, to remove rounding errors
             for direction in basis:
                 rest -= (rest @ direction) * direction
         length = float(np.linalg.norm(rest))
@@ -245,13 +245,13 @@ def independent(vectors: Array, given: Array) -> Indices:
 
 
 def _nearest_zero(offsets: Array, target: Screws) -> Array:
-    """Offsets, angles within half a turn of zero."""
+    """Offsets, with angles wrapped to within half a turn of zero."""
     wrapped: Array = np.where(target.slides, offsets, np.remainder(offsets + np.pi, 2.0 * np.pi) - np.pi)
     return wrapped + 0.0
 
 
 def _errors(on: Subject, table: DhTable, products: Array) -> tuple[float, float]:
-    """Largest distance [m] and angle [rad] between Pinocchio's poses and base · product of the rows · tool."""
+    """Largest distance [m] and angle [rad] between Pinocchio's poses and base · products of the rows · tool."""
     Ts = table.base @ products @ table.tool
     ps, Rs = np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3])
     distance, angle, _ = pose_errors(ps, Rs, on.expected.positions, on.expected.rotations)
@@ -259,28 +259,28 @@ def _errors(on: Subject, table: DhTable, products: Array) -> tuple[float, float]
 
 
 def _within_reach(T: Array) -> Array:
-    """A transform no further away than a table may have it: absurd lengths ask for absurd bases."""
+    """Clip a transform to the lengths that a table may have: absurd lengths lead to absurd bases."""
     return transform(np.clip(T[:3, 3], -MAX_LENGTH, MAX_LENGTH), T[:3, :3])
 
 
 def _tool(on: Subject, Ts: Array) -> Array:
-    """The tool that brings frames T_base_n nearest to the tip: the mean of what each of them needs."""
+    """Tool that brings frames T_base_n closest to the tip: the mean over the frames."""
     tools = np.array([inverse(T) for T in Ts]) @ on.expected.matrices()
     U, _, Vt = np.linalg.svd(tools[:, :3, :3].mean(axis=0))
     return transform(tools[:, :3, 3].mean(axis=0), U @ np.diag([1.0, 1.0, np.linalg.det(U @ Vt)]) @ Vt)
 
 
 def _plainer(table: DhTable, tolerances: tuple[float, float], freedom: Freedom) -> list[DhTable]:
-    """The same with both, or one, of base and tool made plain, as far as they are free."""
+    """The table with both or one of base and tool simplified, as far as they are free."""
     base = plain(table.base, tolerances) if freedom.base else table.base
     tool = plain(table.tool, tolerances) if freedom.tool else table.tool
     return [replace(table, base=base, tool=tool), replace(table, base=base), replace(table, tool=tool)]
 
 
 def plain(T: Array, tolerances: tuple[float, float]) -> Array:
-    """A transform whose coordinates and angles are made plain where they are so within tolerance.
+    """Simplify a transform within tolerances, [m] and per matrix entry.
 
-    Coordinates next to zero become zero, and a rotation next to one that takes axes to axes becomes that one.
+    Coordinates near zero become zero, and a rotation near one that maps axes to axes becomes that one.
     """
     position = np.where(np.abs(T[:3, 3]) <= tolerances[0], 0.0, T[:3, 3])
     rounded = np.round(T[:3, :3])

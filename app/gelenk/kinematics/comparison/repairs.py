@@ -1,6 +1,7 @@
-"""Mistakes undone, thousands side by side: each number of a repaired table is one of the given table times a factor.
+"""Corrections of mistakes, thousands side by side: each repaired number is one of the given table times a factor.
 
-So a mistake is a choice of numbers with factors, two of them are a choice of a choice, and all pairs are two lookups.
+So a mistake is a selection of numbers with factors, and a pair of mistakes is a selection from a selection: all pairs
+take two lookups.
 """
 
 from collections.abc import Iterator
@@ -19,27 +20,27 @@ from gelenk.model.errors import quoted
 _CONVENTIONS: dict[Convention, str] = {"standard": "standard", "modified": "modified (Craig)"}
 _DEGREE = np.pi / 180.0
 _NOWHERE = -1
-"""The place of a number that the given table does not have, and the row of such numbers."""
+"""Place of a number that the given table does not have, and row of such numbers."""
 
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A mistake, in words."""
+    """A corrected mistake and its description."""
 
     mistake: Mistake
     detail: str
 
 
 class Repairs(NamedTuple):
-    """Ways to repair a table of n rows into one of m rows; N of them.
+    """N repairs of a table of n rows into tables of m rows.
 
     Attributes:
-        undone: The mistakes of each, `Undone`; shape (N, 1) or (N, 2).
-        sources: Places of the numbers in the given table, row by row; -1 where a row is missing; shape (N, 4 m).
-        factors: By which they are multiplied; shape (N, 4 m).
-        senses: -1 where a joint turns the other way; shape (N, m).
+        undone: The mistakes that each repair corrects, `Undone`; shape (N, k), k from 0 to 2.
+        sources: Places of the numbers in the given table, row by row; -1 in a missing row; shape (N, 4 m).
+        factors: Factors of these numbers; shape (N, 4 m).
+        senses: -1 where a joint is reversed, else 1; shape (N, m).
         switched: Whether the table is read in the other convention; shape (N,).
-        alone: Whether one number alone is multiplied; shape (N,).
+        alone: Whether only one number is multiplied; shape (N,).
     """
 
     undone: NDArray[Any]
@@ -50,7 +51,7 @@ class Repairs(NamedTuple):
     alone: Flags
 
     def only(self, chosen: Indices | Flags) -> "Repairs":
-        """Some of them."""
+        """Select some repairs."""
         return Repairs(
             self.undone[chosen],
             self.sources[chosen],
@@ -61,17 +62,17 @@ class Repairs(NamedTuple):
         )
 
     def numbers(self, table: Array) -> Array:
-        """The repaired tables, zeros where a row is missing; shapes (n, 4) → (N, m, 4)."""
+        """Compute the repaired tables, with zeros in missing rows; shape (n, 4) → (N, m, 4)."""
         repaired: Array = np.append(table.ravel(), 0.0)[self.sources] * self.factors
         return repaired.reshape(len(repaired), -1, 4)
 
     @property
     def rows(self) -> Indices:
-        """The row of the given table that each row comes from; shape (N, m)."""
+        """Row of the given table that each row comes from, -1 if missing; shape (N, m)."""
         return self.sources[:, ::4] // 4
 
     def then(self, others: "Repairs") -> "Repairs":
-        """Each of them and after it each of the others; of two that change a number alone in one order only."""
+        """Combine each repair with each of the others; two that each change a single number in one order only."""
         i, j = np.indices((len(self.undone), len(others.undone))).reshape(2, -1)
         kept = (i < j) | ~(self.alone[i] & others.alone[j])
         i, j = i[kept], j[kept]
@@ -87,22 +88,22 @@ class Repairs(NamedTuple):
 
 
 def unchanged(n: int) -> Repairs:
-    """The table as it is."""
+    """Return the repair that changes nothing."""
     return _stacked(n, [_Repair("number", "")]).only(np.ones(1, dtype=bool))._replace(undone=np.empty((1, 0), object))
 
 
 def of_rows(
     table: Array, convention: Convention, names: list[str], powers: int, *, reorder: bool, turn: bool
 ) -> Repairs:
-    """Single mistakes that leave the count of rows; what changes one number alone comes last, what changes none not.
+    """Return repairs of single mistakes that keep the number of rows; those of a single number come last.
 
     Args:
         table: The numbers; shape (n, 4).
-        convention: Of the table.
-        names: Of the joints.
-        powers: Highest power of ten that lengths may be off by.
-        reorder: Whether rows may have changed places.
-        turn: Whether a joint may turn the other way.
+        convention: Convention of the table.
+        names: Names of the joints.
+        powers: Highest power of ten by which lengths may be off.
+        reorder: Whether rows may be exchanged.
+        turn: Whether a joint may be reversed.
     """
     n = len(table)
     found = [_other_convention(convention), *_throughout(powers), *(_reordered(n) if reorder else ())]
@@ -113,13 +114,13 @@ def of_rows(
             found.append(_Repair("joint_sense", detail, turned=i))
     every = _stacked(n, [*found, *_in_cells(n, powers)])
     changes = np.count_nonzero(every.numbers(table) != table, axis=(1, 2))
-    # What multiplies a row or a column may still come down to one number.
+    # A factor of a row or column may change only one number, and such a repair is already among the single numbers.
     news = every.switched | (every.senses < 0.0).any(axis=1) | np.where(every.alone, changes == 1, changes > 1)
     return every.only(news)
 
 
 def without_a_row(table: Array) -> Repairs:
-    """A row that is there twice; or, behind these, one too many."""
+    """Return repairs that remove a row: doubled rows first, then extra ones."""
     n = len(table)
     found = []
     for i in range(n):
@@ -131,13 +132,13 @@ def without_a_row(table: Array) -> Repairs:
 
 
 def with_a_row(n: int) -> Repairs:
-    """A row that is missing."""
+    """Return repairs that insert a missing row."""
     rows = [np.insert(np.arange(n), i, _NOWHERE) for i in range(n + 1)]
     return _stacked(n, [_Repair("row_missing", f"row {i + 1} is missing", rows=order) for i, order in enumerate(rows)])
 
 
 def power_of_ten(power: int) -> tuple[Mistake, str]:
-    """How it is called that lengths are 10 to a power times what they should be."""
+    """Name and describe the mistake that lengths are too large by a power of ten."""
     if power == 3:
         return "millimetres", "in millimetres"
     if power == 2:
@@ -146,7 +147,7 @@ def power_of_ten(power: int) -> tuple[Mistake, str]:
 
 
 class _Repair(NamedTuple):
-    """One repair: which rows in which order, with which columns; then factors of some rows and columns."""
+    """One repair: selection and order of rows and columns, then factors of some rows and columns."""
 
     mistake: Mistake
     detail: str
@@ -181,7 +182,7 @@ def _stacked(n: int, found: list[_Repair]) -> Repairs:
 
 
 def _behind(values: NDArray[Any], last: float) -> NDArray[Any]:
-    """Values with one more in each row, which the place -1 stands for."""
+    """Append a value to each row, for the place -1."""
     return np.concatenate((values, np.full((len(values), 1), last, dtype=values.dtype)), axis=1)
 
 
@@ -198,7 +199,7 @@ def _other_convention(convention: Convention) -> _Repair:
 
 
 def _throughout(powers: int) -> Iterator[_Repair]:
-    """Mistakes in whole columns."""
+    """Repairs of whole columns."""
     for which, what in (("alpha theta", "all angles are"), ("alpha", "all alpha are"), ("theta", "all theta are")):
         yield _Repair("degrees", f"{what} in degrees", factors=_factors(which, _DEGREE))
     for which, what in (("a d", "all lengths are"), ("a", "all a are"), ("d", "all d are")):
@@ -228,7 +229,7 @@ def _reordered(n: int) -> Iterator[_Repair]:
 
 
 def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
-    """Mistakes in two numbers of a row."""
+    """Repairs of two numbers in a row."""
     for i in range(n):
         for columns, names in _EXCHANGES:
             yield _Repair("columns", f"{names} are exchanged in row {i + 1}", columns=columns, among=(i,))
@@ -241,7 +242,7 @@ def _in_rows(n: int, powers: int) -> Iterator[_Repair]:
 
 
 def _in_cells(n: int, powers: int) -> Iterator[_Repair]:
-    """Mistakes in one number alone."""
+    """Repairs of single numbers."""
     for i in range(n):
         for name in PARAMETERS:
             where = f"{name} in row {i + 1}"

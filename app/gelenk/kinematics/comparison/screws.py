@@ -1,9 +1,9 @@
-"""Joints as screws: a chain by the axes of its joints and the pose of its tip, all at position zero.
+"""Joints as screws: a chain is given by its joint axes and the pose of its tip, all at position zero.
 
-U(q) = exp(S₁ q₁) ⋯ exp(S_n q_n) U(0), so two chains move alike everywhere if and only if their screws and their tips
-at zero are equal [LynchPark2017, 4.1]: put one joint after the other into motion alone. Every parameter of a DH table
-moves what stands behind it about or along an axis of its own, as a joint does; so does a base, in six directions. The
-change of a screw S by such a motion V is the bracket [V, S], and finding what is unknown is a problem of least squares.
+U(q) = exp(S₁ q₁) ⋯ exp(S_n q_n) U(0), so two chains have equal poses everywhere if and only if their screws and their
+tips at zero are equal [LynchPark2017, 4.1]: move one joint at a time. Like a joint, every DH parameter moves all that
+follows it about or along an axis of its own; so does a base, in six directions. Such a motion V changes a screw S by
+the bracket [V, S], and finding the unknowns is a least-squares problem.
 
 Twists are linear before angular; batches of tables come first in every shape.
 """
@@ -20,28 +20,28 @@ from gelenk.model.notations import rotations_from_vectors, vectors_from_rotation
 
 PARAMETERS = ("a", "alpha", "d", "theta")
 BASE_DIRECTIONS = 6
-"""Unknowns come in this order: six of the base, then the parameters row by row."""
+"""Number of unknowns of the base; they come before the parameters, which follow row by row."""
 
 _STEPS = 30
 _CONVERGED = 1e-13
-"""Root of the sum of squares below which nothing is left to find, [m, rad]."""
+"""Root of the sum of squares below which a fit is complete, [m, rad]."""
 _SETTLED = 1e-6
-"""Part by which a step must lessen the sum of squares: on the way to zero it lessens it by far more."""
+"""A step that decreases the sum of squares by at most this share has settled: on approach to zero it falls faster."""
 _FIRST_DAMPING = 1e-4
 _POLISHING_STEPS = 8
 _ROUNDING = 1e-15
 _ASTRAY = 1e9
 _UNDETERMINED = 1e-9
-"""Part of the largest singular value below which a direction counts as undetermined."""
+"""Relative singular value below which a direction counts as undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
 class Screws:
-    """A chain at zero.
+    """The screws and the tip of a chain at position zero.
 
     Attributes:
-        twists: Of the joints in the base, a unit of the joint's motion each; shape (n, 6).
-        slides: Which of them are prismatic; shape (n,).
+        twists: Unit twist of each joint in the base; shape (n, 6).
+        slides: Which joints are prismatic; shape (n,).
         tip: T_base_tip; shape (4, 4).
     """
 
@@ -59,20 +59,20 @@ class Screws:
 
     @property
     def points(self) -> Array:
-        """The point of each axis that is nearest to the base, [m]; zero where prismatic; shape (n, 3)."""
+        """Point of each axis nearest to the base's origin, zero if prismatic; shape (n, 3), [m]."""
         return np.cross(self.twists[:, 3:], self.twists[:, :3])
 
 
 class Tables(NamedTuple):
-    """Tables of one form that differ in their numbers; C of them.
+    """C tables of the same form with different numbers.
 
     Attributes:
-        convention: Of all.
+        convention: Convention of all tables.
         slides: Which rows are prismatic; shape (n,).
-        signs: 1 or -1 for each joint, by which its motion is multiplied; shape (C, n).
+        signs: Factor 1 or -1 of each joint's motion; shape (C, n).
         rows: a, α, d, θ of each row, [m] and [rad]; shape (C, n, 4).
         bases: T_base_0; shape (C, 4, 4).
-        tool: T_n_tool of all; shape (4, 4).
+        tool: T_n_tool of all tables; shape (4, 4).
     """
 
     convention: Convention
@@ -83,20 +83,20 @@ class Tables(NamedTuple):
     tool: Array
 
     def only(self, chosen: Indices) -> "Tables":
-        """Some of them."""
+        """Select some tables."""
         return self._replace(signs=self.signs[chosen], rows=self.rows[chosen], bases=self.bases[chosen])
 
     def part(self, count: int) -> "Tables":
-        """Their first rows."""
+        """Keep only the first `count` rows."""
         return self._replace(slides=self.slides[:count], signs=self.signs[:, :count], rows=self.rows[:, :count])
 
 
 class Geometry(NamedTuple):
-    """What moves what in tables at zero; C tables of n rows.
+    """Twists of joints and parameters of C tables at zero, n rows each.
 
     Attributes:
-        twists: Of the joints; shape (C, n, 6).
-        movers: Twists of the parameters; shape (C, 4 n, 6).
+        twists: Twists of the joints; shape (C, n, 6).
+        movers: Twists that changes of the parameters cause; shape (C, 4 n, 6).
         tips: T_base_tool; shape (C, 4, 4).
     """
 
@@ -106,7 +106,7 @@ class Geometry(NamedTuple):
 
 
 def parameters_of(table: DhTable) -> Array:
-    """The numbers of a table; shape (n, 4). What a row that follows another joint adds is in them."""
+    """Return a, α, d, θ of each row, including the offsets of mimic rows; shape (n, 4)."""
     rows = np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
     for i, row in enumerate(table.joints):
         if row.mimic is not None:
@@ -115,7 +115,7 @@ def parameters_of(table: DhTable) -> Array:
 
 
 def chain_screws(flat: FlatChain) -> Screws:
-    """The screws of a chain's joints, each on the way by itself, mimic joints with their offset."""
+    """Compute the screws of a chain's joints, each mimic joint as a joint of its own, at its offset."""
     T = np.eye(4)
     twists = np.empty((len(flat.joints), 6))
     slides = flat.joints[:, 0] == 1
@@ -128,7 +128,7 @@ def chain_screws(flat: FlatChain) -> Screws:
 
 
 def geometry(tables: Tables) -> Geometry:
-    """Axes of joints and parameters, and tips, of tables at zero."""
+    """Compute twists of joints and parameters, and tips, of tables at zero."""
     T = tables.bases
     twists, movers = [], []
     for i, slides in enumerate(tables.slides):
@@ -148,7 +148,7 @@ def geometry(tables: Tables) -> Geometry:
 
 
 def residuals(target: Screws, found: Geometry, with_tip: bool) -> Array:
-    """Differences of the screws, and of the tips where they count; shape (C, 6 n) or (C, 6 n + 6), [m, rad]."""
+    """Compute differences of the screws, and of the tips if they count; shape (C, 6 n) or (C, 6 n + 6), [m, rad]."""
     parts = [(found.twists - target.twists).reshape(len(found.twists), -1)]
     if with_tip:
         Rs = np.ascontiguousarray(found.tips[:, :3, :3] @ target.tip[:3, :3].T)
@@ -157,12 +157,12 @@ def residuals(target: Screws, found: Geometry, with_tip: bool) -> Array:
 
 
 def jacobians(convention: Convention, found: Geometry, unknowns: Indices, with_tip: bool) -> Array:
-    """Derivatives of the residuals by some unknowns.
+    """Compute derivatives of the residuals by some unknowns.
 
     Args:
-        convention: Of the tables.
-        found: Their geometry.
-        unknowns: Numbers of the unknowns of each table; shape (C, k).
+        convention: Convention of the tables.
+        found: Geometry of the tables.
+        unknowns: Indices of the unknowns of each table; shape (C, k).
         with_tip: Whether the tips count.
 
     Returns:
@@ -182,7 +182,7 @@ def jacobians(convention: Convention, found: Geometry, unknowns: Indices, with_t
 
 
 def moved_joints(convention: Convention, n: int) -> Flags:
-    """Which joints come after which unknown; shape (6 + 4 n, n)."""
+    """Return which joints each unknown moves; shape (6 + 4 n, n)."""
     rows = np.repeat(np.arange(n), 4)
     before_own = np.tile([convention == "modified"] * 2 + [False] * 2, n)
     joints = np.arange(n)
@@ -191,17 +191,17 @@ def moved_joints(convention: Convention, n: int) -> Flags:
 
 
 def fit(target: Screws, tables: Tables, unknowns: Indices, with_tip: bool, steps: int = _STEPS) -> tuple[Tables, Array]:
-    """Bring tables as near to a chain as their unknowns allow, each from where it is.
+    """Fit tables to a chain by least squares over their unknowns.
 
-    Levenberg's method on all of them side by side: a step is taken where it lessens the sum of squares, else damped
-    more. What the residuals do not depend on stays as it is.
+    Levenberg's method on all tables side by side: a step is taken if it reduces the sum of squares, else damped more.
+    Unknowns that do not affect the residuals stay unchanged.
 
     Args:
         target: The chain.
-        tables: Where to start from; C of them.
-        unknowns: What may change in each; shape (C, k).
+        tables: C starting tables.
+        unknowns: Indices of the unknowns of each table; shape (C, k).
         with_tip: Whether the tips count; else the tool is free.
-        steps: At most so many.
+        steps: Largest number of steps.
 
     Returns:
         The tables, and the root of each one's sum of squares, [m, rad]; shape (C,).
@@ -233,15 +233,15 @@ def fit(target: Screws, tables: Tables, unknowns: Indices, with_tip: bool, steps
 
 
 def polished(target: Screws, tables: Tables, unknowns: Indices, with_tip: bool) -> Tables:
-    """The nearest of the tables to which undamped steps lead from one.
+    """Refine a table by undamped steps, and return the best table found.
 
-    Damping leaves digits where axes barely determine something, as two axes a millimetre apart do: there a step first
-    leads away from the floor of a curved valley, and the next one back to it.
+    Damping loses digits where axes barely determine an unknown, such as two axes a millimetre apart: there a step first
+    leaves the floor of a curved valley, and the next one returns to it.
 
     Args:
         target: The chain.
         tables: A single table.
-        unknowns: What may change in it; shape (1, k).
+        unknowns: Indices of its unknowns; shape (1, k).
         with_tip: Whether the tip counts.
     """
     best, least = tables, np.inf
@@ -260,7 +260,7 @@ def polished(target: Screws, tables: Tables, unknowns: Indices, with_tip: bool) 
 
 
 def _damped_steps(J: Array, r: Array, dampings: Array) -> Array:
-    """Steps of damped least squares, columns measured by their own length; shape (C, k)."""
+    """Steps of damped least squares, with columns scaled by their length; shape (C, k)."""
     H = np.swapaxes(J, 1, 2) @ J
     diagonals = np.einsum("cii->ci", H)
     floors = 1e-9 * diagonals.max(axis=1, initial=0.0, keepdims=True) + 1e-300
@@ -271,7 +271,7 @@ def _damped_steps(J: Array, r: Array, dampings: Array) -> Array:
 
 
 def _moved(tables: Tables, unknowns: Indices, steps: Array) -> Tables:
-    """The tables a step further."""
+    """The tables after one step."""
     C, n = tables.rows.shape[:2]
     full = np.zeros((C, BASE_DIRECTIONS + 4 * n))
     np.put_along_axis(full, unknowns, steps, axis=1)
@@ -290,7 +290,7 @@ def _twists(Ts: Array, axis: int, slides: bool) -> Array:
         twists[:, :3] = direction
     else:
         x, y, z = Ts[:, 0, 3], Ts[:, 1, 3], Ts[:, 2, 3]
-        # Written out: NumPy's cross product takes longer to look at its arguments than to multiply them.
+        # Written out: NumPy's cross product spends more time checking its arguments than multiplying them.
         twists[:, 0] = y * direction[:, 2] - z * direction[:, 1]
         twists[:, 1] = z * direction[:, 0] - x * direction[:, 2]
         twists[:, 2] = x * direction[:, 1] - y * direction[:, 0]
@@ -299,7 +299,7 @@ def _twists(Ts: Array, axis: int, slides: bool) -> Array:
 
 
 def _skew(vectors: Array) -> Array:
-    """Matrices of the cross product with vectors; shape (…, 3) → (…, 3, 3)."""
+    """Cross product matrices [v]× of vectors; shape (…, 3) → (…, 3, 3)."""
     K = np.zeros((*vectors.shape[:-1], 3, 3))
     x, y, z = np.moveaxis(vectors, -1, 0)
     K[..., 0, 1], K[..., 0, 2], K[..., 1, 2] = -z, y, -x
@@ -308,7 +308,7 @@ def _skew(vectors: Array) -> Array:
 
 
 def _adjoint(twists: Array) -> Array:
-    """Matrices of the bracket with twists; shape (…, 6) → (…, 6, 6)."""
+    """Matrices of the Lie bracket [V, ·] of twists; shape (…, 6) → (…, 6, 6)."""
     ad = np.zeros((*twists.shape[:-1], 6, 6))
     angular = _skew(twists[..., 3:])
     ad[..., :3, :3], ad[..., 3:, 3:], ad[..., :3, 3:] = angular, angular, _skew(twists[..., :3])
@@ -338,7 +338,7 @@ def _about_x(alpha: Array, a: Array) -> Array:
 
 
 def _homogeneous(placement: Array) -> Array:
-    """A placement of a flat chain; shape (12,) → (4, 4)."""
+    """A placement of a flat chain as a homogeneous transform; shape (12,) → (4, 4)."""
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = placement[:9].reshape(3, 3), placement[9:]
     return T

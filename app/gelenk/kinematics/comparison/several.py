@@ -1,7 +1,7 @@
-"""Numbers that are wrong beside another mistake, those of a missing row among them.
+"""Search for wrong numbers in addition to another mistake, including the numbers of a missing row.
 
-Where a number is wrong, what lies before it and what lies behind it each agree with the chain. So it is looked for in
-the links between two parts that agree, and least squares find it with the base, from several values of each angle.
+The parts of a table before and after a wrong number each agree with the chain. So only links between two such parts
+are searched, and least squares finds the number together with the base, from several starting values of each angle.
 """
 
 import itertools
@@ -25,12 +25,12 @@ _MOST_JOBS = 160
 _MOST_STARTS = 1600
 _MOST_FOUND = 12
 _FIRST_STEPS = 4
-"""After so many steps those that lag behind are given up."""
+"""Number of steps after which only the best starts are continued."""
 _KEPT = 64
 
 
 class _Job(NamedTuple):
-    """Numbers to be found in a repaired table, by their places, those of a missing row first."""
+    """Places of the numbers to find in a repaired table, those of a missing row first."""
 
     repair: int
     missing: tuple[int, ...]
@@ -38,14 +38,14 @@ class _Job(NamedTuple):
 
 
 def with_numbers(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs, count: int) -> list[Diagnosis]:
-    """Repairs that make a table describe a chain together with some numbers.
+    """Find repairs that, together with some corrected numbers, make a table describe a chain.
 
     Args:
         on: The chain.
         table: The table.
-        freedom: What may be found beside.
-        repairs: What is undone first.
-        count: How many numbers are wrong in what these leave, beside those of missing rows.
+        freedom: The quantities that may be found as well.
+        repairs: The repairs applied first.
+        count: Number of wrong numbers after the repair, besides those of missing rows.
     """
     invariants = Invariants(on, freedom)
     found: list[Diagnosis] = []
@@ -71,10 +71,10 @@ def _jobs(
     straddles: Flags,
     count: int,
 ) -> Iterator[_Job]:
-    """Numbers between parts that agree."""
+    """Jobs for the numbers between parts that agree."""
     n = len(on.target)
     places = [p for p in range(4 * n) if not is_absorbed(convention, n, freedom, *divmod(p, 4))]
-    # Craig's a and α lead to the joint of their row, all else leads to the next one.
+    # Craig's a and α lead to the joint of their row, all other numbers to the next one.
     links = {p: p // 4 + (0 if convention == "modified" and p % 4 < 2 else 1) for p in range(4 * n)}
     for c, row in enumerate(repairs.rows.tolist()):
         missing = tuple(p for p in places if row[p // 4] < 0)
@@ -98,7 +98,7 @@ def _found(
     rows: Array,
     jobs: Sequence[_Job],
 ) -> list[Diagnosis]:
-    """The jobs that can be done, the nearest first."""
+    """Diagnoses from the jobs that succeed, at most `_MOST_FOUND`."""
     origins, starts = [], []
     for k, job in enumerate(jobs):
         for start in _starts(rows[job.repair], (*job.missing, *job.wrong)):
@@ -138,7 +138,7 @@ def _found(
 
 
 def _starts(rows: Array, places: Sequence[int]) -> Iterator[Array]:
-    """A table with angles all the way round."""
+    """Starting tables, with the angles among some places over a full turn."""
     angles = [p for p in places if p % 4 in {1, 3}]
     turns = {0: 1, 1: 8, 2: 6}.get(len(angles), 4)
     for steps in itertools.product(range(turns), repeat=len(angles)):
@@ -148,7 +148,7 @@ def _starts(rows: Array, places: Sequence[int]) -> Iterator[Array]:
 
 
 def _bases(on: Subject, tables: Tables) -> Array:
-    """Bases that turn the axes of tables towards a chain's; shape (C, 4, 4)."""
+    """Bases that rotate the axes of tables towards a chain's; shape (C, 4, 4)."""
     twists = geometry(tables).twists
     directions = np.where(tables.slides[:, None], twists[..., :3], twists[..., 3:])
     U, _, Vt = np.linalg.svd(np.einsum("ni,cnj->cij", on.target.directions, directions))
@@ -161,7 +161,7 @@ def _bases(on: Subject, tables: Tables) -> Array:
 def _diagnosis(
     on: Subject, table: DhTable, convention: Convention, freedom: Freedom, repair: Repairs, job: _Job, rows: Array
 ) -> Diagnosis | None:
-    """What was found, in words."""
+    """Diagnosis from the numbers found, if the table with them describes the chain."""
     before = table_of(on, table, convention, repair, repair.numbers(numbers_of(table))[0])
     numbers, further = numbers_of(before), []
     for place in (*job.missing, *job.wrong):
@@ -173,7 +173,7 @@ def _diagnosis(
     diagnosis = judged(on, table, freedom, repair, repaired, further)
     if diagnosis is None:
         return None
-    # What base or tool make up for is not known of a missing row.
+    # Numbers of a missing row that base or tool compensate are unknown.
     known = [
         each
         for each in diagnosis.differences

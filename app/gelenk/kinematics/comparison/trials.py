@@ -1,4 +1,4 @@
-"""Repaired tables tried on a chain: what makes a table describe it is a diagnosis."""
+"""Tests of repaired tables on a chain: a repair that makes the table describe the chain is a diagnosis."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -16,20 +16,20 @@ from gelenk.model.arrays import Array
 from gelenk.model.dh import Convention, DhJoint, DhTable
 
 LOOKS = 24
-"""Configurations at which a repaired table is examined."""
+"""Number of configurations at which a repaired table is tested."""
 _MOST_LOOKS = 24
-"""Repaired tables that are examined, of those whose axes agree."""
+"""Largest number of repaired tables tested among those whose axes agree."""
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """What explains everything.
+    """Mistakes whose correction makes the table describe the chain.
 
     Attributes:
-        mistakes: One mistake, or two.
-        detail: One sentence.
+        mistakes: The mistakes, usually one or two.
+        detail: Description in one sentence.
         differences: The numbers that differ, in the order of the table.
-        placement: The table with the mistakes made good, on the chain.
+        placement: The corrected table fitted to the chain.
     """
 
     mistakes: tuple[Mistake, ...]
@@ -39,12 +39,12 @@ class Diagnosis:
 
 
 def numbers_of(table: DhTable) -> Array:
-    """a, α, d, θ as they are written; shape (n, 4)."""
+    """Return a, α, d, θ as written in the table, without mimic offsets; shape (n, 4)."""
     return np.array([[row.a, row.alpha, row.d, row.theta] for row in table.joints])
 
 
 def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[tuple[Convention, Repairs]]:
-    """The repairs whose rows are of the chain's types, those of either convention together."""
+    """Group by convention the repairs whose rows match the chain's joint types."""
     slides = np.array([row.type == "prismatic" for row in table.joints])
     rows = repairs.rows
     fits = ((slides[rows] == on.target.slides) | (rows < 0)).all(axis=1)
@@ -56,14 +56,14 @@ def by_convention(on: Subject, table: DhTable, repairs: Repairs) -> Iterator[tup
 
 
 def parameters(table: DhTable, repairs: Repairs) -> Array:
-    """The numbers of repaired tables, with what rows that follow others add; shape (N, m, 4)."""
+    """Compute the numbers of repaired tables, including the offsets of mimic rows; shape (N, m, 4)."""
     numbers = repairs.numbers(numbers_of(table))
     added = parameters_of(table) - numbers_of(table)
     return numbers + added if added.any() else numbers
 
 
 def explaining(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs) -> list[Diagnosis]:
-    """The repairs that make a table describe a chain, in their order, each repaired table once."""
+    """Find the repairs that make a table describe a chain, in order, without duplicate tables."""
     if not len(repairs.undone):
         return []
     invariants = Invariants(on, freedom)
@@ -87,7 +87,7 @@ def explaining(on: Subject, table: DhTable, freedom: Freedom, repairs: Repairs) 
 def judged(
     on: Subject, table: DhTable, freedom: Freedom, repair: Repairs, repaired: DhTable, further: Sequence[Undone] = ()
 ) -> Diagnosis | None:
-    """The diagnosis that a repaired table is, if it describes the chain; other mistakes may be made good in it."""
+    """Return the diagnosis if the repaired table describes the chain; `further` names other mistakes it corrects."""
     placement = placed(on.fewer(LOOKS), repaired, freedom, strict=True, senses=repair.senses[0])
     if placement is None:
         return None
@@ -98,7 +98,7 @@ def judged(
 
 
 def table_of(on: Subject, table: DhTable, convention: Convention, repair: Repairs, numbers: Array) -> DhTable:
-    """A repaired table with other numbers; shape (m, 4)."""
+    """Create a repaired table with the given numbers; shape (m, 4)."""
     joints = []
     for i, (source, row) in enumerate(zip(repair.rows[0].tolist(), numbers.tolist(), strict=True)):
         missing = DhJoint(f"missing row {i + 1}", "prismatic" if on.target.slides[i] else "revolute", *row)
@@ -108,13 +108,13 @@ def table_of(on: Subject, table: DhTable, convention: Convention, repair: Repair
 
 
 def between(table: DhTable, repaired: DhTable, rows: Sequence[int], senses: Array) -> tuple[Difference, ...]:
-    """What differs in two tables; numbers of the other convention are first written in this one's.
+    """List the differences between a table and its repair, after converting the repair to the table's convention.
 
     Args:
-        table: As it was given.
-        repaired: Of one row more or less, or as many.
-        rows: The row of the first one that each of the other one comes from, -1 where it is missing.
-        senses: -1 where a joint of the repaired table turns the other way.
+        table: The given table.
+        repaired: The repaired table, with possibly more or fewer rows.
+        rows: Row of the given table that each repaired row comes from, -1 if missing there.
+        senses: -1 where a joint of the repaired table is reversed.
     """
     expected = numbers_of(repaired)
     if repaired.convention != table.convention:
@@ -141,7 +141,7 @@ def between(table: DhTable, repaired: DhTable, rows: Sequence[int], senses: Arra
 
 
 def _shifted(numbers: Array, towards_standard: bool) -> Array:
-    """A table in the other convention, base and tool apart: a and α belong to the link behind, or before, a joint."""
+    """The numbers in the other convention, without base and tool: a and α move to the row before or after."""
     shifted = numbers.copy()
     shifted[:, :2] = 0.0
     if towards_standard:

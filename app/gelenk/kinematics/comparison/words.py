@@ -22,7 +22,7 @@ Mistake: TypeAlias = Literal[
 ]
 
 POSITION_TOLERANCE = 1e-5
-"""Distance within which positions count as equal, [m]: descriptions round angles to five digits."""
+"""Distance up to which positions count as equal, [m]: descriptions round angles to five digits."""
 ORIENTATION_TOLERANCE = 1e-4
-"""Angle within which orientations count as equal, [rad]."""
+"""Angle up to which orientations count as equal, [rad]."""
 SAMPLES = 200
