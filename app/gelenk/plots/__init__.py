@@ -1,10 +1,10 @@
-"""Pictures: figures drawn by matplotlib, as SVG or PNG; nothing here knows how they travel.
+"""Pictures drawn by matplotlib, as SVG or PNG, independent of how they are delivered.
 
-- `figure`: one style for all pictures, and figures turned into bytes, the same bytes for the same figure.
+- `figure`: one style for all pictures, and rendering to bytes, the same bytes for the same figure.
 - `arm`: an arm as a line through its joints.
-- `profiles`: a motion over time, with its velocity, acceleration and jerk, and the limits.
+- `profiles`: a motion over time, with its velocity, acceleration, jerk and limits.
 - `ellipsoids`: the arm with the velocity and force ellipse at its tip.
-- `workspace`: what an arm reaches, along the axes, coloured by how well.
+- `workspace`: the workspace seen along the axes, coloured by how well the arm reaches it.
 
 Loading matplotlib takes a third of a second, so these modules are imported only when a picture is requested.
 """

@@ -14,8 +14,8 @@ class ArmLine:
     """Points of a chain at a configuration, in its base frame.
 
     Attributes:
-        points: The base, one point on the axis of each of the m joints of the way, the tip; shape (m + 2, 3), [m].
-        slides: Which of the joints slide; shape (m,).
+        points: Base, one point on the axis of each of the chain's m joints, and tip; shape (m + 2, 3), [m].
+        slides: Whether each joint is prismatic; shape (m,).
     """
 
     points: Array
@@ -23,14 +23,14 @@ class ArmLine:
 
     @property
     def tip(self) -> Array:
-        """The last point; shape (3,)."""
+        """Position of the tip, the last point; shape (3,), [m]."""
         return np.asarray(self.points[-1])
 
 
 def arm_line(chain: Chain, q: Array) -> ArmLine:
-    """The line from base to tip at a configuration of shape (n,), mimic joints included.
+    """Return the line from base to tip at a configuration of shape (n,), including mimic joints.
 
-    A sliding joint's point is that of its carriage.
+    The point of a prismatic joint moves with its carriage.
     """
     flat = chain.flat
     T = np.eye(4)
@@ -49,7 +49,7 @@ def arm_line(chain: Chain, q: Array) -> ArmLine:
 
 
 def _motion(slides: int, value: float) -> Array:
-    """The motion of a joint along or about its z axis."""
+    """Return the transform of a joint's motion along or about its z axis; shape (4, 4)."""
     if slides:
         return transform(np.array([0.0, 0.0, value]), np.eye(3))
     c, s = np.cos(value), np.sin(value)

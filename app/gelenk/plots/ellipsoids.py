@@ -1,7 +1,7 @@
-"""The arm with the velocity and the force ellipse of its tip: in its plane, or in three projections.
+"""Pictures of the arm with the velocity and the force ellipse at its tip: in its plane, or in three projections.
 
-Velocities, forces and lengths have no common scale: each ellipse is drawn as large as suits the arm, and the legend
-says how many metres of paper stand for one unit. A force that is unbounded is a strip without ends.
+Velocities, forces and lengths have no common scale: each ellipse is scaled to suit the arm, and the legend states how
+many metres of the picture stand for one unit. An unbounded force is drawn as an endless strip.
 """
 
 from collections.abc import Sequence
@@ -42,25 +42,25 @@ from gelenk.plots.shadows import (
 )
 
 View: TypeAlias = tuple[Array, str, str]
-"""Two unit vectors of a plane of projection as rows, shape (2, 3), and what its axes are called."""
+"""Two unit vectors of a projection plane as rows, shape (2, 3), and the labels of its axes."""
 
 _LARGEST = 0.38
-"""Semi-axis of the larger extent of an ellipse, in fractions of the arm's extent."""
+"""Upper limit of the longest semi-axis of an ellipse, as a fraction of the arm's extent."""
 _ARROW = 0.46
-"""Length of an arrow likewise."""
+"""Length of an arrow, as a fraction of the arm's extent."""
 _MARGIN = 0.08
 _TITLE_HEIGHT, _AXES_WIDTH, _AXES_HEIGHT, _LABELS_HEIGHT = 0.55, 5.3, 4.8, 0.65
-"""Of a picture in a plane, [inch]."""
+"""Sizes of the layout, [inch]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What a picture is to show beside the ellipsoids.
+    """What a picture shows in addition to the ellipsoids.
 
     Attributes:
-        directions: Unit vectors; shape (D, 3).
-        tolerance: Of the force along one that is unbounded.
-        limited: What the joints can do within their limits, where polytopes were requested.
+        directions: Unit vectors drawn as arrows; shape (D, 3).
+        tolerance: Tolerance within which the force along a direction is unbounded; see `transmission_ratios`.
+        limited: Velocities and forces within the joint limits; None if no polytopes were requested.
     """
 
     directions: Array
@@ -73,14 +73,14 @@ NOTHING_MORE = Asked(np.zeros((0, 3)), 0.0, None)
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """All that is drawn.
+    """Everything that is drawn.
 
     Attributes:
-        arm: The arm.
-        extent: Its size, [m].
-        quantities: Ellipsoids at its tip.
-        outlines: Polytopes.
-        arrows: Directions.
+        arm: Line of the arm.
+        extent: Size of the arm, [m].
+        quantities: Ellipsoids at the tip.
+        outlines: Polytopes at the tip.
+        arrows: Directions at the tip.
     """
 
     arm: ArmLine
@@ -91,7 +91,7 @@ class Scene:
 
     @property
     def halves(self) -> list[Array]:
-        """Half the extents of what is at the tip along x, y and z, shape (3,) each, [m of paper]."""
+        """Half extents along x, y and z of everything at the tip; shape (3,) each, [m as drawn]."""
         arrows: list[Array] = [np.abs(arrow.direction) * 1.1 * _ARROW * self.extent for arrow in self.arrows]
         return [*(one.halves for one in self.quantities), *(one.halves for one in self.outlines), *arrows]
 
@@ -99,16 +99,16 @@ class Scene:
 def manipulability_picture(
     name: str, chain: Chain, q: Array, translation: Ellipsoids | None, kind: PictureFormat, asked: Asked = NOTHING_MORE
 ) -> bytes:
-    """The picture.
+    """Draw the arm with its ellipsoids.
 
     Args:
-        name: Of the robot.
-        chain: Base and tip.
+        name: Name of the robot.
+        chain: Chain from base to tip.
         q: One configuration; shape (n,), [rad or m].
-        translation: Ellipsoids of translation at this configuration alone, in the base's axes; None where the task has
-            no direction of it.
-        kind: What the bytes are.
-        asked: Further parts of the picture.
+        translation: Translational ellipsoids at this configuration alone, in the base frame; None if the task has no
+            translational direction.
+        kind: Format of the returned bytes.
+        asked: What to show in addition.
     """
     arm = arm_line(chain, q)
     extent = max(float(np.ptp(arm.points, axis=0).max()), float(np.linalg.norm(arm.points[-1])), 1e-3)
@@ -128,7 +128,7 @@ def manipulability_picture(
 
 
 def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
-    """Two unit vectors of the plane that the picture is in: that of all motion, else of the task; shape (2, 3)."""
+    """Return two unit vectors of the picture's plane, that of all motion or else of the task; shape (2, 3), or None."""
     space = space_of(chain, (0, 1, 2))
     if space.is_plane:
         return space.spread(space.basis.T)
@@ -138,14 +138,14 @@ def _plane(chain: Chain, translation: Ellipsoids | None) -> Array | None:
 
 
 def _units(chain: Chain) -> tuple[str, str]:
-    """Of joint velocities and of joint forces."""
+    """Return the units of joint velocities and joint forces, or plain names if joints of both kinds are mixed."""
     kinds = frozenset(chain.flat.joints[:, 0].tolist())
     named = {frozenset({0}): ("rad/s", "N m"), frozenset({1}): ("m/s", "N")}
     return named.get(kinds, ("joint velocity", "joint effort"))
 
 
 def _quantities(chain: Chain, translation: Ellipsoids, extent: float) -> tuple[Quantity, ...]:
-    """The velocity and the force ellipsoid; none where the tip has no translation."""
+    """Return the velocity and the force ellipsoid; nothing if the tip cannot translate."""
     sigmas = translation.sigmas[0]
     if not len(sigmas):
         return ()
@@ -174,7 +174,7 @@ def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) ->
 
 
 def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Asked) -> tuple[Arrow, ...]:
-    """The directions; the legend has their components as they were given."""
+    """Return the directions as arrows; the legend shows their components."""
     directions = asked.directions
     inside, ratios = np.zeros(len(directions), dtype=bool), np.full((2, len(directions)), np.nan)
     if translation is not None and quantities and len(directions):
@@ -198,7 +198,7 @@ def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], aske
 
 
 def _scale(sizes: Array, extent: float) -> float:
-    """Metres of paper a unit, one significant digit of 1, 2 or 5, so that the largest end stays within the picture."""
+    """Return the metres as drawn per unit, a power of ten times 1, 2 or 5, that fit the largest size in the picture."""
     largest = float(sizes[np.isfinite(sizes)].max(initial=0.0))
     if not largest > 0.0:
         return 1.0
@@ -218,7 +218,7 @@ def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, en
     halves = [np.abs(plane) @ half for half in scene.halves]
     middle, half = _box(scene.arm.points @ plane.T, halves, scene.extent)
     _draw(axes, view, scene)
-    # The narrower of the two is widened, so that the axes fill their place.
+    # Widen the narrower range, so that the axes fill their space.
     _look_at(axes, middle, np.maximum(half, half[::-1] * _shape(axes) ** np.array([1.0, -1.0])))
     write_head(figure, title, lines)
     write_legend(figure, (0.06, (bottom - _LABELS_HEIGHT) / height), entries)
@@ -226,7 +226,7 @@ def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, en
 
 
 def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
-    """Front and side above, the view from above below the front, on one scale."""
+    """Draw front and side views above, and the top view below the front, all on one scale."""
     width, side = 9.0, 3.6
     lines = configuration_lines(chain, q, width)
     height = _TITLE_HEIGHT + len(lines) * LINE + 2.0 * (side + _LABELS_HEIGHT)
@@ -244,7 +244,7 @@ def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: S
 
 
 def _axis_name(direction: Array, number: int) -> str:
-    """x, y or z where the direction is one of these."""
+    """Return x, y or z if the direction is one of these, else a numbered name."""
     for name, unit in zip("xyz", np.eye(3), strict=True):
         if np.abs(direction - unit).max() < 1e-9:
             return name
@@ -252,14 +252,14 @@ def _axis_name(direction: Array, number: int) -> str:
 
 
 def _box(points: Array, halves: Sequence[Array], extent: float) -> tuple[Array, Array]:
-    """Middle and half the size of what holds the arm and what is at its tip."""
+    """Return centre and half size of a box around the arm and everything at its tip."""
     everything = np.concatenate([points, *(points[-1:] + sign * half for half in halves for sign in (1.0, -1.0))])
     lower, upper = everything.min(axis=0), everything.max(axis=0)
     return (lower + upper) / 2.0, (upper - lower) / 2.0 + _MARGIN * extent
 
 
 def _shape(axes: Axes) -> float:
-    """Width over height."""
+    """Return the ratio of width to height."""
     width, height = axes.bbox.size
     return float(width / height)
 

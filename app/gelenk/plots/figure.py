@@ -1,7 +1,7 @@
-"""One style for all pictures, and figures turned into bytes.
+"""The common style of all pictures, and rendering of figures to bytes.
 
-Figures are made and drawn directly, never through pyplot, whose current figure belongs to the whole process. A lock
-lets one thread draw at a time: matplotlib does not promise more, and as it holds the GIL nothing is lost.
+Figures are created and drawn directly, never through pyplot, whose current figure is shared by the whole process. A
+lock lets one thread draw at a time: matplotlib guarantees no more, and nothing is lost, because it holds the GIL.
 """
 
 import threading
@@ -24,31 +24,31 @@ RULE: Final = "#d9dee3"
 LINK: Final = "#9aa5b1"
 VELOCITY: Final = "#0072b2"
 FORCE: Final = "#d55e00"
-"""Blue and vermilion of Okabe and Ito, which no common colour blindness takes for each other."""
+"""Blue and vermilion of Okabe and Ito, which people with common colour blindness can tell apart."""
 
 TEXT: Final = 9.0
 TITLE: Final = 11.0
-"""The two sizes of type, [pt]."""
+"""The two font sizes, [pt]."""
 LINE: Final = TEXT * 1.75 / 72.0
-"""From one line of text to the next, [inch]."""
+"""Line spacing, [inch]."""
 
 _PNG_DOTS_PER_INCH = 150
 _MOST_TEXT = 48
 _BEYOND_FONT = 0x250
 
-# Only numbers the parts of an SVG, and otherwise they would be numbered at random.
+# Only affects the ids of an SVG's elements, which would otherwise be random.
 mpl.rcParams["svg.hashsalt"] = "gelenk"
 
 _drawing = threading.Lock()
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of a size in inches."""
+    """Return an empty figure of the given size, [inch]."""
     return Figure(figsize=(width, height), facecolor="white")
 
 
 def as_bytes(figure: Figure, kind: PictureFormat) -> bytes:
-    """The figure drawn: an SVG whose letters are paths, so that it looks the same without the font, or a PNG."""
+    """Render a figure as a PNG, or as an SVG whose letters are paths, so that it looks the same without the font."""
     buffer = BytesIO()
     with _drawing:
         if kind == "svg":
@@ -61,12 +61,12 @@ def as_bytes(figure: Figure, kind: PictureFormat) -> bytes:
 
 
 def font(size: float = TEXT, *, bold: bool = False) -> FontProperties:
-    """The one typeface, which matplotlib brings along."""
+    """Return the only typeface used, which comes with matplotlib; `size` in [pt]."""
     return FontProperties(family="DejaVu Sans", size=size, weight="bold" if bold else "normal")
 
 
 def metric_axes(axes: Axes, x_label: str, y_label: str) -> None:
-    """Axes of lengths in metres: equal scales, a quiet grid below everything, labels."""
+    """Style axes of lengths in metres: equal scales, a light grid below everything, labels."""
     axes.set_aspect("equal", adjustable="box")
     axes.set_axisbelow(True)
     axes.grid(color=RULE, linewidth=0.6)
@@ -80,13 +80,13 @@ def metric_axes(axes: Axes, x_label: str, y_label: str) -> None:
 
 
 def write(figure: Figure, x: float, y: float, lines: Sequence[str], *, size: float = TEXT, color: str = INK) -> None:
-    """Lines of text, their upper left corner at a place in fractions of the figure; never read as mathematics."""
+    """Write lines of text, never parsed as mathematics, with upper left corner (x, y) in fractions of the figure."""
     figure.text(
         x, y, "\n".join(lines), fontproperties=font(size), color=color, va="top", linespacing=1.5, parse_math=False
     )
 
 
 def plain(name: str) -> str:
-    """A name from outside as the typeface can write it, of bounded length."""
+    """Shorten a name from a request or a model, and replace characters that the typeface lacks."""
     shown = name if len(name) <= _MOST_TEXT else name[: _MOST_TEXT - 1] + "…"
     return "".join(c if c == "…" or (c.isprintable() and ord(c) < _BEYOND_FONT) else "?" for c in shown)

@@ -1,4 +1,4 @@
-"""A corner passed without a stop: the way in its plane, and speed and acceleration over time."""
+"""Picture of a corner passed without a stop: the path in its plane, and speed and acceleration over time."""
 
 from typing import Any
 
@@ -26,16 +26,16 @@ from gelenk.trajectory.polynomial import PiecewisePolynomial
 _POINTS = 200
 _MARGIN = 0.12
 _LEAST = 0.25
-"""Height of the way's picture, in fractions of its width, at least: a straight way is flat."""
+"""Least ratio of the shorter to the longer side of the path's picture, because a straight path is flat."""
 
 
 def fly_over_picture(blend: Blend, motion: PiecewisePolynomial | None, kind: PictureFormat) -> bytes:
-    """The picture.
+    """Draw a fly-over.
 
     Args:
-        blend: The parabola at the corner.
-        motion: The whole motion, or the blend's; None where that takes no time. k coordinates, [m].
-        kind: What the bytes are.
+        blend: Parabola at the corner.
+        motion: The whole motion, or that of the blend, k coordinates, [m]; None if it takes no time.
+        kind: Format of the returned bytes.
     """
     figure = new_figure(6.4, 8.0)
     title = f"Fly-over in {blend.time:.4g} s: d₁ = {blend.distance_before:.4g} m, d₂ = {blend.distance_after:.4g} m"
@@ -73,14 +73,14 @@ def _draw_way(axes: Axes, blend: Blend) -> None:
     for name, point in (("A", A), ("B", B), ("C", C), ("A'", entry), ("C'", exit_)):
         is_end = name in {"A'", "C'"}
         axes.plot(*point, "o", markersize=5.0, color="white" if is_end else INK, markeredgecolor=INK, zorder=4)
-        # Where the way leads back the two ends of the blend are at one place.
+        # If the path turns back, the two ends of the blend coincide.
         offset = (6.0, -14.0) if name == "C'" else (6.0, 6.0)
         axes.annotate(name, point, offset, textcoords="offset points", fontproperties=font(), color=INK)
     _frame(axes, np.concatenate((legs, parabola)))
 
 
 def _plane(blend: Blend) -> Any:
-    """What brings points into the plane of the corner: as they are in two dimensions, else B its origin, x along AB."""
+    """Return the map of points to the corner's plane: the identity in two dimensions, else origin B and x along AB."""
     corner = blend.corner
     if len(corner.start) == 2:
         return lambda points: points
@@ -92,7 +92,7 @@ def _plane(blend: Blend) -> Any:
 
 
 def _frame(axes: Axes, points: Array) -> None:
-    """Room around the way."""
+    """Leave room around the path."""
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     half = np.maximum(0.5 * (high - low), 0.5 * _LEAST * size) + _MARGIN * size

@@ -1,4 +1,4 @@
-"""Title and legend of a picture of ellipsoids: what everything is, how large, and on which scale."""
+"""Title and legend of a picture of ellipsoids: what is drawn, how large, and at which scale."""
 
 import textwrap
 from collections.abc import Sequence
@@ -16,18 +16,18 @@ from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
 
 _DIGITS = {1: 4, 2: 4, 3: 3}
 _MOST_NAMED = 6
-"""Directions in the legend."""
+"""Largest number of directions listed in the legend."""
 
 
 _MOST_LINES = 4
-"""Of a configuration."""
+"""Largest number of lines for a configuration."""
 _CHARACTER = 0.078
-"""Width of one, [inch]."""
+"""Width of a character, [inch]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """Lines of the legend, with a piece of the line they are about where there is one."""
+    """Lines of text in the legend, with a sample of the drawn line that they describe, if any."""
 
     lines: tuple[str, ...]
     line: Line2D | None = None
@@ -40,7 +40,7 @@ def legend(
     arrows: Sequence[Arrow],
     translation: Ellipsoids | None,
 ) -> list[Entry]:
-    """What everything is, how large, and on which scale."""
+    """Return the entries of the legend: what is drawn, how large, and at which scale."""
     entries = [_entry(quantity) for quantity in quantities]
     entries += [_outline_entry(outline) for outline in outlines]
     if translation is None:
@@ -81,12 +81,12 @@ def _outline_entry(outline: Outline) -> Entry:
 
 
 def legend_height(entries: Sequence[Entry]) -> float:
-    """Of a legend, [inch]."""
+    """Return the height of a legend, [inch]."""
     return sum((len(entry.lines) + 0.35) * LINE for entry in entries) + 0.1
 
 
 def configuration_lines(chain: Chain, q: Array, width: float) -> list[str]:
-    """The joint positions in lines for a figure of a width, [inch]."""
+    """Format joint positions as lines of text for a figure of the given width, [inch]."""
     slides = {int(variable) for prismatic, variable in chain.flat.joints.tolist() if prismatic}
     units = ["m" if i in slides else "rad" for i in range(len(q))]
     mixed = len(set(units)) > 1
@@ -97,14 +97,14 @@ def configuration_lines(chain: Chain, q: Array, width: float) -> list[str]:
 
 
 def write_head(figure: Figure, title: str, lines: Sequence[str]) -> None:
-    """The title, and the configuration below it."""
+    """Write the title, and the configuration below it."""
     left, height = 0.06, figure.get_figheight()
     write(figure, left, 1.0 - 0.19 / height, [title], size=TITLE)
     write(figure, left, 1.0 - 0.46 / height, lines, color=QUIET)
 
 
 def write_legend(figure: Figure, place: tuple[float, float], entries: Sequence[Entry]) -> None:
-    """The entries, one below the other, from an upper left corner in fractions of the figure."""
+    """Write the entries one below the other; `place` is their upper left corner in fractions of the figure."""
     left, top = place
     line, swatch = LINE / figure.get_figheight(), 0.36 / figure.get_figwidth()
     for entry in entries:

@@ -1,4 +1,4 @@
-"""The two workspaces of a planar arm: rings around its base, and the arm with its tip at a point."""
+"""Picture of the two workspaces of a planar arm: rings around its base, and the arm with its tip at a point."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -26,18 +26,18 @@ from gelenk.plots.figure import (
 _PRIMARY, _SECONDARY = VELOCITY, FORCE
 _MARGIN = 1.08
 _LINE = 1e-9
-"""Width of a ring that is a circle, in fractions of its radius."""
+"""Width up to which a ring is drawn as a circle, as a fraction of its radius."""
 _SMALLEST = 1e-6
-"""Half the width of a picture of next to nothing, [m]."""
+"""Least half width of the pictured area without its margin, [m]."""
 
 
 def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None, kind: PictureFormat) -> bytes:
-    """The picture.
+    """Draw the two workspaces of a planar arm.
 
     Args:
-        arm: The arm.
-        point: x and y; the arm is drawn with its tip there where it can be, [m].
-        kind: What the bytes are.
+        arm: Arm and its workspaces.
+        point: x and y of a point, [m]; the arm is drawn with its tip there if it can reach it.
+        kind: Format of the returned bytes.
     """
     figure = new_figure(6.4, 7.6)
     axes = figure.add_axes((0.13, 0.19, 0.83, 0.73))
@@ -57,7 +57,7 @@ def planar_workspace_picture(arm: PlanarWorkspace, point: Sequence[float] | None
 
 
 def _draw_rings(axes: Axes, rings: Sequence[Interval], color: str, strength: float, order: float) -> None:
-    """Each ring as what it is: a ring, a disc, a circle or a point."""
+    """Draw each ring as a ring, a disc, a circle or a point, depending on its radii."""
     for inner, outer in rings:
         look: dict[str, Any] = {"facecolor": (color, strength), "edgecolor": color, "linewidth": 1.4, "zorder": order}
         if outer == 0.0:
@@ -71,7 +71,7 @@ def _draw_rings(axes: Axes, rings: Sequence[Interval], color: str, strength: flo
 
 
 def _draw_arm(axes: Axes, arm: PlanarWorkspace, point: Sequence[float]) -> None:
-    """The arm in the middle of the first orientations that it has there; the point alone where it has none."""
+    """Draw the arm in the middle of its first range of orientations at the point; without one, only the point."""
     found = orientations(arm, *point)
     if found:
         points = posture(arm, point[0], point[1], float(np.mean(found[0])))

@@ -1,4 +1,4 @@
-"""Profiles of a motion over time: position, velocity, acceleration and jerk, with the limits as lines."""
+"""Picture of a motion over time: position, velocity, acceleration and jerk, with the limits as lines."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ from gelenk.plots.figure import (
 from gelenk.trajectory.polynomial import PiecewisePolynomial
 
 _COLORS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b4c9a", "#1f2933")
-"""Those of Okabe and Ito that are seen on white, and two more."""
+"""The colours of Okabe and Ito that are visible on white, and two more."""
 _DASHES: Final[tuple[tuple[float, ...], ...]] = ((), (4.0, 1.5), (1.2, 1.2), (6.0, 1.5, 1.2, 1.5))
 _POINTS = 600
 _A_ROW = 4
@@ -35,18 +35,18 @@ _MARGIN = 0.06
 _FEW_PIECES = 30
 _LIMIT_DASHES: Final = (0.0, (5.0, 3.0))
 _ROOM = 0.012
-"""Width of a character, as a share of a panel's."""
+"""Width of a character, as a fraction of a panel's width."""
 
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A part of the motion with limits of its own.
+    """A part of the motion with its own limits.
 
     Attributes:
-        label: What it is.
-        start: [s].
-        end: [s].
-        limits: Of velocity, acceleration and jerk; each of shape (n,).
+        label: Name of the part.
+        start: Start time, [s].
+        end: End time, [s].
+        limits: Limits of velocity, acceleration and jerk; shape (n,) each.
     """
 
     label: str
@@ -57,14 +57,14 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Lines:
-    """What is drawn beside the motion.
+    """What is drawn in addition to the motion.
 
     Attributes:
-        names: Of the joints.
-        units: Of a position, a velocity, …; four of them.
-        limits: Of velocity, acceleration and jerk; each of shape (n,), None where there is none.
-        knots: Times and positions that are marked; shapes (K,) and (K, n); None for none.
-        spans: Consecutive parts, whose limits replace `limits`; their ends are marked.
+        names: Names of the joints.
+        units: Units of position, velocity, acceleration and jerk.
+        limits: Limits of velocity, acceleration and jerk; shape (n,) each, None for no limit.
+        knots: Times and positions to mark; shapes (K,) and (K, n); None for none.
+        spans: Consecutive parts whose limits replace `limits`; their ends are marked.
     """
 
     names: Sequence[str]
@@ -75,13 +75,13 @@ class Lines:
 
 
 def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind: PictureFormat) -> bytes:
-    """The picture.
+    """Draw the profiles of a motion.
 
     Args:
-        title: What moves, or how.
-        motion: Positions in time.
-        lines: What is drawn beside it.
-        kind: What the bytes are.
+        title: Title of the picture.
+        motion: Positions over time.
+        lines: What to draw in addition.
+        kind: Format of the returned bytes.
     """
     joints = motion.coefficients.shape[2]
     rows = -(-joints // _A_ROW) if joints > 1 else 0
@@ -106,12 +106,12 @@ def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind
 
 
 def _look(joint: int) -> tuple[str, tuple[float, ...]]:
-    """Colour and dashes: the dashes change when all colours have been used."""
+    """Return colour and dashes of a joint; the dashes change when all colours have been used."""
     return _COLORS[joint % len(_COLORS)], _DASHES[joint // len(_COLORS) % len(_DASHES)]
 
 
 def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
-    """Axes of a quantity over time; the last of several below each other says what time is."""
+    """Style the axes of a quantity over time; only the last of several stacked panels has a label for the time."""
     axes.set_axisbelow(True)
     axes.grid(color=RULE, linewidth=0.6)
     for side, spine in axes.spines.items():
@@ -126,10 +126,10 @@ def time_axes(axes: Axes, label: str, *, is_last: bool) -> None:
 
 
 def curve(motion: PiecewisePolynomial) -> tuple[Array, Array]:
-    """Points to draw a motion by: each piece with both its ends, so that a jump is a vertical line.
+    """Return points for plotting a motion: each piece with both its ends, so that a jump is a vertical line.
 
     Returns:
-        Times, shape (N,), and values, shape (N, n).
+        Times of shape (N,), [s], and values of shape (N, n).
     """
     pieces, degree = len(motion.breaks) - 1, motion.coefficients.shape[1] - 1
     count = 2 if degree == 0 else max(3, _POINTS // pieces)
@@ -149,7 +149,7 @@ def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
 
 
 def _limit(axes: Axes, lines: Lines, which: int) -> None:
-    """The limits of all joints to either side, one line where they have it in common."""
+    """Draw the limits of all joints in both directions, with one line for joints that share a limit."""
     if not lines.spans:
         limit = lines.limits[which]
         if limit is not None:
@@ -157,7 +157,7 @@ def _limit(axes: Axes, lines: Lines, which: int) -> None:
                 for side in (bound, -bound):
                     axes.axhline(float(side[0]), color=color, linewidth=1.0, linestyle=_LIMIT_DASHES, zorder=2)
         return
-    # What is no number between two spans leaves a gap in the line.
+    # NaN between two spans leaves a gap in the line.
     times = np.array([(span.start, span.end, np.nan) for span in lines.spans]).ravel()
     limits = np.repeat([span.limits[which] for span in lines.spans], 3, axis=0)
     for bound, color in _bounds(limits):
@@ -166,7 +166,7 @@ def _limit(axes: Axes, lines: Lines, which: int) -> None:
 
 
 def _bounds(limits: Array) -> list[tuple[Array, str]]:
-    """Limits over time and their colours, each once; a shared one has its own; shape (K, n) → (K,) each."""
+    """Return each distinct limit over time, and its colour; shared limits are grey; shape (K, n) → (K,) each."""
     found, joints, counts = np.unique(limits, axis=1, return_index=True, return_counts=True)
     return [
         (found[:, k], _look(int(joints[k]))[0] if counts[k] == 1 and limits.shape[1] > 1 else QUIET)
@@ -175,7 +175,7 @@ def _bounds(limits: Array) -> list[tuple[Array, str]]:
 
 
 def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
-    """Where one part becomes the next; each part's name is written above it, where there is room."""
+    """Mark where one part ends and the next begins, and write each part's name above it if there is room."""
     whole = spans[-1].end - spans[0].start if spans else 0.0
     for span in spans[1:]:
         axes.axvline(span.start, color=LINK, linewidth=1.2, zorder=1)
@@ -195,7 +195,7 @@ def _divide(axes: Axes, spans: Sequence[Span], *, is_named: bool) -> None:
 
 
 def _trimmed(motion: PiecewisePolynomial) -> PiecewisePolynomial:
-    """Without leading powers that no piece has."""
+    """Drop leading powers whose coefficients are zero in all pieces."""
     used = np.flatnonzero(np.abs(motion.coefficients).max(axis=(0, 2)) > 0.0)
     size = int(used[-1]) + 1 if len(used) > 0 else 1
     return PiecewisePolynomial(motion.breaks, motion.coefficients[:, :size])
@@ -209,7 +209,7 @@ def _mark(axes: Axes, times: Array, positions: Array) -> None:
 
 
 def _frame(axes: Axes, motion: PiecewisePolynomial) -> None:
-    """The same stretch of time in all four, the switching times marked where they are few, room around the values."""
+    """Set the time range of the motion, mark its switching times if they are few, and leave room around the values."""
     start, end = float(motion.breaks[0]), float(motion.breaks[-1])
     if end > start:
         axes.set_xlim(start, end)

@@ -1,8 +1,8 @@
-"""What a picture of an arm shows at its tip: shadows of ellipsoids, outlines of polytopes, directions as arrows.
+"""What a picture of an arm shows at its tip: projections of ellipsoids, outlines of polytopes, directions as arrows.
 
-An ellipsoid that has lost an axis, or is seen from its side, is a segment, and is drawn as one; one that has no end in
-some direction is a strip. Fills lie below the arm, lines above it. Segments of velocity and force may lie on each
-other, so that one is broad and the other one thin and dashed.
+An ellipsoid that has lost an axis, or is seen edge-on, is drawn as a segment; one that is unbounded in some direction
+is drawn as a strip. Fills lie below the arm, lines above it. Segments of velocity and force may coincide, so one is
+broad, and the other thin and dashed.
 """
 
 from dataclasses import dataclass
@@ -25,27 +25,27 @@ _BROAD = 4.5
 _FILL = 0.10
 _BELOW, _ABOVE, _ON_TOP = 1.0, 4.0, 5.5
 _FLAT = 1e-6
-"""A shadow narrower than this fraction of the extent is a segment."""
+"""Width, as a fraction of the extent, up to which a projection is drawn as a segment."""
 _TICK = 0.018
-"""Half the length of the marks at the ends of a segment, in extents."""
+"""Half the length of the marks at the ends of a segment, as a fraction of the extent."""
 _FAR = 1e3
-"""Where a strip without ends is cut off, in extents: far outside the picture."""
+"""Distance at which an endless strip is cut off, in extents: far outside the picture."""
 _FINITE = {0: "point", 1: "segment", 2: "ellipse", 3: "ellipsoid"}
 _ENDLESS = {(1, 1): "line", (2, 1): "strip", (2, 2): "plane", (3, 1): "cylinder", (3, 2): "slab", (3, 3): "space"}
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """An ellipsoid to be drawn.
+    """An ellipsoid to draw.
 
     Attributes:
-        name: Of what.
-        unit: Of its semi-axes.
-        color: Of its line.
-        dashes: Of its line.
+        name: Name of the quantity.
+        unit: Unit of the semi-axes.
+        color: Colour of the line.
+        dashes: Style of the line.
         axes: Principal axes as unit columns; shape (3, d).
-        sizes: Semi-axes, infinite where unbounded; shape (d,).
-        scale: Metres of paper a unit.
+        sizes: Lengths of the semi-axes, ∞ if unbounded; shape (d,).
+        scale: Metres as drawn per unit.
     """
 
     name: str
@@ -58,38 +58,38 @@ class Quantity:
 
     @property
     def shape(self) -> str:
-        """What it is: an ellipse that has lost an axis is a segment, one without end a strip."""
+        """Name of the shape: an ellipse that has lost an axis is a segment, an unbounded one is a strip."""
         endless = int(np.sum(np.isinf(self.sizes)))
         return _ENDLESS[len(self.sizes), endless] if endless else _FINITE[int(np.count_nonzero(self.sizes))]
 
     @property
     def bounded(self) -> Array:
-        """Drawn semi-axes as columns, those that have an end; shape (3, c), [m of paper]."""
+        """Bounded semi-axes as columns; shape (3, c), [m as drawn]."""
         ends = np.isfinite(self.sizes)
         return np.asarray(self.axes[:, ends] * self.sizes[ends] * self.scale)
 
     @property
     def unbounded(self) -> Array:
-        """Directions without an end, as columns."""
+        """Unit vectors along the unbounded semi-axes, as columns; shape (3, d - c)."""
         return np.asarray(self.axes[:, ~np.isfinite(self.sizes)])
 
     @property
     def halves(self) -> Array:
-        """Half its extent along x, y and z, as far as it has an end; shape (3,), [m of paper]."""
+        """Half extents of its bounded part along x, y and z; shape (3,), [m as drawn]."""
         return np.asarray(np.linalg.norm(self.bounded, axis=1))
 
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """A polytope in a plane, to be drawn.
+    """A polytope in a plane, to draw.
 
     Attributes:
-        name: Of what.
-        unit: Of its vertices.
-        color: Of its line.
-        vertices: In order; shape (V, 3). None where there is none to be drawn.
-        scale: Metres of paper a unit.
-        missing: Why there is none.
+        name: Name of the quantity.
+        unit: Unit of the vertices.
+        color: Colour of the line.
+        vertices: Vertices in order; shape (V, 3); None if there is nothing to draw.
+        scale: Metres as drawn per unit.
+        missing: Why there is nothing to draw.
     """
 
     name: str
@@ -101,7 +101,7 @@ class Outline:
 
     @property
     def halves(self) -> Array:
-        """Half its extent along x, y and z; shape (3,), [m of paper]."""
+        """Half extents along x, y and z; shape (3,), [m as drawn]."""
         if self.vertices is None:
             return np.zeros(3)
         return np.asarray(np.abs(self.vertices).max(axis=0) * self.scale)
@@ -109,13 +109,13 @@ class Outline:
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A direction in which ratios were requested.
+    """A direction for which transmission ratios were requested.
 
     Attributes:
-        number: From 1.
+        number: Number in the picture, from 1.
         direction: Unit vector; shape (3,).
-        ends: Colour and length of paper at which the ray along it leaves each ellipsoid that it does leave.
-        words: What the legend says of it.
+        ends: Colour and distance, [m as drawn], at which a ray along it leaves each ellipsoid that is bounded there.
+        words: Text for the legend.
     """
 
     number: int
@@ -125,7 +125,7 @@ class Arrow:
 
 
 def draw_quantity(axes: Axes, plane: Array, tip: Array, quantity: Quantity, extent: float) -> None:
-    """The shadow of an ellipsoid on a plane (2, 3), or of what is left of it without ends."""
+    """Draw the projection of an ellipsoid onto a plane of shape (2, 3); nothing if it covers the whole plane."""
     endless, sizes, _ = np.linalg.svd(np.hstack((plane @ quantity.unbounded, np.zeros((2, 2)))))
     ways = int(np.sum(sizes > 1e-6))
     if ways == 2:
@@ -163,7 +163,7 @@ def _draw_strip(axes: Axes, tip: Array, along: Array, across: Array, quantity: Q
 
 
 def _draw_segment(axes: Axes, tip: Array, half: Array, quantity: Quantity, extent: float) -> None:
-    """With a mark at each end; a solid one broad, so that a dashed one on it leaves it to be seen."""
+    """Draw a segment with a mark at each end; a solid one is broad, to stay visible under a dashed one."""
     broad = quantity.dashes == SOLID
     look: dict[str, Any] = {
         "color": quantity.color,
@@ -179,7 +179,7 @@ def _draw_segment(axes: Axes, tip: Array, half: Array, quantity: Quantity, exten
 
 
 def draw_outline(axes: Axes, plane: Array, tip: Array, outline: Outline) -> None:
-    """A polytope's line, where it has one."""
+    """Draw the outline of a polytope, if it has vertices."""
     if outline.vertices is None:
         return
     corners = tip + outline.scale * outline.vertices @ plane.T
@@ -188,7 +188,7 @@ def draw_outline(axes: Axes, plane: Array, tip: Array, outline: Outline) -> None
 
 
 def draw_arrow(axes: Axes, plane: Array, tip: Array, arrow: Arrow, length: float) -> None:
-    """A direction from the tip, its number at the head, and a dot where it leaves each ellipsoid."""
+    """Draw a direction from the tip, with its number at the head and a dot where it leaves each ellipsoid."""
     along = plane @ arrow.direction
     if float(np.linalg.norm(along)) <= _FLAT:
         return

@@ -1,7 +1,7 @@
-"""A workspace as seen along the axes, coloured by how manipulable or how dexterous the arm is there.
+"""Picture of a workspace seen along the axes, coloured by the manipulability or the dexterity of the arm there.
 
-Each picture element shows the largest value of what lies behind it. Drawn point by point an SVG of a million samples
-would be of no use to anybody: the elements are one image, whatever the number of samples, and all else is lines.
+Each picture element shows the largest value behind it. An SVG of a million single points would be useless, so the
+elements form one image, whatever the number of samples; everything else is lines.
 """
 
 from dataclasses import dataclass
@@ -30,33 +30,33 @@ from gelenk.plots.figure import (
 )
 
 View: TypeAlias = tuple[Array, Array, str, str]
-"""Unit vectors to the right and up, shape (3,) each, and what they are called."""
+"""Unit vectors to the right and up, shape (3,) each, and the names of these axes."""
 
 _MOST_ELEMENTS, _FEWEST_ELEMENTS = 160, 24
-"""Picture elements along the longest side of a cloud."""
+"""Largest and smallest number of picture elements along the longest side of a cloud."""
 _MOST_VOXELS = 400
-"""Those of a grid; where it has more, several voxels share an element."""
+"""Largest number along that of a grid; with more voxels, several share an element."""
 _MARGIN = 0.06
 _TITLE_LENGTH = 66
-"""Letters of a title that fit into one line."""
+"""Number of characters of a title that fit on one line."""
 _ROUNDING = 1e-12
 _COLORS = "viridis"
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """What is drawn.
+    """Data of a workspace's picture.
 
     Attributes:
-        rows: Positions and values; shape (N, k), the first three columns x y z, [m].
-        columns: What the columns are.
-        robot: Its name.
-        ends: Base and tip.
-        notes: Lines beside it.
+        rows: Positions and values; shape (N, k), the first three columns being x, y, z, [m].
+        columns: Names of the columns.
+        robot: Name of the robot.
+        ends: Names of base and tip frame.
+        notes: Lines of text beside the picture.
         origin: Centre of a voxel; shape (3,), [m].
-        axes: Unit vectors as columns, those that the workspace extends along first; shape (3, 3).
-        dimensions: How many these are.
-        cell: Edge of a voxel, [m], where the rows are voxels.
+        axes: Unit vectors as columns, first those along which the workspace extends; shape (3, 3).
+        dimensions: Number of directions along which the workspace extends.
+        cell: Edge length of a voxel, if the rows are voxels, [m].
     """
 
     rows: Array
@@ -71,12 +71,12 @@ class Picture:
 
     @property
     def is_cloud(self) -> bool:
-        """Whether each row is a sample."""
+        """Whether the rows are samples, not voxels."""
         return "measure" in self.columns
 
     @property
     def element(self) -> float:
-        """Edge of a picture element, [m]: a voxel's or several, or such that most have some samples behind them."""
+        """Edge length of a picture element, [m]: one or more voxels, or so that most cover several samples."""
         longest = float(np.ptp(self.rows[:, :3], axis=0).max()) if len(self.rows) else 1.0
         if _is_one_place(self.rows[:, :3]):
             lower, upper = _corners(self.rows[:, :3])
@@ -88,7 +88,7 @@ class Picture:
 
     @property
     def values(self) -> Array:
-        """What the colours show; shape (N,)."""
+        """Values that the colours show; shape (N,)."""
         return np.asarray(self.rows[:, self.columns.index(self._value)])
 
     @property
@@ -98,18 +98,18 @@ class Picture:
 
     @property
     def label(self) -> str:
-        """The quantity and unit that the colours show."""
+        """Name of the quantity that the colours show."""
         what = "Share of the orientations reached" if self._value == "dexterity" else "Manipulability measure"
         return what if self.is_flat else f"{what},\nthe largest along the line of sight"
 
     @property
     def is_flat(self) -> bool:
-        """Whether it is drawn in its plane."""
+        """Whether the workspace is planar, and so drawn in its plane."""
         return self.dimensions == 2
 
 
 def picture_bytes(picture: Picture, kind: PictureFormat) -> bytes:
-    """The picture drawn: in its plane where the workspace is flat, else from the front, the side and above."""
+    """Draw a workspace: in its plane if it is flat, else from the front, the side and above."""
     values = picture.values
     largest = float(values.max(initial=0.0))
     ends = Normalize(0.0, 1.0 if picture.columns[-1] == "dexterity" else largest or 1.0)
@@ -134,7 +134,7 @@ def _in_its_plane(picture: Picture, ends: Normalize) -> Figure:
 
 
 def _in_projections(picture: Picture, ends: Normalize) -> Figure:
-    """Front and side above, the view from above below the front, on one scale."""
+    """Draw front and side views above, and the top view below the front, all on one scale."""
     figure = new_figure(9.0, 9.0)
     e, names = np.eye(3), ("x", "y", "z")
     places = {(0, 2): (0.08, 0.54, 0.40, 0.39), (1, 2): (0.57, 0.54, 0.40, 0.39), (0, 1): (0.08, 0.06, 0.40, 0.39)}
@@ -146,7 +146,7 @@ def _in_projections(picture: Picture, ends: Normalize) -> Figure:
 
 
 def _axis_name(direction: Array, number: int) -> str:
-    """x, y or z where the direction is one of these."""
+    """Return x, y or z if the direction is one of these, else a numbered name."""
     for name, unit in zip("xyz", np.eye(3), strict=True):
         if np.abs(direction - unit).max() < 1e-9:
             return name
@@ -154,14 +154,14 @@ def _axis_name(direction: Array, number: int) -> str:
 
 
 def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
-    """What is seen, on a square around the middle that is as wide in every view."""
+    """Draw a view on a square around the centre, which has the same size in every view."""
     right, up, right_name, up_name = view
     metric_axes(axes, f"{right_name} / m", f"{up_name} / m")
     points = np.asarray(picture.rows[:, :3])
     middle, half = _box(points, picture.element)
     places, centre = points @ np.column_stack((right, up)), np.array((right @ middle, up @ middle))
     count = int(np.ceil(2.0 * half / picture.element))
-    # Elements stand on the voxels' centres: an element holds one row of voxels, never half of two.
+    # Align elements with the centres of voxels, so that none covers halves of two rows of voxels.
     zero = np.array((right @ picture.origin, up @ picture.origin))
     first = np.rint((centre - half - zero) / picture.element)
     image = elements(np.rint((places - zero) / picture.element) - first, picture.values, count)
@@ -175,14 +175,14 @@ def _draw(axes: Axes, picture: Picture, view: View, ends: Normalize) -> None:
 
 
 def _box(points: Array, element: float) -> tuple[Array, float]:
-    """Middle and half the edge of a cube that holds all points, and the base where it is not far away."""
+    """Return centre and half edge of a cube that contains all points, and the base unless it is far away."""
     lower, upper = _corners(points)
     half = 0.5 * float((upper - lower).max()) * (1.0 + 2.0 * _MARGIN) + element
     return 0.5 * (lower + upper), half
 
 
 def _corners(points: Array) -> tuple[Array, Array]:
-    """Smallest and largest coordinates, of the base too where it is not far away, or nothing else gives a scale."""
+    """Return smallest and largest coordinates, including the base if it is near or the points alone give no scale."""
     if not len(points):
         return np.full(3, -0.5), np.full(3, 0.5)
     lower, upper = points.min(axis=0), points.max(axis=0)
@@ -196,22 +196,22 @@ def _corners(points: Array) -> tuple[Array, Array]:
 
 
 def _is_one_place(points: Array) -> bool:
-    """Whether all points are one, except for rounding."""
+    """Return whether all points coincide up to rounding."""
     if not len(points):
         return False
     return bool(np.ptp(points, axis=0).max() <= _ROUNDING * np.abs(points).max())
 
 
 def elements(places: Array, values: Array, count: int) -> Array:
-    """The largest value in each element of a square image, NaN where there is none.
+    """Return the largest value in each element of a square image, NaN for an empty element.
 
     Args:
         places: Column and row of each value; shape (N, 2).
-        values: Shape (N,).
-        count: Elements along an edge.
+        values: Values; shape (N,).
+        count: Number of elements along an edge.
 
     Returns:
-        Shape (count, count), by row and column.
+        Image of shape (count, count), by row and column.
     """
     columns, rows = places.astype(np.int64).T
     inside = (columns >= 0) & (columns < count) & (rows >= 0) & (rows < count)
