@@ -101,9 +101,8 @@ class Client(Operations):
     """The service, called synchronously; safe to use from several threads.
 
     Args:
-        url: Address of the service, path prefix included; `GELENK_SERVER` or else this machine's port 8000 if left
-            out.
-        key: Key, if the service wants one; `GELENK_KEY` if left out.
+        url: Address of the service, path prefix included; else `GELENK_SERVER`, else this machine's port 8000.
+        key: Key, if the service wants one; else `GELENK_KEY`.
         transport: How to reach the service, if not over the network.
     """
 

@@ -35,7 +35,7 @@ _RETRY_SECONDS = 1.0
 _SHORTEST_PAUSE = 0.75
 """Smallest share of `Retry-After` for which the service reads nothing from a refused client's connection.
 
-Otherwise refusing would take all its time. The connection of a client that obeys is read again by then. The others are
+Otherwise refusing would take all its time. By then, the connection of an obedient client is read again. Others are
 read again at different moments: together they would block the event loop.
 """
 _LONGEST_PAUSE = 8.0

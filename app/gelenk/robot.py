@@ -147,8 +147,7 @@ class Robot:
         """Compute poses of the tip, `poses`, and of other frames on the chain, `frames`, at each configuration.
 
         Args:
-            q: One number per joint, base to tip, or values by joint name, [rad or m]; or several such, or an array (N,
-                n).
+            q: One number per joint, base to tip, or values by name, [rad or m]; or several such, or an array (N, n).
             frames: Names of the other frames.
 
         Raises:
@@ -184,8 +183,7 @@ class Robot:
     ) -> Manipulability:
         """Compute velocity and force ellipsoids; Yoshikawa's measure is `parts["translation"].measures`, shape (N,).
 
-        For the other arguments and the errors, see `gelenk.kinematics.manipulability.manipulability`; for `q` see
-        `fk`.
+        For the other arguments and the errors see `gelenk.kinematics.manipulability.manipulability`, for `q` `fk`.
         """
         options: dict[str, Any] = {"characteristic_length": characteristic_length, "gradient": gradient}
         return manipulability(self.core, self.chain, self._rows(q), task=task, reference=reference, **options)
@@ -198,8 +196,7 @@ class Robot:
     ) -> InverseKinematics:
         """Compute configurations that bring the tip to each target: `qs[firsts[i]:firsts[i + 1]]` for target i.
 
-        If there is none, `statuses[i]` is not `solved`, and `failures[i]` has the reason and the nearest
-        configuration.
+        If there is none, `statuses[i]` is not `solved`; `failures[i]` has the reason and the nearest configuration.
 
         Args:
             targets: One pose or several: matrices of shape (4, 4), rows `x y z qx qy qz qw`, or the API's poses such
@@ -232,10 +229,8 @@ class Robot:
 
         Args:
             start: Configuration at the start.
-            segments: Segments of the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target":
-                pose}`.
-            options: Options of the API that choose the motion, such as `law`, `limits`, `duration`,
-                `near_singularity`.
+            segments: As in the API, such as `{"type": "joint", "target": q}` or `{"type": "line", "target": pose}`.
+            options: The API's options for the motion, such as `law`, `limits`, `duration`, `near_singularity`.
 
         Raises:
             InvalidField: A segment or an option is unknown or contradicts another one, or its duration is too short.

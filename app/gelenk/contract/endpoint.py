@@ -20,8 +20,7 @@ class Endpoint(Generic[P, A]):
     """An operation with a request and an answer in JSON; it stores nothing.
 
     Attributes:
-        name: Name of the client's method, of the operation at the command line, and of the module in
-            `gelenk.operations`.
+        name: Name of the client's method, of the command line's operation, and of the module in `gelenk.operations`.
         path: Path below the address of the service, without a leading slash.
         tag: Group that it is documented in.
         request: Model of the request.

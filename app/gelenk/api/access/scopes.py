@@ -42,7 +42,7 @@ SCHEME = {
 def scope_of(operation_id: str | None, path: str, methods: frozenset[str], tags: frozenset[str]) -> Scope | None:
     """Return the scope that an operation needs; None if it needs no key.
 
-    A method other than GET and HEAD needs `write` unless it is known to store nothing: new operations are protected.
+    Methods other than GET and HEAD need `write` unless known to store nothing: new operations are protected.
     """
     if operation_id in OPEN_OPERATIONS or path in OPEN_PATHS:
         return None

@@ -4,9 +4,9 @@ The column of a revolute joint is z × p_EE over z, that of a prismatic one z ov
 its frame to the tip.
 
 The determinant of a block does not depend on the axes in which it is written, nor, if the block holds the whole
-motion, on the point whose velocity is meant. So it is computed in the frame and for the point that make the block
-triangular with the smallest parts: then it is the product of small determinants. With a spherical wrist that point is
-where its axes meet (decoupling), with three parallel axes the frame is one of theirs.
+motion, on the point whose velocity is meant. So the frame and the point are chosen that make the block triangular with
+the smallest parts: it is then the product of small determinants. With a spherical wrist that point is where its axes
+meet (decoupling), with three parallel axes the frame is one of theirs.
 """
 
 from collections.abc import Sequence

@@ -1,8 +1,7 @@
 """The configurations at which a factor of a determinant vanishes.
 
 A factor in one sine and cosine, A c + B s + C, is solved for its angle; one that is linear in a prismatic variable for
-that variable; any other stays an equation. Each gets a configuration that fulfils it, all other joints drawn at
-random.
+that; any other stays an equation. Each gets a configuration that fulfils it, all other joints drawn at random.
 """
 
 import math

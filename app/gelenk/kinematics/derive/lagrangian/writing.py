@@ -57,8 +57,7 @@ class Manner:
 
     Attributes:
         groupings: Ways to group a sum, each by kinds of atoms in turn.
-        distributes: Whether a factor that several groups share is written in each (True) or before a bracket, or both
-            tried.
+        distributes: Whether a factor that several groups share is written in each, or before a bracket; or both tried.
         keeps_lengths: Whether a length that sines and cosines and constants share stays within the bracket:
             l² + a l c and not l (l + a c).
     """
