@@ -27,7 +27,7 @@ RUN python -m gelenk.prune /opt/venv \
     && find /opt/venv -type d -empty -delete
 WORKDIR /opt/gelenk
 # What is left must still load, and leaves its compiled kernels behind.
-RUN NUMBA_CACHE_DIR=kernels python -c "import gelenk.main, gelenk.plots.profiles, sympy; from gelenk.kinematics.warm import warm_up; warm_up()"
+RUN NUMBA_CACHE_DIR=kernels python -c "import gelenk.main, gelenk.plots.profiles, sympy; from gelenk.kinematics.warm_up import warm_up; warm_up()"
 
 # Of the base what a service opens: no pip, no translations, no manuals but the licences.
 FROM base AS slim

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from _pytest.mark import ParameterSet
 
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.convert import describe_dh
-from gelenk.model.description import Description
-from gelenk.model.dh import DhJoint, DhTable
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf, write_urdf
+from gelenk.dh.tables.convert import describe_dh
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.description import Description
+from gelenk.robot.dh import DhJoint, DhTable
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue, dh_columns
 
 CLASSES = {
@@ -40,14 +40,14 @@ def swept(names: Iterable[str], value: Callable[[str], object] = str) -> list[Pa
 
 
 @cache
-def robot(name: str) -> Robot:
+def robot(name: str) -> RobotModel:
     """A robot of the catalogue."""
     if name in catalogue.URDFS:
         description = read_urdf(catalogue.urdf_text(name))
     else:
         description = reread(describe_dh(name, table(catalogue.dh_table(name))))
     ends = catalogue.entry(name)["default_chain"]
-    return Robot(description, (ends["base_frame"], ends["tip_frame"]))
+    return RobotModel(description, (ends["base_frame"], ends["tip_frame"]))
 
 
 def table(content: Mapping[str, Any]) -> DhTable:
@@ -76,9 +76,9 @@ def reread(description: Description) -> Description:
     return read_urdf(write_urdf(description))
 
 
-def of_table(dh: DhTable) -> Robot:
+def of_table(dh: DhTable) -> RobotModel:
     """The robot that a table describes, by way of XML."""
-    return Robot(reread(describe_dh("arm", dh)))
+    return RobotModel(reread(describe_dh("arm", dh)))
 
 
 def samples(chain: Chain, count: int, seed: int = 0) -> Array:

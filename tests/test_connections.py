@@ -14,11 +14,11 @@ from typing import Any, Literal, cast
 import pytest
 import uvicorn
 
-from gelenk.connections import BoundedProtocol, Bounds, Gate
+from gelenk.connections import BoundedProtocol, ConnectionLimits, Gate
 
 HOST = "127.0.0.1"
 GET = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"
-QUICK = Bounds(head_seconds=0.6, body_seconds=0.8, stalled_seconds=1.0)
+QUICK = ConnectionLimits(head_seconds=0.6, body_seconds=0.8, stalled_seconds=1.0)
 
 
 class Application:
@@ -65,7 +65,7 @@ class Application:
 
 
 @contextmanager
-def serving(bounds: Bounds = QUICK) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
+def serving(bounds: ConnectionLimits = QUICK) -> Iterator[tuple[int, Gate, Application, uvicorn.Server]]:
     gate, app = Gate(bounds), Application()
     with served(app, gate) as (port, server):
         yield port, gate, app, server
@@ -279,14 +279,14 @@ def test_trailers_and_chunk_extensions_are_bounded_like_a_head(kind: str, trickl
 
 
 def test_a_body_in_chunks_of_a_byte_is_within_bounds() -> None:
-    with serving(Bounds(body_seconds=20.0)) as (port, _, _, _), connected(port) as connection:
+    with serving(ConnectionLimits(body_seconds=20.0)) as (port, _, _, _), connected(port) as connection:
         head = b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n"
         connection.sendall(head + b"0000000000000001\r\nx\r\n" * 40_000 + b"0\r\n\r\n")
         assert answer(connection)[0::2] == (200, b"40000")
 
 
 def test_large_bodies_with_the_next_request_behind_them_are_no_large_head() -> None:
-    with serving(Bounds()) as (port, _, _, _), connected(port) as connection:
+    with serving(ConnectionLimits()) as (port, _, _, _), connected(port) as connection:
         post = b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 200000\r\n\r\n" + bytes(200_000)
         for _ in range(5):
             connection.sendall(post + b"GET / HT")
@@ -322,7 +322,7 @@ def test_what_is_not_http_is_a_problem() -> None:
 
 
 def test_slow_sockets_give_way_to_others_where_there_are_too_many() -> None:
-    with serving(Bounds(connections=50)) as (port, gate, _, _):
+    with serving(ConnectionLimits(connections=50)) as (port, gate, _, _):
         slow = [connected(port) for _ in range(150)]
         for connection in slow:
             connection.sendall(b"GET /")
@@ -335,7 +335,7 @@ def test_slow_sockets_give_way_to_others_where_there_are_too_many() -> None:
 
 
 def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
-    with serving(Bounds(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
+    with serving(ConnectionLimits(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
         for count in range(1, 17):
             crowd.enter_context(connected(port))
             wait_for(lambda count=count: len(gate.connections) == count)
@@ -345,7 +345,7 @@ def test_of_few_connections_most_stay_where_one_has_to_go() -> None:
 
 def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
     """All are let in within a turn of the event loop, in which those that have to go are still there."""
-    with serving(Bounds(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
+    with serving(ConnectionLimits(connections=16)) as (port, gate, _, _), ExitStack() as crowd:
         watching = crowd.enter_context(connected(port))
         watching.sendall(GET.replace(b"/ ", b"/held "))
         newest = [crowd.enter_context(connected(port)) for _ in range(100)][-10:]
@@ -357,7 +357,7 @@ def test_of_a_crowd_that_comes_at_once_the_newest_stay() -> None:
 
 @pytest.mark.slow
 def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
-    with serving(Bounds(connections=3)) as (port, _, _, _):
+    with serving(ConnectionLimits(connections=3)) as (port, _, _, _):
         working = [connected(port) for _ in range(3)]
         for connection in working:
             connection.sendall(GET.replace(b"/ ", b"/slow "))
@@ -374,7 +374,7 @@ def test_where_all_are_at_work_a_new_connection_is_told_so() -> None:
 @pytest.mark.slow
 def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() -> None:
     """Each takes 10 ms of the event loop, and a hundred may wait; whoever watches does not wait for them."""
-    with serving(Bounds(waiting=100)) as (port, gate, _, _), connected(port) as watching:
+    with serving(ConnectionLimits(waiting=100)) as (port, gate, _, _), connected(port) as watching:
         connections = [connected(port) for _ in range(160)]
         wait_for(lambda: len(gate.connections) == 161)
         for connection in connections:
@@ -400,7 +400,7 @@ def test_too_many_requests_at_once_are_refused_at_once_and_health_is_answered() 
 @pytest.mark.slow
 def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() -> None:
     """By an application that says for how long: it is no work to refuse whom nobody listens to."""
-    with serving(Bounds()) as (port, _, _, _), connected(port) as connection, connected(port) as other:
+    with serving(ConnectionLimits()) as (port, _, _, _), connected(port) as connection, connected(port) as other:
         connection.sendall(GET.replace(b"/ ", b"/full "))
         began = time.monotonic()
         assert answer(connection)[0] == 200
@@ -413,7 +413,7 @@ def test_who_asks_again_sooner_than_told_is_not_read_from_until_then_nearly() ->
 
 
 def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
-    with serving(Bounds(waiting=1)) as (port, _, _, _), connected(port) as connection:
+    with serving(ConnectionLimits(waiting=1)) as (port, _, _, _), connected(port) as connection:
         busy = [connected(port) for _ in range(30)]
         for one in busy:
             one.sendall(GET.replace(b"/ ", b"/busy ") * 50)
@@ -428,7 +428,7 @@ def test_pipelined_requests_that_are_refused_end_the_connection() -> None:
 @pytest.mark.slow
 def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -> None:
     """The head of that answer did not say that it is the last one of its connection: it must not be."""
-    with serving(Bounds()) as (port, gate, _, _), connected(port) as connection:
+    with serving(ConnectionLimits()) as (port, gate, _, _), connected(port) as connection:
         connection.sendall(GET.replace(b"/ ", b"/halves "))
         head = connection.recv(65536)
         assert head.startswith(b"HTTP/1.1 200") and b"close" not in head
@@ -441,7 +441,7 @@ def test_whose_answer_has_begun_when_the_end_comes_may_ask_again_and_is_told() -
 
 @pytest.mark.slow
 def test_a_shutdown_waits_for_answers_and_hardly_for_clients() -> None:
-    with serving(Bounds()) as (port, gate, app, server):
+    with serving(ConnectionLimits()) as (port, gate, app, server):
         idle, slow, half, endless, head = (connected(port) for _ in range(5))
         slow.sendall(GET.replace(b"/ ", b"/slow "))
         half.sendall(b"POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\n12345")

@@ -1,6 +1,6 @@
 """The whole corpus goes to one running service: nothing brings it down, slows it, fills it, or gets into its log.
 
-What is right for each request is judged in `tests/api`, by the application alone; here is the rest of it too: the
+What is right for each request is judged in `tests/http`, by the application alone; here is the rest of it too: the
 HTTP server, the process with its memory, and what it writes to its log.
 """
 
@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.api.test_hostile_calls import JSON_OPERATIONS, wrong_bodies
 from tests.corpus.bodies import JSON, Call
 from tests.corpus.calls import ALL, NPY, PLANAR, RAW_PATHS
 from tests.corpus.dh import REFUSED_DH, REFUSED_JSON
@@ -21,6 +20,7 @@ from tests.corpus.judging import MAX_SECONDS, complaints
 from tests.corpus.npy import REFUSED_NPY
 from tests.corpus.urdf import REFUSED
 from tests.corpus.zips import REFUSED_ZIPS
+from tests.http.test_hostile_calls import JSON_OPERATIONS, wrong_bodies
 from tests.raw_http import memory_bytes, processor_seconds, send
 from tests.test_serve import HOST, get, service_that_writes
 

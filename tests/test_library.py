@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import gelenk
+from gelenk import errors
 from gelenk.cli.local import InProcess
 from gelenk.client import Client
-from gelenk.model import errors
 
 ROWS = [
     {"type": "revolute", "a": 1.0, "alpha": 0.0, "d": 0.0, "theta": 0.0},
@@ -129,4 +129,4 @@ def test_a_refusal_names_what_is_wrong(
 def test_importing_the_package_loads_nothing_else() -> None:
     code = "import sys; before = set(sys.modules); import gelenk; print(*sorted(set(sys.modules) - before))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert not {"numpy", "pydantic", "numba", "gelenk.robot"} & set(run.stdout.split())
+    assert not {"numpy", "pydantic", "numba", "gelenk.engine"} & set(run.stdout.split())

@@ -25,8 +25,8 @@ import uvicorn
 import uvloop
 
 from gelenk import serve, supervisor
-from gelenk.api.access.keyring import new_key
-from gelenk.api.access.scopes import Scope
+from gelenk.http.access.keyring import new_key
+from gelenk.http.messages.scopes import Scope
 from gelenk.settings import Settings
 
 HOST = "127.0.0.1"
@@ -333,7 +333,7 @@ def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: s
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.0.2.1", "lab.example.org", ""])
 def test_beyond_this_machine_it_wants_keys_or_a_word(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(SystemExit, match="without a key: make keys with"):
+    with pytest.raises(SystemExit, match="without a key: create keys with"):
         started_with(monkeypatch, "--host", host)
     with pytest.raises(SystemExit, match="without a key"):
         started_with(monkeypatch, "--host", host, GELENK_OPEN_ACCESS="no")

@@ -4,14 +4,15 @@
 - `reload`: restarts it when a source file changes. `supervisor`: starts the worker processes, and replaces them.
 - `connections`: HTTP connections with bounds on time, size and number.
 - `preload`: loads what all processes share; `processes`: copies of the process that has loaded it.
-- `robot`: the core as a library, `gelenk.Robot`.
+- `engine`: the core as a library, `gelenk.Robot`. `client`: the service as a library.
 - `logs`: the log, as lines of JSON.
 - `prune`: removes from a container image what the service never opens.
-- `api`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
+- `http`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
 - `jobs`: long work in processes of its own.
 - `operations`: the computation of each operation. `pool`: processes for requests that may take long or crash.
 - `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
-- `kinematics`: what a robot does. `model`: what a robot is. Neither knows HTTP or settings.
+- `ik`: from poses to configurations. `dh`: tables ↔ descriptions. `kinematics`: what a robot does. `robot`: what it is.
+  These know neither HTTP nor settings. `errors`: every error, as data. `package_data`: where the package's files are.
 
 Imports lead only downwards; `./dev lint` checks it.
 """
@@ -19,7 +20,7 @@ Imports lead only downwards; `./dev lint` checks it.
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gelenk.robot import Robot as Robot
+    from gelenk.engine import Robot as Robot
 
 
 def __getattr__(name: str) -> Any:
@@ -30,7 +31,7 @@ def __getattr__(name: str) -> Any:
         return version("gelenk")
     if name == "Robot":
         try:
-            from gelenk.robot import Robot  # noqa: PLC0415  (takes a second, which a client need not wait for)
+            from gelenk.engine import Robot  # noqa: PLC0415  (takes a second, which a client need not wait for)
         except ModuleNotFoundError as error:
             how = "install gelenk[engine] (in a checkout: pip install '.[engine]')"
             raise ImportError(f"gelenk.Robot needs {error.name}: {how}") from error

@@ -48,7 +48,7 @@ _ABSOLUTE = re.compile(rb"[a-z][a-z0-9+.-]*://([^/?#]*)(.*)", re.IGNORECASE | re
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class ConnectionLimits:
     """Bounds of connections.
 
     Attributes:
@@ -81,7 +81,7 @@ class Gate:
         is_stopping: Whether each response is the last one of its connection.
     """
 
-    def __init__(self, bounds: Bounds) -> None:
+    def __init__(self, bounds: ConnectionLimits) -> None:
         self.bounds = bounds
         self.connections: dict[BoundedProtocol, None] = {}
         self.refused = self.closed = 0

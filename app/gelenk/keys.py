@@ -8,8 +8,8 @@ import os
 import sys
 from pathlib import Path
 
-from gelenk.api.access.keyring import InvalidKeys, Key, new_key, read_keys
-from gelenk.api.access.scopes import Scope
+from gelenk.http.access.keyring import InvalidKeys, Key, new_key, read_keys
+from gelenk.http.messages.scopes import Scope
 
 
 def main() -> None:

@@ -13,29 +13,30 @@ from fastapi import FastAPI
 from fastapi.routing import iter_route_contexts
 
 from gelenk import __version__
-from gelenk.api import dispatch, documentation, openapi, problems, studio
-from gelenk.api.access.audit_log import AuditLog
-from gelenk.api.access.hosts import TrustedHosts, repeated
-from gelenk.api.access.keyring import Keyring
-from gelenk.api.access.keys import KeyCheck
-from gelenk.api.access.metrics import Metrics
-from gelenk.api.access.middleware import AccessRule, Middleware
-from gelenk.api.access.origins import Origins
-from gelenk.api.access.route_table import RouteTable
-from gelenk.api.access.tracing import TracedId, exporter_variables, telemetry
-from gelenk.api.bodies import Bodies
-from gelenk.api.context import ContextSetup
-from gelenk.api.derive import derive_handler
-from gelenk.api.jobs import jobs_router
-from gelenk.api.long_works import LONG_WORK
-from gelenk.api.pool_client import PARSED_HERE_BYTES, PoolClient
-from gelenk.api.robot_table import table_route
-from gelenk.api.robots import robots_router, upload_routes
-from gelenk.api.routes import Application
-from gelenk.api.service import Readiness, service_router
-from gelenk.api.workspace import SampleLimits, workspace_route, workspace_work
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.endpoints import ENDPOINTS, ROBOT_ENDPOINTS
+from gelenk.http import dispatch, documentation, studio
+from gelenk.http.access.audit_log import AuditLog
+from gelenk.http.access.hosts import TrustedHosts, repeated
+from gelenk.http.access.keyring import Keyring
+from gelenk.http.access.keys import KeyCheck
+from gelenk.http.access.metrics import Metrics
+from gelenk.http.access.middleware import AccessRule, Middleware
+from gelenk.http.access.origins import Origins
+from gelenk.http.access.route_table import RouteTable
+from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
+from gelenk.http.derive.derive import derive_handler
+from gelenk.http.jobs.jobs import jobs_router
+from gelenk.http.jobs.long_works import LONG_WORK
+from gelenk.http.jobs.workspace import SampleLimits, workspace_route, workspace_work
+from gelenk.http.messages import openapi, problems
+from gelenk.http.messages.bodies import Bodies
+from gelenk.http.messages.routes import Application
+from gelenk.http.robots.robots import robots_router, upload_routes
+from gelenk.http.robots.table import table_route
+from gelenk.http.service import Readiness, service_router
+from gelenk.http.workers.context import ContextSetup
+from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner

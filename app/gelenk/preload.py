@@ -29,8 +29,8 @@ with kept():
 
     logging.config.dictConfig(configuration(Settings.from_environment(os.environ).log_level, at_once=True))
     logging.captureWarnings(True)
-    from gelenk.kinematics import warm
-    from gelenk.model import compilation
+    from gelenk.kinematics import warm_up as warm
+    from gelenk.robot import compilation
 
     importlib.import_module("gelenk.main")
 

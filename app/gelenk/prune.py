@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 
-from gelenk.model.errors import counted
-from gelenk.places import catalogue
+from gelenk.errors import counted
+from gelenk.package_data import catalogue
 from gelenk.processes.fork_server import SELDOM_NEEDED
 from gelenk.store.library import Library
 from gelenk.store.meshes import MESH_SUFFIXES

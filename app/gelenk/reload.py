@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
 
-from gelenk.places import catalogue
+from gelenk.package_data import catalogue
 
 _LOOK_SECONDS, _END_SECONDS = 0.5, 10.0
 _WATCHED = frozenset({".json", ".py", ".urdf"})

@@ -20,8 +20,8 @@ from typing import cast
 
 import uvicorn
 
-from gelenk.api.access.keyring import InvalidKeys, Keyring
-from gelenk.connections import BoundedProtocol, Bounds, Gate
+from gelenk.connections import BoundedProtocol, ConnectionLimits, Gate
+from gelenk.http.access.keyring import InvalidKeys, Keyring
 from gelenk.logs import configuration
 from gelenk.reload import serve_again
 from gelenk.settings import InvalidSetting, Settings
@@ -36,7 +36,7 @@ _OWN_FILES, _FILES_A_PROCESS, _FEWEST_CONNECTIONS = 32, 4, 16
 _METRICS, _LOCK = "gelenk-metrics-", "lock"
 
 OPEN_TO_ALL = (
-    "at {host} others than this machine could do everything without a key: make keys with `{keys}` and name their "
+    "at {host} others than this machine could use everything without a key: create keys with `{keys}` and name their "
     "file in GELENK_API_KEYS, or say with --open (or GELENK_OPEN_ACCESS=yes) that this is meant"
 )
 
@@ -80,7 +80,7 @@ def main() -> None:
     if (reason := why_not(settings.data_dir)) is not None:
         told = f"nothing can be kept in {settings.data_dir}: {reason}; GELENK_DATA_DIR names another folder"
         print(told, file=sys.stderr)
-    bounds = Bounds(connections=min(settings.connections, room), waiting=settings.requests_waiting)
+    bounds = ConnectionLimits(connections=min(settings.connections, room), waiting=settings.requests_waiting)
     config = uvicorn.Config(
         "gelenk.main:from_environment",
         factory=True,

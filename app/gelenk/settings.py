@@ -10,7 +10,7 @@ from typing import TypeAlias
 from platformdirs import user_data_path
 
 from gelenk.logs import LEVELS
-from gelenk.places import catalogue
+from gelenk.package_data import catalogue
 
 _PREFIX = "GELENK_"
 _OF_CLIENTS = {"GELENK_SERVER", "GELENK_KEY"}

@@ -9,8 +9,8 @@ from typing import Any
 from urllib.parse import unquote
 
 from docs.handbook.schema_words import Objects, Schema, anchor, component, field, fields, linked, place, words
-from gelenk.calls.call import Sent
-from gelenk.calls.operations import Operations
+from gelenk.client.call import Sent
+from gelenk.client.operations import Operations
 
 _LINE = 72
 """Letters of a line of an example; what is longer is written over several."""

@@ -7,8 +7,8 @@ from http import HTTPStatus
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from docs.handbook.schema_words import anchor, place
-from gelenk.api.problems import status_of
-from gelenk.model.errors import KinematicsError, kinds
+from gelenk.errors import KinematicsError, kinds
+from gelenk.http.messages.problems import status_of
 
 _WORDS: Mapping[Any, str] = {str: "text", int: "whole number", float: "number", tuple[str, ...]: "list of texts"}
 """What a fact is, by its type."""

@@ -12,10 +12,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from docs.handbook.written import DIGITS, in_line, written
-from gelenk.calls.call import Call
-from gelenk.calls.refusals import Refused
 from gelenk.cli.local import InProcess
 from gelenk.client import Client
+from gelenk.client.call import Call
+from gelenk.client.refusals import Refused
 
 _READY_SECONDS = 900.0
 """How long kernels may take to compile, on a slow and busy machine."""

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import MISSING, fields
 
 from docs.handbook.schema_words import anchor, defined
-from gelenk.api import pool_client
-from gelenk.api.access import keyring
 from gelenk.contract import ik
-from gelenk.model import dh, tree, urdf, xml
+from gelenk.http.access import keyring
+from gelenk.http.workers import pool_client
+from gelenk.robot import dh, tree, urdf, xml
 from gelenk.settings import Settings
 from gelenk.store import archive
 

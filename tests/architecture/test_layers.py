@@ -8,40 +8,37 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / "app" / "gelenk"
+
+
+def in_room(room: str, without: tuple[str, ...] = ()) -> list[str]:
+    """Full names of the modules in a folder and in those below it."""
+    files = sorted((PACKAGE / room.replace(".", "/")).rglob("[a-z]*.py"))
+    return [module(file) for file in files if file.stem not in without]
+
+
+def module(file: Path) -> str:
+    return ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts)
+
 
 WITHOUT_PINOCCHIO = [
-    *(f"gelenk.model.{name}" for name in ("poses", "dh", "xml", "urdf", "tree", "description", "chain", "convert")),
-    *(f"gelenk.model.{name}" for name in ("notations", "appearance", "dh_from_chain", "origins")),
-    *(f"gelenk.kinematics.{name}" for name in ("lanes", "vectors", "kernels", "bodies", "configuration", "subspaces")),
-    *(f"gelenk.kinematics.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
-    *(f"gelenk.kinematics.ik.{name}" for name in ("iteration", "kernels", "task", "steps", "linearise", "reach")),
-    *(f"gelenk.kinematics.ik.{name}" for name in ("subproblems", "compositions", "branch_kernels", "closed_form")),
-    *(f"gelenk.kinematics.ik.{name}" for name in ("search", "descent", "retrace", "null_space", "branches")),
-    *(
-        f"gelenk.trajectory.{name}"
-        for name in ("polynomial", "extremes", "time_laws", "phases", "trapezoid", "splines")
-    ),
-    *(
-        f"gelenk.trajectory.{name}"
-        for name in ("parabolic_blends", "tridiagonal", "time_scaling", "certify", "formulas")
-    ),
-    *(
-        f"gelenk.trajectory.{name}"
-        for name in ("fly_over", "blended_motion", "fly_over_check", "fly_over_steps", "curves")
-    ),
-    *(
-        f"gelenk.trajectory.{name}"
-        for name in ("paths", "spline_paths", "orientation_paths", "rotation_splines", "so3")
-    ),
-    *(f"gelenk.trajectory.{name}" for name in ("audit_pieces", "audit_peaks", "audit_tip", "audit_demands")),
-    *(f"gelenk.course.{path.stem}" for path in sorted((ROOT / "app" / "gelenk" / "course").glob("[a-z]*.py"))),
+    *in_room("robot", without=("robot", "compilation")),
+    *in_room("dh.tables"),
+    *in_room("kinematics.simd"),
+    "gelenk.kinematics.dynamics.bodies",
+    "gelenk.kinematics.velocity.subspaces",
+    *(f"gelenk.kinematics.workspace.{name}" for name in ("sampling", "voxels", "tip_motion", "workspace")),
+    *in_room("ik.search"),
+    *in_room("ik.closed"),
+    "gelenk.ik.verdict.branches",
+    *in_room("trajectory.motion"),
+    *in_room("trajectory.paths", without=("segment_paths", "path_geometry")),
+    *(f"gelenk.trajectory.laws.{name}" for name in ("trapezoid", "time_scaling")),
+    "gelenk.trajectory.joints.parabolic_blends",
+    *(f"gelenk.trajectory.audit.{name}" for name in ("pieces", "peaks", "tip", "demands")),
+    *in_room("course"),
 ]
-CORE = [
-    ".".join(path.relative_to(ROOT).with_suffix("").parts)
-    for package in ("model", "kinematics", "course", "plots")
-    for path in sorted((ROOT / "app" / "gelenk" / package).rglob("*.py"))
-    if path.stem != "__init__"
-]
+CORE = [name for room in ("robot", "dh", "ik", "kinematics", "trajectory", "course", "plots") for name in in_room(room)]
 OF_THE_SERVER = (
     "fastapi",
     "starlette",
@@ -49,7 +46,7 @@ OF_THE_SERVER = (
     "orjson",
     "uvicorn",
     "gelenk.settings",
-    "gelenk.api",
+    "gelenk.http",
     "gelenk.contract",
     "gelenk.store",
 )
@@ -80,8 +77,8 @@ def test_a_client_carries_numbers_and_computes_none() -> None:
         "scipy",
         "sympy",
         "matplotlib",
-        "gelenk.kinematics.kernels",
-        "gelenk.model.notations",
+        "gelenk.kinematics.simd.kernels",
+        "gelenk.robot.notations",
     }
     assert not loaded("gelenk.cli.main", "gelenk.client") & computing
 
@@ -92,7 +89,9 @@ def test_oracles_share_no_code_with_what_they_judge(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "package", sorted(path.parent for path in (ROOT / "app" / "gelenk").glob("*/**/__init__.py")), ids=str
+    "package",
+    [file.parent for file in sorted(PACKAGE.glob("*/**/__init__.py")) if file.parent.name != "client"],
+    ids=str,
 )
 def test_packages_hold_a_docstring_and_nothing_else(package: Path) -> None:
     code = compile((package / "__init__.py").read_text(), str(package), "exec")

@@ -81,7 +81,7 @@ from pathlib import Path
 import numpy as np
 from fastapi.testclient import TestClient
 
-from gelenk.api.access.scopes import security_of
+from gelenk.http.messages.scopes import security_of
 from gelenk.cli.ask import operations
 from gelenk.cli.local import InProcess
 from gelenk.client import Client

@@ -9,7 +9,7 @@ import pytest
 from typer.main import get_command
 
 from gelenk.cli.main import cli
-from gelenk.model.errors import counted
+from gelenk.errors import counted
 from tests.openapi import document
 
 NOUN = re.compile(r" ([a-z]{3,}s)\b")
@@ -24,7 +24,7 @@ NEVER_ONE = {
     *("links - 1 pairs", "node.links links", "FREEDOMS[found.space] freedoms", "freedoms freedoms", "len(lost) parts"),
     *("counted.couplings joints", "counted.constraints constraints", "total constraints", "placed joints"),
     *("self._lost lines", "len(self.joints) joints", "len(joints) joints", "self.representation angles"),
-    *("self.unfinished jobs", "self.allowed requests", "len(roots) roots"),
+    *("self.unfinished jobs", "self.allowed requests"),
     *("depth[deepest] joints", "len(found) elements", "len(name) characters", "len(attributes) attributes"),
     *("len(value) characters", "len(found) orientations", "len(grounds) links", "peak.ratio times", "count waypoints"),
     *("factor times", "bound.ratio times", "jerk.ratio times", "ratios[k, j] times", "len(spline.times) knots"),

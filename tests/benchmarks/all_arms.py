@@ -11,12 +11,12 @@ from itertools import accumulate
 
 import numpy as np
 
-from gelenk.model.arrays import Array, Flags
-from gelenk.model.chain import Chain
-from gelenk.model.poses import transform
-from gelenk.model.robot import Robot
-from tests.kinematics.ik.arm_classes import CLASSES, general
-from tests.kinematics.ik.arms import IRB, catalogue_arm, table_arm
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import transform
+from gelenk.robot.robot import RobotModel
+from tests.ik.arm_classes import CLASSES, general
+from tests.ik.arms import IRB, catalogue_arm, table_arm
 
 CLOSED, GENERAL, REDUNDANT = "closed form", "general", "seven joints"
 """What is asked of an arm's solvers: a limit of time, to be quicker than a peer, and nothing but the figure."""
@@ -66,7 +66,7 @@ class Case:
     """
 
     kind: str
-    build: Callable[[], tuple[Robot, Chain]]
+    build: Callable[[], tuple[RobotModel, Chain]]
 
 
 CASES: dict[str, Case] = {
@@ -87,14 +87,14 @@ CASES: dict[str, Case] = {
 }
 
 
-def of_class(name: str) -> tuple[Robot, Chain]:
+def of_class(name: str) -> tuple[RobotModel, Chain]:
     """A random member of a class of arms."""
     arm = CLASSES[name].arm(1)
     return arm.robot, arm.chain
 
 
 @cache
-def arm_of(name: str) -> tuple[Robot, Chain]:
+def arm_of(name: str) -> tuple[RobotModel, Chain]:
     """The robot and the chain of a case, built once in a process."""
     return CASES[name].build()
 

@@ -15,10 +15,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gelenk.kinematics.ik.closed_form import closed_form, elimination
-from gelenk.kinematics.ik.solve import Options, inverse_kinematics
-from gelenk.model.arrays import Array, Flags
-from gelenk.model.poses import Poses, transform
+from gelenk.ik.closed.closed_form import closed_form, elimination
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.poses import Poses, transform
 from tests.benchmarks.all_arms import CASES, ELBOW_ANGLE, LOCKED, arm_of, frames, placements, sliding
 
 GENERAL_FAMILY = "ikgeo.general_6r"

@@ -10,12 +10,11 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain, rotation_to_axis
-from gelenk.model.description import Description, Joint, Link
-from gelenk.model.notations import placement
-from gelenk.model.origins import origin_of
-from gelenk.model.poses import inverse, transform
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain, rotation_to_axis
+from gelenk.robot.description import Description, Joint, Link
+from gelenk.robot.notations import origin_of, placement
+from gelenk.robot.poses import inverse, transform
 from tests.robots import robot
 
 BASE, TIP = "base", "tip"

@@ -11,9 +11,9 @@ from collections.abc import Callable
 import numpy as np
 import pinocchio as pin
 
-from gelenk.kinematics.kernels import chain_jacobians, chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.robot import Robot
+from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.robot import RobotModel
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from tests.benchmarks.table import Row
@@ -61,7 +61,7 @@ def measure() -> list[Row]:
     ] + [Row("pose alone, batch of 10,000", f"{median['poses'] * 1e6:.3f} µs each")]
 
 
-def keeping_loop(robot: Robot, qs: Array, tip: int, joints: int) -> tuple[Array, Array]:
+def keeping_loop(robot: RobotModel, qs: Array, tip: int, joints: int) -> tuple[Array, Array]:
     """Pose and Jacobian of each configuration, kept in arrays."""
     Ts, Js = np.empty((len(qs), 4, 4)), np.empty((len(qs), 6, joints))
     model, data = robot.model, robot.data
@@ -72,7 +72,7 @@ def keeping_loop(robot: Robot, qs: Array, tip: int, joints: int) -> tuple[Array,
     return Ts, Js
 
 
-def bare_loop(robot: Robot, qs: Array, tip: int) -> None:
+def bare_loop(robot: RobotModel, qs: Array, tip: int) -> None:
     """The same calls, nothing kept."""
     model, data = robot.model, robot.data
     for q in qs:

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.benchmarks.arms import ARMS, Arm, Targets, draw, poses
 from tests.benchmarks.peers import PEERS, TOLERANCE, Eaik, Gelenk, IkLm, IkLmTuned, Peer, TracIk, TracIkOnOneCore
 from tests.benchmarks.table import Row

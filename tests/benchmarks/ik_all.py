@@ -15,16 +15,16 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from gelenk.kinematics.ik.closed_form import closed_form
-from gelenk.model.arrays import Array, Flags, Indices
-from gelenk.model.chain import Chain
-from gelenk.model.poses import Poses
+from gelenk.ik.closed.closed_form import closed_form
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
 from tests.benchmarks.all_arms import CASES, CLOSED, ELBOW_ANGLE, GENERAL, REDUNDANT, arm_of, drawn, sliding
 from tests.benchmarks.all_peers import LISTERS, EaikForms, GelenkForms, Lister, Ssik
 from tests.benchmarks.ik import digits
 from tests.benchmarks.table import Row
 from tests.benchmarks.worker import Attendant, Failed, timed
-from tests.kinematics.ik.arms import angles, distances, part, poses
+from tests.ik.arms import angles, distances, part, poses
 
 TARGETS, FEW = 1_000, 200
 """Of an arm, and how many of them are also given in calls of their own and in verified ones."""

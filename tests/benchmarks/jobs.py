@@ -16,7 +16,7 @@ from urllib.parse import urlencode
 
 import numpy as np
 
-from gelenk.kinematics.workspace import PART
+from gelenk.kinematics.workspace.workspace import PART
 from tests.benchmarks.server import Running, running
 from tests.benchmarks.table import Row
 from tests.benchmarks.volume import peak_memory

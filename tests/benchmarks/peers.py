@@ -15,14 +15,14 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from gelenk.kinematics.ik import kernels
-from gelenk.kinematics.ik.search import MAX_ITERATIONS, make_goal, search, target_rows
-from gelenk.kinematics.ik.task import FULL_POSE
-from gelenk.model.arrays import Array
-from gelenk.model.description import Limits
-from gelenk.model.notations import placement, quaternions_xyzw_from_rotations
-from gelenk.model.poses import Poses
-from gelenk.model.urdf import write_urdf
+from gelenk.ik.search import kernels
+from gelenk.ik.search.search import MAX_ITERATIONS, make_goal, search, target_rows
+from gelenk.ik.search.task import FULL_POSE
+from gelenk.robot.arrays import Array
+from gelenk.robot.description import UrdfLimits
+from gelenk.robot.notations import placement, quaternions_xyzw_from_rotations
+from gelenk.robot.poses import Poses
+from gelenk.robot.urdf import write_urdf
 from tests.benchmarks.arms import BASE, TIP, Arm, alone
 
 TOLERANCE = 1e-5
@@ -206,7 +206,7 @@ class Optik(Peer):
         description = alone(arm)
         if any(joint.type == "prismatic" for joint in description.joints):
             raise NotImplementedError("prismatic joints")
-        turns = Limits(-4.0 * np.pi, 4.0 * np.pi)
+        turns = UrdfLimits(-4.0 * np.pi, 4.0 * np.pi)
         joints = tuple(
             replace(joint, type="revolute", limits=turns) if joint.type == "continuous" else joint
             for joint in description.joints

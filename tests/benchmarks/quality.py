@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from gelenk.kinematics.ik.branches import all_branches
-from gelenk.kinematics.ik.search import search, target_rows
-from gelenk.kinematics.ik.task import FULL_POSE
-from gelenk.model.arrays import Array
-from gelenk.model.poses import Poses
+from gelenk.ik.search.search import search, target_rows
+from gelenk.ik.search.task import FULL_POSE
+from gelenk.ik.verdict.branches import all_branches
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
 from tests.benchmarks.arms import ARMS, poses
 from tests.benchmarks.table import Row
-from tests.kinematics.ik.arms import IRB, PUMA, UR5, table_arm
+from tests.ik.arms import IRB, PUMA, UR5, table_arm
 from tests.oracles.dh_columns import Table
 from tests.oracles.many_starts import solutions
 

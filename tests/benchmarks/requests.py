@@ -14,9 +14,9 @@ from typing import cast
 
 import numpy as np
 
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.poses import Poses
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.pose_arrays import pose_list
+from gelenk.robot.poses import Poses
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from tests.benchmarks.server import running

@@ -19,7 +19,7 @@ import ruckig
 import toppra
 from scipy.spatial.transform import Rotation
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.benchmarks.server import running
 from tests.benchmarks.table import Row
 from tests.test_serve import HOST

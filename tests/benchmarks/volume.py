@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.poses import Poses
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.pose_arrays import pose_array
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from tests.benchmarks.server import Running, running

@@ -12,7 +12,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.benchmarks.arms import Arm, Targets
 from tests.benchmarks.peers import BatchPeer, Peer
 

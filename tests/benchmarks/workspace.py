@@ -14,10 +14,10 @@ from io import BytesIO
 import numpy as np
 import pinocchio as pin
 
-from gelenk.kinematics.kernels import chain_measures
-from gelenk.kinematics.workspace import Plan, Wish, plan, sampled
-from gelenk.model.arrays import Array, Indices
-from gelenk.model.robot import Robot
+from gelenk.kinematics.simd.kernels import chain_measures
+from gelenk.kinematics.workspace.workspace import SamplingPlan, Wish, plan, sampled
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.robot import RobotModel
 from gelenk.settings import Settings
 from gelenk.store.library import Library
 from tests.benchmarks.server import running
@@ -70,13 +70,13 @@ def on_one_thread() -> list[Row]:
     ]
 
 
-def all_parts(work: Plan) -> None:
+def all_parts(work: SamplingPlan) -> None:
     """Every part of a plan, one after the other: configurations, positions, measures and voxels."""
     for k in range(work.parts):
         sampled((work, k))
 
 
-def keeping_loop(robot: Robot, qs: Array, tip: int, rows: Indices) -> tuple[Array, Array, Array]:
+def keeping_loop(robot: RobotModel, qs: Array, tip: int, rows: Indices) -> tuple[Array, Array, Array]:
     """What a person would write: position, rotation and √det(JJᵀ) of each configuration, kept in arrays."""
     positions, rotations, measures = np.empty((len(qs), 3)), np.empty((len(qs), 3, 3)), np.empty(len(qs))
     model, data = robot.model, robot.data

@@ -9,7 +9,7 @@ import pytest
 
 from gelenk.cli import local
 from gelenk.cli.main import main
-from gelenk.kinematics.warm import warm_up
+from gelenk.kinematics.warm_up import warm_up
 from tests.test_serve import service
 
 

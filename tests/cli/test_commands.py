@@ -227,7 +227,7 @@ def test_what_cannot_be_reached_ends_with_one(shell: Shell) -> None:
         (["fk", "planar_2r", "-q", "1 2", "-q", "1"], "all rows must have as many numbers"),
         (["fk", "planar_2r", "--from", "missing.csv"], "missing.csv: No such file"),
         (["fk", "planar_2r", "-q", "1 2", "--pose", "euler"], "must be one of quaternion_xyzw"),
-        (["ik", "planar_2r", "--to", "1 2 3 4"], "a target has 4 numbers; allowed are 6"),
+        (["ik", "planar_2r", "--to", "1 2 3 4"], "a target has 4 numbers; allowed: 6"),
         (["dh", "derive", "missing.csv"], "there is no file 'missing.csv'"),
         (["ask", "levitate", "{}"], "must be one of"),
         (["ask", "gear", "{]"], "is not JSON"),
@@ -248,7 +248,7 @@ def test_what_is_wrong_is_said_in_a_sentence(shell: Shell, arguments: list[str],
 
 
 def test_nobody_there(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.client.time.sleep", lambda _: None)
+    monkeypatch.setattr("gelenk.client.client.time.sleep", lambda _: None)
     url = f"http://127.0.0.1:{free_port()}"
     assert f"no answer from {url}" in shell("--server", url, "robots", code=3)[1]
 

@@ -72,9 +72,9 @@ def test_an_interrupt_has_a_code_of_its_own(shell: Shell, monkeypatch: pytest.Mo
     def interrupted(*_: object) -> Any:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("gelenk.calls.jobs.Job.result", interrupted)
+    monkeypatch.setattr("gelenk.client.jobs.Job.result", interrupted)
     ended: list[str] = []
-    monkeypatch.setattr("gelenk.calls.jobs.Job.cancel", lambda job, _: ended.append(job.id))
+    monkeypatch.setattr("gelenk.client.jobs.Job.cancel", lambda job, _: ended.append(job.id))
     shell("workspace", "planar_2r", "--samples", 1000, code=130)
     assert len(ended) == 1
 
@@ -174,8 +174,8 @@ def test_names_of_robots_are_completed(url: str) -> None:
 
 
 def test_help_and_completion_need_not_wait_for_what_computes() -> None:
-    heavy = "{'pinocchio', 'numba', 'numpy', 'fastapi', 'pydantic', 'matplotlib', 'gelenk.client'} & set(sys.modules)"
-    script = f"import sys, gelenk.cli.main; print({heavy})"
+    heavy = {"pinocchio", "numba", "numpy", "fastapi", "pydantic", "matplotlib", "gelenk.client.client"}
+    script = f"import sys, gelenk.cli.main; print({heavy} & set(sys.modules))"
     run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
     assert run.stdout == "set()\n"
 

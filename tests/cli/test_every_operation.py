@@ -17,10 +17,10 @@ import typer
 from pydantic import BaseModel
 from typer.core import TyperGroup
 
-from gelenk.calls.operations import Operations
-from gelenk.calls.refusals import Refused
 from gelenk.cli.main import cli
 from gelenk.client import Client
+from gelenk.client.operations import Operations
+from gelenk.client.refusals import Refused
 from tests.cli.conftest import Shell
 from tests.client.test_operations import NAMES as METHODS
 from tests.openapi import document

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gelenk.cli.rows import rows_of
+from gelenk.cli.files.rows import rows_of
 from tests.cli.conftest import Shell
 
 TABLE = b"type,a,alpha,d,theta\nrevolute,1.0,0,0,0\nrevolute,0.7,0,0,0\n"
@@ -217,7 +217,7 @@ def test_names_of_files_say_the_format_in_capitals_too(shell: Shell, tmp_path: P
 
 def test_npy_is_nothing_for_a_terminal(shell: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
-    assert "give it a file with --output" in shell("-f", "npy", "fk", "planar_2r", "-q", "0 0", code=2)[1]
+    assert "write it to a file with --output" in shell("-f", "npy", "fk", "planar_2r", "-q", "0 0", code=2)[1]
 
 
 @pytest.mark.slow

@@ -14,7 +14,7 @@ from gelenk.cli.completion import one_of
 from gelenk.cli.examples import EXAMPLES
 from gelenk.contract.ik import InverseOptions
 from gelenk.contract.jacobian import JacobianOptions
-from gelenk.trajectory.words import Law
+from gelenk.trajectory.audit.words import Law
 from tests.cli.conftest import Shell
 from tests.cli.test_ends import ran
 

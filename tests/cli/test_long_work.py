@@ -11,10 +11,10 @@ import numba
 import numpy as np
 import pytest
 
-from gelenk.calls.refusals import Refused
 from gelenk.cli.batches import in_calls
 from gelenk.cli.local import InProcess
 from gelenk.client import Client
+from gelenk.client.refusals import Refused
 from gelenk.contract.fk import ForwardAnswer
 from tests.cli.conftest import Shell
 from tests.test_serve import get

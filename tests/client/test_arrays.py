@@ -9,17 +9,17 @@ import httpx2
 import numpy as np
 import pytest
 
-from gelenk.calls.call import Reply
-from gelenk.calls.npy import packed, unpacked
-from gelenk.calls.operations import Operations
 from gelenk.client import Client
+from gelenk.client.call import Reply
+from gelenk.client.npy import packed, unpacked
+from gelenk.client.operations import Operations
 from gelenk.contract.fk import ForwardAnswer, ForwardRequest
 from gelenk.contract.ik import InverseRequest
 from gelenk.contract.pose import Pose
 from gelenk.contract.statics import PayloadInfo, StaticsRequest
 from gelenk.contract.trajectory_request import JointSegment
 from gelenk.contract.velocity import NullSpace
-from gelenk.model.errors import InvalidArray, InvalidField
+from gelenk.errors import InvalidArray, InvalidField
 
 QS = np.array([[0.3, 0.8], [-0.2, 0.1]])
 
@@ -49,7 +49,7 @@ def test_numbers_of_any_kind_arrive(dtype: str) -> None:
     ],
 )
 def test_what_holds_no_numbers_is_refused_before_it_is_sent(array: Any, what: str) -> None:
-    sentence = f"the array holds {what}; allowed are integers and floats of up to 64 bits"
+    sentence = f"the array holds {what}; allowed: integers and floats of up to 64 bits"
     as_npy: dict[str, Any] = {}
     as_json = {"joint_velocities": QS}
     for more in (as_npy, as_json):

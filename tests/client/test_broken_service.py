@@ -11,11 +11,11 @@ from typing import Any
 import httpx2
 import pytest
 
-from gelenk.calls.call import Call
-from gelenk.calls.operations import Operations
-from gelenk.calls.refusals import NotAnswering, Refused
+from gelenk import errors
 from gelenk.client import AsyncClient, Client
-from gelenk.model import errors
+from gelenk.client.call import Call
+from gelenk.client.operations import Operations
+from gelenk.client.refusals import NotAnswering, Refused
 from tests.client.scripted import (
     Scripted,
     Step,
@@ -72,8 +72,8 @@ def ask(request: pytest.FixtureRequest) -> Ask:
 
 @pytest.fixture(autouse=True)
 def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.calls.patience._FIRST_PAUSE", 0.001)
-    monkeypatch.setattr("gelenk.client._BETWEEN_STREAMS", 0.001)
+    monkeypatch.setattr("gelenk.client.patience._FIRST_PAUSE", 0.001)
+    monkeypatch.setattr("gelenk.client.client._BETWEEN_STREAMS", 0.001)
 
 
 @pytest.mark.quick(12)
@@ -143,8 +143,8 @@ def test_how_long_it_would_have_been_is_told(ask: Ask) -> None:
 
 def test_what_takes_too_long_is_given_up_once(ask: Ask, monkeypatch: pytest.MonkeyPatch) -> None:
     short = httpx2.Timeout(5.0, read=0.2)
-    monkeypatch.setattr("gelenk.client.TIMEOUT", short)
-    monkeypatch.setattr("gelenk.calls.patience.TIMEOUT", short)
+    monkeypatch.setattr("gelenk.client.client.TIMEOUT", short)
+    monkeypatch.setattr("gelenk.client.patience.TIMEOUT", short)
     with scripted(keeps_silent) as service:
         with pytest.raises(NotAnswering, match=r"it took longer than 0\.2 s$"):
             ask(service.url, READ)
@@ -205,7 +205,7 @@ def test_an_array_that_is_none_is_called_so() -> None:
 
 
 def test_a_call_that_is_cancelled_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.client.AT_ONCE", 1)
+    monkeypatch.setattr("gelenk.client.client.AT_ONCE", 1)
 
     async def ask(service: Scripted) -> None:
         async with AsyncClient(service.url) as gelenk:

@@ -6,14 +6,14 @@ from typing import Any, assert_type
 import numpy as np
 import pytest
 
-from gelenk.calls.jobs import AsyncJob, Job
-from gelenk.calls.refusals import Refused
+from gelenk import errors
 from gelenk.client import AsyncClient, Client
+from gelenk.client.jobs import AsyncJob, Job
+from gelenk.client.refusals import Refused
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.trajectory_answer import TrajectoryAnswer
 from gelenk.contract.workspace import WorkspaceAnswer
-from gelenk.model import errors
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.robots import robot, samples
 
 MOTION: dict[str, Any] = {"start": [0.3, 0.8], "segments": [{"type": "joint", "target": [0.5, 0.2]}]}

@@ -9,14 +9,14 @@ from typing import Any, assert_type
 import numpy as np
 import pytest
 
-from gelenk.calls.arrays import ArrayOperations, Reached
-from gelenk.calls.call import Call, Sent
-from gelenk.calls.operations import Operations
 from gelenk.client import AsyncClient, Client
+from gelenk.client.arrays import ArrayOperations, Reached
+from gelenk.client.call import Call, Sent
+from gelenk.client.operations import Operations
 from gelenk.contract.fk import ForwardAnswer
 from gelenk.contract.jobs import JobInfo
 from gelenk.contract.pose import Pose
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.corpus import zips
 from tests.robots import robot, samples
 from tests.test_serve import get

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from gelenk.calls.refusals import Refused
 from gelenk.client import AsyncClient, Client
+from gelenk.client.refusals import Refused
 from gelenk.contract.pose import Pose
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 from tests.corpus import zips
 
 

@@ -13,12 +13,12 @@ import pytest
 from starlette.requests import Request
 
 from docs.handbook.problem_kinds import Kind, all_kinds
-from gelenk.api import problems
-from gelenk.calls.refusals import NotAnswering, Refused, refusal
+from gelenk import errors
 from gelenk.client import Client
+from gelenk.client.refusals import NotAnswering, Refused, refusal
 from gelenk.contract.jobs import JobInfo
-from gelenk.model import errors
-from tests.model.test_errors import example
+from gelenk.http.messages import problems
+from tests.test_errors import example
 from tests.test_serve import free_port
 
 
@@ -104,7 +104,7 @@ class Line:
 
     def client(self, monkeypatch: pytest.MonkeyPatch) -> tuple[Client, list[float]]:
         pauses: list[float] = []
-        monkeypatch.setattr("gelenk.client.time.sleep", pauses.append)
+        monkeypatch.setattr("gelenk.client.client.time.sleep", pauses.append)
         return Client("http://gelenk.invalid", transport=httpx2.MockTransport(self.answer)), pauses
 
     def answer(self, _: httpx2.Request) -> httpx2.Response:
@@ -254,7 +254,7 @@ def test_an_array_goes_as_one_where_all_else_fits_into_the_query() -> None:
 
 
 def test_nobody_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.client.time.sleep", lambda _: None)
+    monkeypatch.setattr("gelenk.client.client.time.sleep", lambda _: None)
     url = f"http://127.0.0.1:{free_port()}"
     with Client(url) as client, pytest.raises(NotAnswering, match=url):
         client.robots()

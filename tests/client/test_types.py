@@ -14,8 +14,8 @@ import asyncio
 from typing import assert_type
 import numpy as np
 import numpy.typing as npt
-from gelenk.calls.arrays import Reached
-from gelenk.calls.jobs import Job
+from gelenk.client.arrays import Reached
+from gelenk.client.jobs import Job
 from gelenk.client import AsyncClient, Client
 from gelenk.contract.ik import InverseAnswer
 from gelenk.contract.fk import ForwardAnswer

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 
 VALUES = np.array([[0.25, -0.5], [1.0, 0.125]])
 """Two configurations of two joints; exact in every format of numbers that is allowed, integers apart."""

@@ -631,7 +631,7 @@ ODD_LINKS = (
 """Poses are right all the same; dynamics will not be."""
 
 MESHES_ELSEWHERE = tuple(
-    Odd(name, one_shape(f'<mesh filename="{filename}"/>'), ("mesh", "never opened"))
+    Odd(name, one_shape(f'<mesh filename="{filename}"/>'), ("mesh", "not opened"))
     for name, filename in (
         ("mesh in a parent folder", "../secret.stl"),
         ("mesh in a parent folder of its package", "package://arm/meshes/../../../secret.stl"),

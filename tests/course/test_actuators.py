@@ -8,8 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from gelenk.course import gear, pwm
-from gelenk.course.dc_motor import (
+from gelenk.course.actuators import gear, pwm
+from gelenk.course.actuators.dc_motor import (
     Motor,
     balance,
     modes,
@@ -18,11 +18,11 @@ from gelenk.course.dc_motor import (
     operating_point,
     torque_speed_line,
 )
-from gelenk.course.motor_response import exponential, step_response
-from gelenk.course.pwm import Pulses, approximate_ripple, exact_ripple, voltage_for_speed
+from gelenk.course.actuators.motor_response import exponential, step_response
+from gelenk.course.actuators.pwm import Pulses, approximate_ripple, exact_ripple, voltage_for_speed
 from gelenk.course.steps import tex
-from gelenk.model.arrays import Array
-from gelenk.model.errors import CertificationFailed
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array
 
 LECTURE = Motor(1.2, 2e-3, 0.05, 0.05, 1e-4, 2e-4)
 """R = 1.2 Ω, L = 2 mH, k = 0.05, b = 1e-4, J = 2e-4; at 24 V with a load of 0.1 N m."""
@@ -266,7 +266,9 @@ def test_the_second_way_is_an_exponential_too(size: int) -> None:
 
 
 def test_a_response_of_another_motor_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("gelenk.course.motor_response.exponential", lambda A, times: exponential(1.001 * A, times))
+    monkeypatch.setattr(
+        "gelenk.course.actuators.motor_response.exponential", lambda A, times: exponential(1.001 * A, times)
+    )
     with pytest.raises(CertificationFailed):
         step_response(LECTURE, 24.0, 0.1, np.array([0.02]), 0.0, 0.0)
 

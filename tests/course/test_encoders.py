@@ -6,11 +6,11 @@ from typing import cast
 import numpy as np
 import pytest
 
-from gelenk.course import gray
-from gelenk.course.encoders import COUNTS_A_LINE, Decoding, Scale, required, required_step, scale_steps
-from gelenk.course.quadrature import Samples, decoded, read_samples, register
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
+from gelenk.course.actuators import gray
+from gelenk.course.actuators.encoders import COUNTS_A_LINE, Decoding, Scale, required, required_step, scale_steps
+from gelenk.course.actuators.quadrature import Samples, decoded, read_samples, register
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
 
 # Resolution
 

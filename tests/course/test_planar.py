@@ -16,8 +16,8 @@ from gelenk.course.planar import (
     tried,
     workspace_steps,
 )
-from gelenk.model.arrays import Array, Flags
-from gelenk.model.errors import CertificationFailed
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array, Flags
 
 LECTURE = {
     (1.0, 0.7): ([(0.3, 1.7)], []),

@@ -6,22 +6,22 @@ from math import atan, cos, pi, sin, tan
 import numpy as np
 import pytest
 
-from gelenk.course.mechanism import GivenPair, Mechanism, Node, mechanism
-from gelenk.course.mobility import tally, verdict, warnings
-from gelenk.course.mobility_steps import steps
-from gelenk.course.pairs import LETTERS, Geometry, Space
-from gelenk.course.screws import MAX_LINKS, Posture, posture
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField, TooLarge
+from gelenk.course.mobility.mechanism import GivenPair, Mechanism, Node, mechanism
+from gelenk.course.mobility.mobility import tally, verdict, warnings
+from gelenk.course.mobility.pairs import LETTERS, PairGeometry, Space
+from gelenk.course.mobility.screws import MAX_LINKS, Posture, posture
+from gelenk.course.mobility.steps import steps
+from gelenk.errors import InvalidField, TooLarge
+from gelenk.robot.arrays import Array
 from tests.oracles import closure
 
-Placed = tuple[str, str, str, Geometry]
+Placed = tuple[str, str, str, PairGeometry]
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 TOLERANCE = 1e-9
 
 
-def at(point: object, axis: object = None, second: object = None, pitch: float | None = None) -> Geometry:
-    return Geometry(vector(point), unit(axis), unit(second), pitch)
+def at(point: object, axis: object = None, second: object = None, pitch: float | None = None) -> PairGeometry:
+    return PairGeometry(vector(point), unit(axis), unit(second), pitch)
 
 
 def vector(numbers: object) -> tuple[float, float, float] | None:
@@ -46,7 +46,7 @@ def linkage(space: Space, placed: list[Placed], nodes: tuple[Node, ...] = ()) ->
     return mechanism(space, names, 0, given, nodes)
 
 
-def needed(kind: str, geometry: Geometry) -> Geometry:
+def needed(kind: str, geometry: PairGeometry) -> PairGeometry:
     """The geometry without axes that a kind of pair does not have."""
     axis = None if kind in {"spherical", "fixed"} else geometry.axis
     return replace(geometry, axis=axis, second_axis=geometry.second_axis if kind == "universal" else None)
@@ -60,7 +60,7 @@ def stands(found: Mechanism, output: str | None = None) -> Posture:
     return result
 
 
-def freedoms(kind: str, geometry: Geometry) -> list[closure.Freedom]:
+def freedoms(kind: str, geometry: PairGeometry) -> list[closure.Freedom]:
     """What a spatial pair leaves, as turns and slides."""
     point = None if geometry.point is None else np.array(geometry.point)
     axis = np.zeros(3) if geometry.axis is None else np.array(geometry.axis)
@@ -91,12 +91,12 @@ def freedoms(kind: str, geometry: Geometry) -> list[closure.Freedom]:
 
 
 def by_closure(found: Mechanism) -> int:
-    geometries = [pair.geometry or Geometry() for pair in found.pairs]
+    geometries = [pair.geometry or PairGeometry() for pair in found.pairs]
     left = [freedoms(pair.kind, geometry) for pair, geometry in zip(found.pairs, geometries, strict=True)]
     return closure.mobility(len(found.links), [pair.links for pair in found.pairs], left)
 
 
-def ring(kinds: str, geometries: list[Geometry]) -> list[Placed]:
+def ring(kinds: str, geometries: list[PairGeometry]) -> list[Placed]:
     count = len(kinds)
     return [
         (f"link{i}", kind, f"link{(i + 1) % count}", one)
@@ -314,7 +314,7 @@ SPATIAL = {
     "universal": at((1, 2, 3), X, Y), "cylindrical": at((1, 2, 3), (1, 0, 2)), "spherical": at((1, 2, 3)),
     "planar": at(None, (1, 2, 3)), "sphere_in_groove": at((1, 0, 0), (3, 1, 0)),
     "point_contact": at((1, 0, 0), (1, 1, 1)),
-    "fixed": Geometry(),
+    "fixed": PairGeometry(),
 }  # fmt: skip
 
 
@@ -381,7 +381,7 @@ def test_a_pair_that_leaves_out_what_others_say_is_refused() -> None:
     ("space", "kind", "geometry"),
     [("spatial", "U", at((0, 0, 0), X, X)), ("planar", "P", at((0, 0, 0), Z)), ("planar", "cam", at((0, 0, 0), Z))],
 )
-def test_axes_that_are_not_what_they_should_be_are_refused(space: Space, kind: str, geometry: Geometry) -> None:
+def test_axes_that_are_not_what_they_should_be_are_refused(space: Space, kind: str, geometry: PairGeometry) -> None:
     with pytest.raises(InvalidField, match="freedoms are not independent"):
         posture(linkage(space, [("a", kind, "b", geometry)]), None, TOLERANCE)
 
@@ -400,7 +400,7 @@ def test_axes_that_are_not_what_they_should_be_are_refused(space: Space, kind: s
     ],
 )
 def test_what_a_pair_does_not_have_or_leaves_out_is_refused(
-    space: Space, kind: str, geometry: Geometry, reason: str
+    space: Space, kind: str, geometry: PairGeometry, reason: str
 ) -> None:
     found = mechanism(space, ["a", "b"], 0, [GivenPair("one", "a", "b", kind, geometry=geometry)])
     with pytest.raises(InvalidField, match=reason):

@@ -15,10 +15,10 @@ import yaml  # type: ignore[import-untyped]
 from prometheus_client.parser import text_string_to_metric_families
 from starlette.testclient import TestClient
 
-from gelenk.api.access.keyring import new_key
-from gelenk.api.access.scopes import Scope
-from tests.api.conftest import ready_client
+from gelenk.http.access.keyring import new_key
+from gelenk.http.messages.scopes import Scope
 from tests.deploy.monitoring import PROMETHEUS, alerts, dashboard_queries, panels, program, read_yaml, selectors
+from tests.http.conftest import ready_client
 from tests.test_serve import HOST, free_port, get, service
 
 TARGET = {"position": [0.4, 0.1, 0.5], "rpy": [3.0, 0.2, 0.4]}

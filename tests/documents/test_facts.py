@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from gelenk.kinematics.ik import branches, search
-from gelenk.model import urdf
+from gelenk.ik.search import search
+from gelenk.ik.verdict import branches
+from gelenk.robot import urdf
 from gelenk.settings import Settings
 from tests.documents.blocks import PAGES, README
 from tests.openapi import document

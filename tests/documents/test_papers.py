@@ -51,8 +51,9 @@ def test_the_changelog_begins_with_this_version() -> None:
 def test_the_layers_are_told_as_they_are() -> None:
     contract = PROJECT["tool"]["importlinter"]["contracts"][0]["layers"]
     layers = [re.findall(r"gelenk\.(\w+)", layer) for layer in contract]
+    above_the_core = layers[: layers.index(["plots"]) + 1]
     (told,) = (block for block in blocks(Path("CONTRIBUTING.md"), "text") if "→" in block)
-    assert [re.findall(r"\w+", layer) for layer in told.split("→")] == layers
+    assert [re.findall(r"\w+", layer) for layer in told.split("→")] == above_the_core
 
 
 def test_every_folder_is_told() -> None:

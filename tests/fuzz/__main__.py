@@ -20,7 +20,7 @@ from tests.fuzz import NAMES
 
 FOLDER = Path(".fuzz")
 _MEMORY = Path("/dev/shm")  # noqa: S108 - where archives are unpacked, if it is there: a disk would be what is timed
-_COMPILED = ("gelenk.model.poses", "gelenk.kinematics.kernels", "gelenk.kinematics.lanes")
+_COMPILED = ("gelenk.robot.poses", "gelenk.kinematics.simd.kernels", "gelenk.kinematics.simd.lanes")
 """Modules of functions that numba compiles: with traces in them it cannot."""
 _TELL_EVERY = 50_000
 

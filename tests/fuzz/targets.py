@@ -11,17 +11,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gelenk.api.npy import npy_response, read_npy
-from gelenk.api.payloads import read_json
-from gelenk.api.problems import InvalidPayload, status_of
 from gelenk.contract.robots import NewRobot
-from gelenk.kinematics.certify import certify_table
-from gelenk.kinematics.forward import forward_kinematics
-from gelenk.model.convert import describe_dh
-from gelenk.model.description import Description
-from gelenk.model.errors import KinematicsError
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf, write_urdf
+from gelenk.dh.tables.convert import describe_dh
+from gelenk.errors import KinematicsError
+from gelenk.http.messages.npy import npy_response, read_npy
+from gelenk.http.messages.payloads import read_json
+from gelenk.http.messages.problems import InvalidPayload, status_of
+from gelenk.kinematics.judge.judge import certify_table
+from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.robot.description import Description
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf, write_urdf
 from gelenk.store.archive import UnpackedRobot, unpacked
 from gelenk.store.folders import pieces
 from gelenk.store.meshes import KEPT_SUFFIXES
@@ -153,14 +153,14 @@ def _contents(robot: UnpackedRobot) -> dict[str, bytes]:
     return {path: b"".join(pieces(stretch)) for path, stretch in robot.meshes.items()}
 
 
-def _check_robot(description: Description) -> Robot | None:
+def _check_robot(description: Description) -> RobotModel | None:
     """A robot reads back as it was written; its poses are poses, and Pinocchio's: otherwise they are withheld."""
     again = read_urdf(write_urdf(description))
     if (again.links, again.joints) != (description.links, description.joints):
         raise Unsound("the description does not read back as it was written")
     if len(description.movable) > _MOST_JOINTS or len(description.joints) > 2 * _MOST_JOINTS:
         return None
-    robot = Robot(again)
+    robot = RobotModel(again)
     chain = robot.chain(None, None)
     poses = forward_kinematics(robot, chain, np.array([np.zeros(len(chain)), np.full(len(chain), 0.7)])).poses
     if not (np.isfinite(poses.positions).all() and np.isfinite(poses.rotations).all()):

@@ -16,8 +16,8 @@ from docs.handbook.operations import compact
 from docs.handbook.problem_kinds import OF_HTTP, all_kinds, problems
 from docs.handbook.reference import GROUPS, Reference
 from docs.handbook.settings_list import bounds, settings
-from gelenk.api.problems import status_of
-from gelenk.model.errors import KinematicsError, kinds
+from gelenk.errors import KinematicsError, kinds
+from gelenk.http.messages.problems import status_of
 from gelenk.settings import Settings
 from tests.openapi import document
 
@@ -60,7 +60,7 @@ def kinds_of_http() -> set[tuple[HTTPStatus, str]]:
         (HTTPStatus.NOT_FOUND, "not-found"),
         (HTTPStatus.METHOD_NOT_ALLOWED, "method-not-allowed"),
     }  # by the router
-    for path in [*ROOT.glob("app/gelenk/api/**/*.py"), ROOT / "app/gelenk/connections.py"]:
+    for path in [*ROOT.glob("app/gelenk/http/**/*.py"), ROOT / "app/gelenk/connections.py"]:
         functions = (
             node
             for node in ast.walk(ast.parse(path.read_text()))

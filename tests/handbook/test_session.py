@@ -4,8 +4,8 @@ import httpx2
 import pytest
 
 from docs.handbook.session import wait_until_ready
-from gelenk.calls.refusals import Refused
 from gelenk.client import Client
+from gelenk.client.refusals import Refused
 
 READY = httpx2.Response(200, json={"status": "ready"})
 

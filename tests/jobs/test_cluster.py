@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from gelenk.errors import JobFailed
 from gelenk.jobs import runner as runner_module
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.driver import _computed, code_digest
@@ -25,7 +26,6 @@ from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobStore, Limits
 from gelenk.jobs.workers import Cancelled, Order, Unavailable, Workers
 from gelenk.main import create_app
-from gelenk.model.errors import JobFailed
 from gelenk.settings import Settings
 from tests.jobs.parts import gone, made_by, of_parts, told
 from tests.jobs.ray_cluster import cluster, head, node, signalled

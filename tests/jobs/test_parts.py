@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gelenk.errors import StorageFailed, TooLarge, UnknownJob
 from gelenk.jobs.packing import packed, unpacked
 from gelenk.jobs.parts import Parts, computed
-from gelenk.model.errors import StorageFailed, TooLarge, UnknownJob
 
 DIGEST, OTHER = "ab" * 32, "cd" * 32
 

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
+from gelenk.errors import JobInterrupted
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobStore, Limits
 from gelenk.jobs.workers import Order, Workers
-from gelenk.model.errors import JobInterrupted
 from tests.jobs.parts import fatal, made_by, of_parts
 
 PARTS = 16

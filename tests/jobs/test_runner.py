@@ -8,12 +8,7 @@ from typing import Any
 
 import pytest
 
-from gelenk.jobs.job import Job
-from gelenk.jobs.run import Files, Run
-from gelenk.jobs.runner import Runner, Work
-from gelenk.jobs.store import JobStore, Limits
-from gelenk.jobs.workers import Workers
-from gelenk.model.errors import (
+from gelenk.errors import (
     InvalidField,
     JobCancelled,
     JobFailed,
@@ -25,6 +20,11 @@ from gelenk.model.errors import (
     TooLarge,
     UnknownJob,
 )
+from gelenk.jobs.job import Job
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Runner, Work
+from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.workers import Workers
 from tests.jobs.parts import gone, made_by, of_parts
 
 

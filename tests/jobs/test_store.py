@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from gelenk import errors
+from gelenk.errors import JobExists, TooManyJobs, UnknownJob
 from gelenk.jobs import store as shelf_module
 from gelenk.jobs.job import Failure
 from gelenk.jobs.store import JOB_FILE, JobStore, Limits
-from gelenk.model import errors
-from gelenk.model.errors import JobExists, TooManyJobs, UnknownJob
-from tests.model.test_errors import CONCRETE, example
+from tests.test_errors import CONCRETE, example
 
 
 @contextmanager

@@ -5,12 +5,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gelenk.kinematics.certify import MAX_SAMPLES, TOLERANCE, View, certify_jacobians, certify_poses
-from gelenk.kinematics.jacobian import Reference, Representation, jacobians
-from gelenk.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.errors import CertificationFailed
-from gelenk.model.poses import Poses
+from gelenk.errors import CertificationFailed
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, TOLERANCE, View, certify_jacobians, certify_poses
+from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians, chain_poses
+from gelenk.kinematics.velocity.jacobian import Reference, Representation, jacobians
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
 from tests.oracles.dh_columns import turn
 from tests.robots import of_table, robot, rows, samples
 

@@ -8,17 +8,17 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from gelenk.kinematics.bodies import Load
-from gelenk.kinematics.dynamics import Dynamics, dynamics
-from gelenk.kinematics.lagrangian import State
-from gelenk.kinematics.mechanism import PinocchioDynamics, known_mechanism, mechanism
-from gelenk.kinematics.statics import statics
-from gelenk.kinematics.wrenches import WrenchFrame
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed, InvalidField
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf, write_urdf
+from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.kinematics.dynamics.bodies import Load
+from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
+from gelenk.kinematics.dynamics.lagrangian import State
+from gelenk.kinematics.dynamics.mechanism import PinocchioDynamics, known_mechanism, mechanism
+from gelenk.kinematics.force.statics import statics
+from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue
 from tests.oracles.differences import along, plain
 from tests.oracles.urdf_energy import UrdfEnergy
@@ -41,7 +41,7 @@ every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
 every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
-def chain_of(ends: Ends) -> tuple[Robot, Chain]:
+def chain_of(ends: Ends) -> tuple[RobotModel, Chain]:
     machine = robot(ends[0])
     return machine, machine.chain(ends[1], ends[2])
 
@@ -62,7 +62,7 @@ def moving(chain: Chain, count: int = 3, seed: int = 0) -> State:
 
 
 def solved(
-    machine: Robot, chain: Chain, state: State, *, accelerations: Array | None = None, torques: Array | None = None
+    machine: RobotModel, chain: Chain, state: State, *, accelerations: Array | None = None, torques: Array | None = None
 ) -> Dynamics:
     return dynamics(machine, chain, state, gravity=G, terms=(), accelerations=accelerations, torques=torques)
 
@@ -233,7 +233,7 @@ POINT_MASSES = """<robot name="arm"><link name="base"/>
 def test_two_links_with_point_masses(q1: float, q2: float) -> None:
     """M, C q̇ and g of the planar arm with its masses at the ends of the links, gravity along -y."""
     l1, l2, m1, m2, g = 1.0, 0.7, 3.0, 2.0, 9.81
-    arm = Robot(read_urdf(POINT_MASSES.format(l1=l1, l2=l2, m1=m1, m2=m2)))
+    arm = RobotModel(read_urdf(POINT_MASSES.format(l1=l1, l2=l2, m1=m1, m2=m2)))
     v1, v2 = 0.5, -0.4
     state = State(np.array([[q1, q2]]), np.array([[v1, v2]]), np.zeros((1, 2)))
     found = dynamics(arm, arm.chain(None, None), state, gravity=np.array([0, -g, 0]))
@@ -271,7 +271,7 @@ def test_a_payload_is_a_link_on_the_tip(ends: Ends) -> None:
         f'<joint name="holds" type="fixed"><parent link="{chain.tip_frame}"/><child link="load"/></joint></robot>'
     )
     text = write_urdf(machine.description).replace("</robot>", link)
-    heavier = Robot(read_urdf(text))
+    heavier = RobotModel(read_urdf(text))
     expected = dynamics(heavier, heavier.chain(chain.base_frame, chain.tip_frame), state, gravity=G)
     found = dynamics(machine, chain, state, gravity=G, load=LOAD)
     for field in ("mass_matrices", "coriolis_matrices", "gravity_torques", "kinetic_energies", "potential_energies"):
@@ -303,7 +303,7 @@ MASSLESS = """<robot name="arm"><link name="base"/><link name="upper"/><link nam
 @pytest.mark.parametrize("mass", [0.0, 2.0])
 def test_forward_dynamics_without_inertia_name_the_joints(mass: float) -> None:
     """A point mass on the second axis: no torque is needed to turn about that."""
-    arm = Robot(read_urdf(MASSLESS.format(mass=mass)))
+    arm = RobotModel(read_urdf(MASSLESS.format(mass=mass)))
     chain = arm.chain(None, None)
     state = moving(chain, 2)
     with pytest.raises(InvalidField) as caught:
@@ -340,7 +340,7 @@ def test_a_follower_of_a_locked_leader_stands_at_its_offset() -> None:
     <mimic joint="far" multiplier="2" offset="0.7"/></joint>
     <joint name="far" type="continuous"><parent link="base"/><child link="d"/><axis xyz="0 0 1"/></joint></robot>"""
     for kind in ("revolute", "prismatic"):
-        arm = Robot(read_urdf(text.format(kind=kind)))
+        arm = RobotModel(read_urdf(text.format(kind=kind)))
         chain = arm.chain("base", "c")
         assert chain.joint_names == ("first", "far")
         alone = arm.chain("base", "a")
@@ -363,7 +363,7 @@ def test_no_configuration_and_no_joint() -> None:
             assert found.mass_matrices is not None
             assert found.mass_matrices.shape == (count, len(chain), len(chain))
             assert found.certificate.samples == 0
-    stone = Robot(read_urdf('<robot name="stone"><link name="base"/></robot>'))
+    stone = RobotModel(read_urdf('<robot name="stone"><link name="base"/></robot>'))
     qs = np.empty((2, 0))
     found = dynamics(stone, stone.chain(None, None), State(qs, qs, qs), gravity=G, load=LOAD, torques=qs)
     assert found.accelerations is not None
@@ -414,7 +414,7 @@ def test_mechanisms_are_kept_but_not_without_end() -> None:
 
 
 def test_a_mechanism_does_not_keep_its_robot() -> None:
-    arm = Robot(read_urdf(MASSLESS.format(mass=1.0)))
+    arm = RobotModel(read_urdf(MASSLESS.format(mass=1.0)))
     mechanism(arm, arm.chain(None, None))
     gone = weakref.ref(arm)
     del arm

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from gelenk.kinematics.certify import certify_poses
-from gelenk.kinematics.forward import forward_kinematics
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.errors import FrameNotOnChain, UnknownFrame
-from gelenk.model.poses import Poses
+from gelenk.errors import FrameNotOnChain, UnknownFrame
+from gelenk.kinematics.judge.judge import certify_poses
+from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.poses import Poses
 from tests.oracles import catalogue
 from tests.oracles.urdf_product import UrdfProduct
 from tests.robots import by_name, robot, samples, swept

@@ -6,12 +6,12 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from gelenk.kinematics.jacobian import Jacobians, Reference, Representation, jacobians, ranks, singular_values
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import RepresentationSingularity
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
+from gelenk.errors import RepresentationSingularity
+from gelenk.kinematics.velocity.jacobian import Jacobians, Reference, Representation, jacobians, ranks, singular_values
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.differences import Difference, aligned, along, body, derivatives, euler, plain, spatial
 from tests.oracles.urdf_product import UrdfProduct
@@ -43,7 +43,7 @@ every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
 Ends: TypeAlias = tuple[str, str | None, str | None]
 
 
-def chain_of(ends: Ends) -> tuple[Robot, Chain]:
+def chain_of(ends: Ends) -> tuple[RobotModel, Chain]:
     """A robot and one of its chains."""
     machine = robot(ends[0])
     return machine, machine.chain(ends[1], ends[2])
@@ -58,7 +58,7 @@ def independent_poses(name: str, chain: Chain) -> Callable[[Array], Array]:
     return lambda qs: product.poses(chain.base_frame, chain.tip_frame, by_name(chain, qs))
 
 
-def one(machine: Robot, chain: Chain, q: Array, kind: Kind, *, derivatives: bool = False) -> Jacobians:
+def one(machine: RobotModel, chain: Chain, q: Array, kind: Kind, *, derivatives: bool = False) -> Jacobians:
     """Jacobian at one configuration."""
     return jacobians(machine, chain, q[None], reference=kind[0], representation=kind[1], derivatives=derivatives)
 
@@ -117,7 +117,7 @@ def test_time_variation_is_the_derivative_along_the_motion(ends: Ends, kind: Kin
         assert np.abs(J_dot - expected).max() < 1e-7
 
 
-def regular(machine: Robot, chain: Chain, kind: Kind, count: int = 3) -> Array:
+def regular(machine: RobotModel, chain: Chain, kind: Kind, count: int = 3) -> Array:
     """Configurations around which the Euler angles of the kind are far from a singularity of theirs."""
     qs = samples(chain, 60, seed=5)
     Rs = jacobians(machine, chain, qs).poses.rotations
@@ -336,7 +336,7 @@ def test_no_joint(kind: Kind) -> None:
 
 
 def test_a_robot_without_joints() -> None:
-    stone = Robot(read_urdf('<robot name="stone"><link name="base"/></robot>'))
+    stone = RobotModel(read_urdf('<robot name="stone"><link name="base"/></robot>'))
     answer = jacobians(stone, stone.chain(None, None), np.empty((2, 0)), derivatives=True)
     assert answer.values.shape == (2, 6, 0)
     assert answer.certificate.samples == 0

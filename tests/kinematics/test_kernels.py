@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gelenk.kinematics.kernels import chain_jacobians, chain_measures, chain_poses
+from gelenk.kinematics.simd.kernels import chain_jacobians, chain_measures, chain_poses
 from tests.oracles import catalogue
 from tests.robots import robot
 

@@ -8,10 +8,10 @@ import numba
 import numpy as np
 import pytest
 
-from gelenk.kinematics import kernels
-from gelenk.kinematics.ik import kernels as ik_kernels
-from gelenk.kinematics.kernels import cosine_sine
-from gelenk.kinematics.lanes import (
+from gelenk.ik.search import kernels as ik_kernels
+from gelenk.kinematics.simd import kernels
+from gelenk.kinematics.simd.kernels import cosine_sine
+from gelenk.kinematics.simd.lanes import (
     LANES,
     abs_lanes,
     bits,
@@ -25,9 +25,9 @@ from gelenk.kinematics.lanes import (
     store,
     where,
 )
-from gelenk.kinematics.warm import warm_up
-from gelenk.model.arrays import Array
-from gelenk.model.compilation import _OPTIONS, inlined, unmanaged
+from gelenk.kinematics.warm_up import warm_up
+from gelenk.robot.arrays import Array
+from gelenk.robot.compilation import _OPTIONS, inlined, unmanaged
 
 EXPRESSIONS: dict[str, tuple[Any, Any]] = {
     "sum": (lambda a, b: a + b, lambda a, b: a + b),

@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-from gelenk.kinematics import manipulability as module
-from gelenk.kinematics.kernels import chain_jacobians, chain_measures
-from gelenk.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
-from gelenk.kinematics.manipulability import (
+from gelenk.errors import CertificationFailed, InvalidField, TooLarge
+from gelenk.kinematics.ellipsoids import manipulability as module
+from gelenk.kinematics.ellipsoids.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
+from gelenk.kinematics.ellipsoids.manipulability import (
     Ellipsoids,
     Manipulability,
     Part,
@@ -20,10 +20,10 @@ from gelenk.kinematics.manipulability import (
     space_of,
     transmission_ratios,
 )
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge
-from gelenk.model.robot import Robot
+from gelenk.kinematics.simd.kernels import chain_jacobians, chain_measures
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 from tests.oracles import catalogue
 from tests.oracles.differences import derivatives, plain
 from tests.robots import of_table, robot, rows, samples, swept
@@ -33,16 +33,16 @@ X = np.array([[1.0, 0.0, 0.0]])
 every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
-def arm(*lengths: float) -> Robot:
+def arm(*lengths: float) -> RobotModel:
     """A planar arm of revolute joints."""
     return of_table(rows("standard", [(length, 0.0, 0.0, 0.0) for length in lengths], "R" * len(lengths)))
 
 
-def at(machine: Robot, q: list[float] | Array, **options: Any) -> Manipulability:
+def at(machine: RobotModel, q: list[float] | Array, **options: Any) -> Manipulability:
     return manipulability(machine, machine.chain(None, None), np.array([q], dtype=float), **options)
 
 
-def translation(machine: Robot, q: list[float] | Array, **options: Any) -> Ellipsoids:
+def translation(machine: RobotModel, q: list[float] | Array, **options: Any) -> Ellipsoids:
     return at(machine, q, **options).parts["translation"]
 
 
@@ -278,7 +278,7 @@ def test_rows_of_a_task() -> None:
 # Every robot
 
 
-def jacobians_of(name: str, count: int) -> tuple[Robot, Chain, Array, Array]:
+def jacobians_of(name: str, count: int) -> tuple[RobotModel, Chain, Array, Array]:
     machine = robot(name)
     chain = machine.chain(None, None)
     qs = samples(chain, count, seed=4)

@@ -9,20 +9,20 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize
 
-from gelenk.kinematics.certify_singularity import certify_reports
-from gelenk.kinematics.ik.task import Task
-from gelenk.kinematics.ik.words import Direction
-from gelenk.kinematics.jacobian import Reference, jacobians
-from gelenk.kinematics.kernels import chain_jacobians
-from gelenk.kinematics.singularity import SingularityReport, singularity_report
-from gelenk.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
-from gelenk.kinematics.singularity_path import Place, places_along
-from gelenk.kinematics.task_space import FULL_SPACE, TaskSpace, structure
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed
-from tests.kinematics.ik.arm_classes import Arm, seven
-from tests.kinematics.ik.arms import DECOUPLED, PUMA, UR5, limited, poses, table_arm
+from gelenk.errors import CertificationFailed
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import Direction
+from gelenk.kinematics.simd.kernels import chain_jacobians
+from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity.judge import certify_reports
+from gelenk.kinematics.singularity.path import PathMinimum, places_along
+from gelenk.kinematics.singularity.report import SingularityReport, singularity_report
+from gelenk.kinematics.velocity.jacobian import Reference, jacobians
+from gelenk.kinematics.velocity.task_space import FULL_SPACE, TaskSpace, structure
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from tests.ik.arm_classes import Arm, seven
+from tests.ik.arms import DECOUPLED, PUMA, UR5, limited, poses, table_arm
 from tests.oracles import catalogue, dh_columns
 from tests.oracles.differences import aligned, derivatives, plain
 from tests.robots import robot, samples, swept
@@ -644,7 +644,7 @@ def test_nothing_is_found_where_there_is_nothing() -> None:
     assert nearest(kept, np.array([0.3, 1.0]), PLANE, respect_limits=True) is None
 
 
-def places(chain: Chain, path: list[list[float]], space: TaskSpace, threshold: float = 0.01) -> tuple[Place, ...]:
+def places(chain: Chain, path: list[list[float]], space: TaskSpace, threshold: float = 0.01) -> tuple[PathMinimum, ...]:
     return places_along(chain, np.array(path, dtype=float), space, 1e-10, threshold)
 
 

@@ -7,16 +7,16 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-import gelenk.kinematics.statics as module
-from gelenk.kinematics.bodies import Load
-from gelenk.kinematics.mechanism import mechanism
-from gelenk.kinematics.statics import Statics, balance, certify_statics, components, overloaded_joints, statics
-from gelenk.kinematics.wrenches import WrenchFrame
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed, InvalidField, UnknownFrame
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf, write_urdf
+import gelenk.kinematics.force.statics as module
+from gelenk.errors import CertificationFailed, InvalidField, UnknownFrame
+from gelenk.kinematics.dynamics.bodies import Load
+from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.force.statics import Statics, balance, certify_statics, components, overloaded_joints, statics
+from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf, write_urdf
 from tests.oracles import catalogue
 from tests.oracles.differences import aligned, along
 from tests.oracles.urdf_energy import UrdfEnergy
@@ -37,16 +37,16 @@ every_chain = pytest.mark.parametrize("ends", CHAINS.values(), ids=CHAINS)
 every_robot = pytest.mark.parametrize("name", swept(catalogue.NAMES))
 
 
-def chain_of(ends: Ends) -> tuple[Robot, Chain]:
+def chain_of(ends: Ends) -> tuple[RobotModel, Chain]:
     machine = robot(ends[0])
     return machine, machine.chain(ends[1], ends[2])
 
 
-def text_of(machine: Robot, name: str) -> str:
+def text_of(machine: RobotModel, name: str) -> str:
     return catalogue.urdf_text(name) if name in catalogue.URDFS else write_urdf(machine.description)
 
 
-def poses_by_text(machine: Robot, chain: Chain, name: str) -> Callable[[str], Callable[[Array], Array]]:
+def poses_by_text(machine: RobotModel, chain: Chain, name: str) -> Callable[[str], Callable[[Array], Array]]:
     """T_base_frame as a function of configurations, from the text of the description."""
     product = UrdfProduct(text_of(machine, name))
     return lambda frame: lambda qs: product.poses(chain.base_frame, frame, by_name(chain, qs))
@@ -220,7 +220,7 @@ def test_links_without_mass_are_named() -> None:
     <joint name="c" type="continuous"><parent link="flange"/><child link="lower"/></joint>
     <joint name="d" type="fixed"><parent link="lower"/><child link="tool0"/></joint>
     <joint name="e" type="fixed"><parent link="lower"/><child link="cover"/></joint></robot>"""
-    arm = Robot(read_urdf(text))
+    arm = RobotModel(read_urdf(text))
     assert mechanism(arm, arm.chain("base", "tool0")).without_mass == ("upper", "flange", "cover")
     assert mechanism(robot("panda"), robot("panda").chain(None, None)).without_mass == ()
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gelenk.kinematics.subspaces import subspaces
+from gelenk.kinematics.velocity.subspaces import subspaces
 
 
 @pytest.mark.parametrize(("m", "n", "rank"), [(6, 7, 6), (6, 7, 4), (6, 3, 3), (2, 2, 1), (3, 3, 0), (6, 0, 0)])

@@ -4,14 +4,14 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from gelenk.kinematics import certify_motion as judge
-from gelenk.kinematics.jacobian import Reference, jacobians
-from gelenk.kinematics.velocity import TipMotion, jacobian_derivatives, tip_motion
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
+from gelenk.errors import CertificationFailed
+from gelenk.kinematics.velocity import judge
+from gelenk.kinematics.velocity.jacobian import Reference, jacobians
+from gelenk.kinematics.velocity.velocity import TipMotion, jacobian_derivatives, tip_motion
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
 from tests.kinematics.test_jacobian import CHAINS, Ends, chain_of, independent_poses
 from tests.oracles import catalogue
 from tests.oracles.differences import aligned, derivatives
@@ -29,7 +29,7 @@ def random_rates(chain: Chain, orders: int = 4, count: int = 1, seed: int = 4) -
 
 
 def one(
-    machine: Robot, q: list[float], rates: list[list[float]], reference: Reference = "local_world_aligned"
+    machine: RobotModel, q: list[float], rates: list[list[float]], reference: Reference = "local_world_aligned"
 ) -> Array:
     """Derivatives of the tip's motion at one configuration; shape (K, 6)."""
     chain = machine.chain(None, None)
@@ -103,7 +103,9 @@ def test_twists_and_both_accelerations_are_pinocchios(name: str) -> None:
             np.testing.assert_allclose(found.spatial_accelerations[row], expected[2], atol=1e-11)
 
 
-def pinocchio_motion(machine: Robot, chain: Chain, q: Array, rates: Array, frame: pin.ReferenceFrame) -> list[Array]:
+def pinocchio_motion(
+    machine: RobotModel, chain: Chain, q: Array, rates: Array, frame: pin.ReferenceFrame
+) -> list[Array]:
     """Twist, classical and spatial acceleration of the tip in the world."""
     expansion, model, data = machine.expansion(chain), machine.model, machine.model.createData()
     pin.forwardKinematics(model, data, expansion.offset + expansion.matrix @ q, *(rates @ expansion.matrix.T))
@@ -240,7 +242,7 @@ def test_no_configuration_and_no_joint() -> None:
     fixed = machine.chain("panda_hand", "panda_hand")
     still = tip_motion(machine, fixed, np.empty((2, 0)), np.empty((4, 2, 0)))
     assert all(not derivative.any() and derivative.shape == (2, 6) for derivative in still.derivatives)
-    stone = Robot(read_urdf('<robot name="stone"><link name="base"/></robot>'))
+    stone = RobotModel(read_urdf('<robot name="stone"><link name="base"/></robot>'))
     assert tip_motion(stone, stone.chain(None, None), np.empty((1, 0)), np.empty((1, 1, 0))).certificate.samples == 0
 
 

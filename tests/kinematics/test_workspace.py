@@ -9,28 +9,36 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gelenk.kinematics import survey as survey_module
-from gelenk.kinematics import voxels as voxels_module
-from gelenk.kinematics.dexterity import Over, Spread, excluded, orientations, rotation_spiral, shares, sphere_spiral
-from gelenk.kinematics.sampling import Ranges, Sampling, joint_ranges
-from gelenk.kinematics.survey import Survey, Workspace
-from gelenk.kinematics.tip_motion import plane_axes
-from gelenk.kinematics.voxels import NO_VOXELS, Grid, merged, voxel_table
-from gelenk.kinematics.workspace import PART, Plan, Plane, Wish, plan, sampled
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.convert import describe_dh
-from gelenk.model.dh import DhJoint, DhTable
-from gelenk.model.errors import CertificationFailed, InvalidField, TooLarge
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
+from gelenk.dh.tables.convert import describe_dh
+from gelenk.errors import CertificationFailed, InvalidField, TooLarge
+from gelenk.kinematics.workspace import survey as survey_module
+from gelenk.kinematics.workspace import voxels as voxels_module
+from gelenk.kinematics.workspace.dexterity import (
+    Over,
+    Spread,
+    excluded,
+    orientations,
+    rotation_spiral,
+    shares,
+    sphere_spiral,
+)
+from gelenk.kinematics.workspace.sampling import Ranges, Sampling, joint_ranges
+from gelenk.kinematics.workspace.survey import Survey, Workspace
+from gelenk.kinematics.workspace.tip_motion import plane_axes
+from gelenk.kinematics.workspace.voxels import NO_VOXELS, Grid, merged, voxel_table
+from gelenk.kinematics.workspace.workspace import PART, Plane, SamplingPlan, Wish, plan, sampled
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.dh import DhJoint, DhTable
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
 from tests.kinematics.test_jacobian import independent_poses
 from tests.oracles import catalogue, wrist_shell
 from tests.oracles.differences import aligned, derivatives
 from tests.robots import reread, robot, rows, swept
 
 
-def surveyed(machine: Robot, chain: Chain, wish: Wish) -> tuple[Plan, Workspace]:
+def surveyed(machine: RobotModel, chain: Chain, wish: Wish) -> tuple[SamplingPlan, Workspace]:
     """All parts of a workspace, one after the other."""
     work, _ = plan(chain, wish)
     survey = Survey(work)
@@ -39,13 +47,13 @@ def surveyed(machine: Robot, chain: Chain, wish: Wish) -> tuple[Plan, Workspace]
     return work, survey.result(machine, chain)
 
 
-def planar(lengths: list[float], base: Array | None = None) -> Robot:
+def planar(lengths: list[float], base: Array | None = None) -> RobotModel:
     """A planar arm."""
     table = rows("standard", [(length, 0.0, 0.0, 0.0) for length in lengths], "R" * len(lengths))
-    return Robot(reread(describe_dh("arm", table if base is None else replace(table, base=base))))
+    return RobotModel(reread(describe_dh("arm", table if base is None else replace(table, base=base))))
 
 
-def whole(machine: Robot, **wish: object) -> tuple[Plan, Workspace]:
+def whole(machine: RobotModel, **wish: object) -> tuple[SamplingPlan, Workspace]:
     return surveyed(machine, machine.chain(None, None), Wish(**wish))  # type: ignore[arg-type]
 
 
@@ -107,7 +115,7 @@ def test_the_volume_of_a_ball_with_a_hole() -> None:
     slide = DhJoint("slide", "prismatic", 0.0, 0.0, 0.0, 0.0, 0.4, 1.0)
     turns = [DhJoint(name, "revolute", 0.0, alpha, 0.0, 0.0) for name, alpha in (("a", -math.pi / 2), ("b", 0.0))]
     lift = DhJoint("b", "revolute", 0.0, math.pi / 2, 0.0, 0.0)
-    machine = Robot(reread(describe_dh("ball", DhTable("standard", (turns[0], lift, slide)))))
+    machine = RobotModel(reread(describe_dh("ball", DhTable("standard", (turns[0], lift, slide)))))
     work, found = whole(machine, kind="grid", samples=400_000, voxel_size=0.08)
     exact, cell = 4.0 / 3.0 * math.pi * (1.0 - 0.4**3), 0.08**3
     assert found.inner * cell < exact < len(found.voxels) * cell
@@ -121,23 +129,23 @@ def test_the_volume_of_a_ball_with_a_hole() -> None:
     assert (radii < 1.0 + diagonal).all()
 
 
-def scara(lengths: tuple[float, float], stroke: float) -> Robot:
+def scara(lengths: tuple[float, float], stroke: float) -> RobotModel:
     turns = [
         DhJoint(name, "revolute", a, alpha, 0.0, 0.0)
         for name, a, alpha in zip("ab", lengths, (0.0, math.pi), strict=True)
     ]
     slide = DhJoint("slide", "prismatic", 0.0, 0.0, 0.0, 0.0, 0.05, 0.05 + stroke)
-    return Robot(
+    return RobotModel(
         reread(describe_dh("scara", DhTable("standard", (*turns, slide, DhJoint("c", "revolute", 0.0, 0.0, 0.0, 0.0)))))
     )
 
 
-def ball_arm(lengths: tuple[float, float], hand: float) -> Robot:
+def ball_arm(lengths: tuple[float, float], hand: float) -> RobotModel:
     """Shoulder and elbow, and a wrist whose three axes meet a hand's length before the tip."""
     half = math.pi / 2
     rows_ = [(0.0, half, 0.0, 0.0), (lengths[0], 0.0, 0.0, 0.0), (0.0, half, 0.0, half), (0.0, -half, lengths[1], 0.0)]
     table = rows("standard", [*rows_, (0.0, half, 0.0, 0.0), (0.0, 0.0, hand, 0.0)], "RRRRRR")
-    return Robot(reread(describe_dh("arm", table)))
+    return RobotModel(reread(describe_dh("arm", table)))
 
 
 def disc(near: float, far: float) -> float:
@@ -167,7 +175,7 @@ EXACT = [
 @pytest.mark.parametrize(("machine", "exact"), EXACT, ids=range(len(EXACT)))
 @pytest.mark.parametrize("samples", [20_000, 300, 100_000])
 @pytest.mark.parametrize("sequence", ["random", "low_discrepancy"])
-def test_the_exact_volume_is_between_its_bounds(machine: Robot, exact: float, samples: int, sequence: str) -> None:
+def test_the_exact_volume_is_between_its_bounds(machine: RobotModel, exact: float, samples: int, sequence: str) -> None:
     """Also where the samples are far too few for the voxels."""
     for voxel_size in (None, 0.02, 0.05, 0.1, 0.2):
         _, found = whole(machine, kind="grid", samples=samples, voxel_size=voxel_size, sequence=sequence)
@@ -187,10 +195,10 @@ def test_a_few_samples_bound_nothing() -> None:
     "machine", [planar([1.0, 0.7]), scara((0.3, 0.2), 0.1), robot("panda")], ids=["2R", "SCARA", "7R"]
 )
 @pytest.mark.parametrize("kind", ["grid", "dexterity"])
-def test_a_voxel_larger_than_the_arm_is_refused(machine: Robot, kind: str) -> None:
+def test_a_voxel_larger_than_the_arm_is_refused(machine: RobotModel, kind: str) -> None:
     reach = plan(machine.chain(None, None), Wish())[0].extent
     whole(machine, kind=kind, samples=100, voxel_size=reach)
-    with pytest.raises(InvalidField, match=rf"larger than the arm: at most {reach:.3g} m") as refused:
+    with pytest.raises(InvalidField, match=rf"larger than the arm: use at most {reach:.3g} m") as refused:
         whole(machine, kind=kind, samples=100, voxel_size=1.01 * reach)
     assert refused.value.field == "voxel_size"
 
@@ -248,7 +256,7 @@ def test_arms_of_any_size(scale: float) -> None:
 def test_thirty_two_joints() -> None:
     generator = np.random.default_rng(5)
     table = rows("standard", generator.uniform(-1.0, 1.0, (32, 4)).tolist(), "RRRP" * 8)
-    machine = Robot(reread(describe_dh("snake", table)))
+    machine = RobotModel(reread(describe_dh("snake", table)))
     work, found = whole(machine, samples=2000)
     assert found.count == 2000
     assert found.measures is not None
@@ -303,7 +311,7 @@ def test_a_slice_without_an_area_says_so(name: str, normal: list[float], what: s
     plane = Plane(np.zeros(3), np.array(normal), 0.05)
     notes = [note for note in whole(robot(name), samples=500, plane=plane)[0].notes if "slice" in note]
     assert len(notes) == (what is not None)
-    assert what is None or f"in {what} only" in notes[0]
+    assert what is None or f"only in {what}" in notes[0]
 
 
 def test_a_slice_holds_what_of_the_cloud_lies_in_it() -> None:
@@ -390,7 +398,7 @@ def test_a_sliding_joint_without_a_limit_is_moved_by_a_metre(
     urdf = f"""<robot name="r"><link name="a"/><link name="b"/><joint name="slide" type="prismatic"><parent link="a"/>
     <child link="b"/><axis xyz="1 0 0"/><limit lower="{limits[0]}" upper="{limits[1]}" effort="1" velocity="1"/></joint>
     </robot>"""
-    chain = Robot(read_urdf(urdf)).chain(None, None)
+    chain = RobotModel(read_urdf(urdf)).chain(None, None)
     ranges = joint_ranges(chain, {})
     assert (ranges.lower[0], ranges.upper[0]) == expected
     assert len(ranges.notes) == (limits != expected)
@@ -464,7 +472,7 @@ def test_a_sample_that_is_not_the_robots_is_never_sent() -> None:
 # Dexterity
 
 
-def dexterous(machine: Robot, over: Over, count: int, **wish: object) -> tuple[Array, Array, Array]:
+def dexterous(machine: RobotModel, over: Over, count: int, **wish: object) -> tuple[Array, Array, Array]:
     """Centres of voxels, the share of orientations at each, and the orientations; shapes (M, 3), (M,), (K, 3, 3)."""
     chain = machine.chain(None, None)
     work, found = surveyed(machine, chain, Wish(kind="dexterity", **wish))  # type: ignore[arg-type]
@@ -494,10 +502,10 @@ def test_the_share_of_orientations_of_an_arm_with_a_wrist(over: Over) -> None:
     assert found == pytest.approx(expected, abs=1e-9)
 
 
-def generic(types: str) -> Robot:
+def generic(types: str) -> RobotModel:
     """An arm without a special geometry."""
     numbers = np.random.default_rng(len(types)).uniform(0.2, 1.2, (len(types), 4))
-    return Robot(reread(describe_dh("arm", rows("standard", [tuple(row) for row in numbers.tolist()], types))))
+    return RobotModel(reread(describe_dh("arm", rows("standard", [tuple(row) for row in numbers.tolist()], types))))
 
 
 @pytest.mark.parametrize(
@@ -506,7 +514,7 @@ def generic(types: str) -> Robot:
         (
             lambda: planar([1.0, 0.7]),
             "turns",
-            "3 independent velocities of the tip are needed for that, 2 to move it and 1 to",
+            "3 independent velocities of the tip are needed, 2 to move it and 1 to",
         ),
         (lambda: planar([1.0, 0.7, 0.3]), "turns", None),
         (lambda: scara((0.3, 0.2), 0.1), "turns", None),
@@ -516,7 +524,7 @@ def generic(types: str) -> Robot:
         (
             lambda: generic("RPRRR"),
             "rotations",
-            "`approach_directions` asks for the tip's z axis alone, for which they suffice",
+            "`approach_directions` needs only the tip's z axis, for which the chain has enough",
         ),
         (lambda: generic("RPRRR"), "approach_directions", None),
         (lambda: generic("RRRR"), "approach_directions", "5 independent velocities"),
@@ -527,7 +535,9 @@ def generic(types: str) -> Robot:
         (lambda: robot("panda"), "rotations", None),
     ],
 )
-def test_what_excludes_dexterity_is_told(machine: Callable[[], Robot], spread: Spread, missing: str | None) -> None:
+def test_what_excludes_dexterity_is_told(
+    machine: Callable[[], RobotModel], spread: Spread, missing: str | None
+) -> None:
     motion = plan(machine().chain(None, None), Wish())[1]
     reason = excluded(motion, motion.dimensions, spread)
     assert (reason is None) == (missing is None)
@@ -567,6 +577,6 @@ def test_a_scara_is_asked_for_turns_and_a_slide_for_its_one_orientation() -> Non
         chain = robot(name).chain(None, None)
         asked = orientations(chain, plan(chain, Wish(samples=1))[1], "rotations", 8)
         assert (asked.spread, len(asked.rotations)) == (spread, count)
-    chain = Robot(reread(describe_dh("slide", rows("standard", [(0.0, 0.3, 0.0, 0.0)], "P")))).chain(None, None)
+    chain = RobotModel(reread(describe_dh("slide", rows("standard", [(0.0, 0.3, 0.0, 0.0)], "P")))).chain(None, None)
     asked = orientations(chain, plan(chain, Wish(samples=1))[1], "rotations", 8)
     assert (asked.spread, len(asked.rotations)) == ("fixed", 1)

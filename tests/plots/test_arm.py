@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gelenk.kinematics.kernels import chain_poses
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.plots.arm import arm_line
 from tests.oracles import catalogue, dh_columns
 from tests.robots import robot, samples, swept

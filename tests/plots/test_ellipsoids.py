@@ -14,13 +14,13 @@ from matplotlib.image import imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Ellipse, Polygon
 
-from gelenk.kinematics.ik.words import DIRECTIONS, Direction
-from gelenk.kinematics.limited_motion import JointBounds, limited_motion
-from gelenk.kinematics.manipulability import manipulability
-from gelenk.model.arrays import Array
+from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.ellipsoids.limited_motion import JointBounds, limited_motion
+from gelenk.kinematics.ellipsoids.manipulability import manipulability
 from gelenk.plots import ellipsoids as module
-from gelenk.plots.ellipsoids import NOTHING_MORE, Asked, manipulability_picture
+from gelenk.plots.ellipsoids import NOTHING_MORE, Overlay, manipulability_picture
 from gelenk.plots.figure import FORCE, LINK, VELOCITY, PictureFormat
+from gelenk.robot.arrays import Array
 from tests.oracles import catalogue
 from tests.robots import robot, samples, swept
 
@@ -35,7 +35,7 @@ def picture(
     base: str | None = None,
     tip: str | None = None,
     task: Sequence[Direction] = DIRECTIONS,
-    asked: Asked = NOTHING_MORE,
+    asked: Overlay = NOTHING_MORE,
 ) -> bytes:
     machine = robot(name)
     chain = machine.chain(base, tip)
@@ -191,7 +191,7 @@ def test_the_configuration_is_told(figures: list[Figure], name: str, q: list[flo
 def test_directions_are_arrows_with_their_ratios(figures: list[Figure]) -> None:
     """A dot stands where the ray leaves each ellipse: 1/√(uᵀ(JJᵀ)⁻¹u) and 1/√(uᵀJJᵀu), to scale."""
     u = np.array([np.cos(0.4), np.sin(0.4), 0.0])
-    picture("planar_2r", np.array([0.3, 0.8]), asked=Asked(u[None], 1e-10, None))
+    picture("planar_2r", np.array([0.3, 0.8]), asked=Overlay(u[None], 1e-10, None))
     J = np.array([[-0.919365358704, -0.623845152043], [1.272853774124, 0.317517284998]])
     velocity, force = 1 / np.sqrt(u[:2] @ np.linalg.inv(J @ J.T) @ u[:2]), 1 / np.linalg.norm(J.T @ u[:2])
     assert f"v {velocity:.4g}, F {force:.4g}" in words_of(figures[0])
@@ -207,7 +207,7 @@ def test_polytopes_of_a_planar_arm_are_outlined(figures: list[Figure]) -> None:
     result = manipulability(machine, machine.chain(None, None), q[None])
     bounds = JointBounds(np.array([1.0, 2.0]), np.array([10.0, 5.0]))
     (limited,) = limited_motion(result.parts["translation"], result.Js, bounds, np.eye(3))
-    picture("planar_2r", q, asked=Asked(np.zeros((0, 3)), 1e-10, limited))
+    picture("planar_2r", q, asked=Overlay(np.zeros((0, 3)), 1e-10, limited))
     J, tip = result.Js[0, :2], np.array([1.272853774124, 0.919365358704])
     polygons = [patch for patch in figures[0].axes[0].patches if isinstance(patch, Polygon)]
     velocities, forces = (np.asarray(patch.get_xy())[:4] - tip for patch in polygons)
@@ -219,7 +219,7 @@ def test_polytopes_of_a_planar_arm_are_outlined(figures: list[Figure]) -> None:
     assert "Velocity polytope" in words_of(figures[0])
     unlimited = JointBounds(np.full(2, np.nan), np.full(2, np.nan))
     (limited,) = limited_motion(result.parts["translation"], result.Js, unlimited, np.eye(3))
-    picture("planar_2r", q, asked=Asked(np.zeros((0, 3)), 1e-10, limited))
+    picture("planar_2r", q, asked=Overlay(np.zeros((0, 3)), 1e-10, limited))
     assert "not every joint has a velocity limit" in words_of(figures[1])
 
 

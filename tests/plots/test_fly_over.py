@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gelenk.model.arrays import Array
+from gelenk.course.motion.blended_motion import rest_to_rest
+from gelenk.course.motion.fly_over import Blend, blended, corner_of
 from gelenk.plots import fly_over as module
 from gelenk.plots.figure import PictureFormat
 from gelenk.plots.fly_over import fly_over_picture
-from gelenk.trajectory.blended_motion import rest_to_rest
-from gelenk.trajectory.fly_over import Blend, blended, corner_of
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 FLAT = [np.array(point, dtype=float) for point in ((3, 3), (1, 9), (8, 9))]
 IN_SPACE = [np.array(point, dtype=float) for point in ((3, 3, 0), (1, 9, 1), (8, 9, 4))]

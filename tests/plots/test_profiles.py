@@ -4,19 +4,19 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gelenk.model.arrays import Array
 from gelenk.plots import profiles as module
 from gelenk.plots.figure import QUIET, PictureFormat
-from gelenk.plots.profiles import Lines, Span, curve, profiles_picture
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.splines import cubic_spline
-from gelenk.trajectory.trapezoid import Task, point_to_point
+from gelenk.plots.profiles import ProfileLines, Span, curve, profiles_picture
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.trapezoid import JointMove, point_to_point
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import cubic_spline
 
 UNITS = ("rad", "rad/s", "rad/s²", "rad/s³")
 
 
-def lines(joints: int, limits: tuple[Array | None, ...] = (None, None, None)) -> Lines:
-    return Lines([f"joint {j}" for j in range(joints)], UNITS, limits)
+def lines(joints: int, limits: tuple[Array | None, ...] = (None, None, None)) -> ProfileLines:
+    return ProfileLines([f"joint {j}" for j in range(joints)], UNITS, limits)
 
 
 @pytest.fixture
@@ -33,7 +33,7 @@ def figures(monkeypatch: pytest.MonkeyPatch) -> list[Figure]:
 
 
 def trapezoid() -> PiecewisePolynomial:
-    tasks = [Task(-1.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.0, 0.0, 0.8, 0.5)]
+    tasks = [JointMove(-1.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.0, 0.0, 0.8, 0.5)]
     return point_to_point(np.zeros(2), tasks).motion
 
 
@@ -94,7 +94,7 @@ def test_parts_are_marked_and_have_their_own_limits(figures: list[Figure]) -> No
     motion = trapezoid()
     wide, narrow = [np.array([0.5, 0.8])] * 3, [np.array([0.4, 0.4])] * 3
     spans = [Span("0 joint", 0.0, 1.0, wide), Span("1 line", 1.0, float(motion.breaks[-1]), narrow)]
-    profiles_picture("A motion", motion, Lines(["a", "b"], UNITS, (None, None, None), spans=spans), "svg")
+    profiles_picture("A motion", motion, ProfileLines(["a", "b"], UNITS, (None, None, None), spans=spans), "svg")
     panels = figures[0].axes
     assert [text.get_text() for text in panels[0].texts] == ["0 joint", "1 line"]
     assert all(any(np.all(np.asarray(line.get_xdata()) == 1.0) for line in axes.lines) for axes in panels)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gelenk.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS
-from gelenk.model.arrays import Array
+from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS
 from gelenk.plots.workspace import Picture, elements, picture_bytes
+from gelenk.robot.arrays import Array
 
 DEXTERITY = (*VOXEL_COLUMNS, "dexterity")
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from gelenk.model.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
+from gelenk.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
 from gelenk.pool.pool import WorkerPool
 from gelenk.pool.wire import PIECE
 from gelenk.processes import copies

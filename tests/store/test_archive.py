@@ -12,9 +12,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gelenk.model.errors import InvalidArchive, KinematicsError, TooLarge
+from gelenk.errors import InvalidArchive, KinematicsError, TooLarge
 from gelenk.store.archive import MAX_FOLDERS, unpacked
-from gelenk.store.folders import Stretch, pieces
+from gelenk.store.folders import FileRange, pieces
 from gelenk.store.library import Library, RobotUpload
 
 CATALOGUE = Path("robots")
@@ -143,7 +143,7 @@ def test_other_uploads_go_on_while_one_is_written(tmp_path: Path, replaces: bool
     slow = Slow(lambda: within(20, lambda: other.add(RobotUpload(next(names), "urdf", urdf()))))
     if replaces:
         library.add(RobotUpload("slow", "urdf", urdf()))
-    upload = RobotUpload("slow", "urdf", urdf("m.stl"), meshes={"m.stl": Stretch(slow, 0, 5)})
+    upload = RobotUpload("slow", "urdf", urdf("m.stl"), meshes={"m.stl": FileRange(slow, 0, 5)})
     (library.replace if replaces else library.add)(upload)
     assert slow.went_on[-1]
     assert library.mesh("slow", "m.stl").read_bytes() == b"solid"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from gelenk.model.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, StorageFailed, UnknownRobot
+from gelenk.errors import InvalidName, InvalidUrdf, ReadOnlyRobot, RobotExists, StorageFailed, UnknownRobot
 from gelenk.store import folders
 from gelenk.store.library import Library, RobotUpload
 

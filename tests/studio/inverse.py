@@ -4,8 +4,8 @@ import json
 from typing import Any
 
 from gelenk.contract.pose import Pose
-from gelenk.model.poses import Poses
 from gelenk.operations.pose_arrays import poses_from
+from gelenk.robot.poses import Poses
 from tests.studio.browser import Studio
 from tests.test_serve import get
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gelenk.kinematics.certify import certify_poses
-from gelenk.model.poses import Poses
+from gelenk.kinematics.judge.judge import certify_poses
+from gelenk.robot.poses import Poses
 from tests.oracles import catalogue
 from tests.robots import by_name, robot, samples, swept
 from tests.studio.browser import Studio

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Request
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.oracles import catalogue
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 from tests.studio.browser import Studio
 from tests.studio.tables import ANTHROPOMORPHIC, keep, type_table
 from tests.test_serve import get

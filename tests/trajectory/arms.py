@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import MotionLimits, Segment
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.words import Law
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import Boundary
+from gelenk.trajectory.problem.problem import Segment, SegmentLimits
 from tests.robots import robot
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")
@@ -27,11 +27,11 @@ class Arm:
     lower: Array
     upper: Array
 
-    def limits(self, rng: np.random.Generator) -> MotionLimits:
+    def limits(self, rng: np.random.Generator) -> SegmentLimits:
         """Its velocities, and accelerations and jerks that go with them."""
         n = len(self.chain)
         acceleration = self.velocity * 10.0 ** rng.uniform(0.0, 1.0, n)
-        return MotionLimits(self.velocity, acceleration, acceleration * 10.0 ** rng.uniform(0.5, 1.7, n))
+        return SegmentLimits(self.velocity, acceleration, acceleration * 10.0 ** rng.uniform(0.5, 1.7, n))
 
     def configurations(self, rng: np.random.Generator, count: int, share: float = 1.0) -> Array:
         """Anywhere within a share of the joints' ranges about their middles; shape (count, n)."""
@@ -46,8 +46,8 @@ def arm(name: str) -> Arm:
     return Arm(chain, velocity, np.maximum(chain.lower, -np.pi), np.minimum(chain.upper, np.pi))
 
 
-def limits(velocity: list[float], acceleration: list[float], jerk: float = 1e9) -> MotionLimits:
-    return MotionLimits(np.array(velocity), np.array(acceleration), np.full(len(velocity), jerk))
+def limits(velocity: list[float], acceleration: list[float], jerk: float = 1e9) -> SegmentLimits:
+    return SegmentLimits(np.array(velocity), np.array(acceleration), np.full(len(velocity), jerk))
 
 
 def free(joints: int, lower: float = -math.inf, upper: float = math.inf) -> Chain:
@@ -62,12 +62,12 @@ START = np.array([0.0, 0.5])
 WAYPOINTS = np.array([[0.6, 0.1], [0.2, -0.4], [1.0, 0.3]])
 
 
-def through(law: Law = "trapezoidal", bound: MotionLimits = SLOW, **kept: object) -> Segment:
+def through(law: Law = "trapezoidal", bound: SegmentLimits = SLOW, **kept: object) -> Segment:
     segment = Segment("spline", law, bound, configurations=WAYPOINTS)
     return replace(segment, **kept)  # type: ignore[arg-type]
 
 
-def excess(motion: PiecewisePolynomial, limits: MotionLimits, *, jerk: bool, per_piece: int = 40) -> float:
+def excess(motion: PiecewisePolynomial, limits: SegmentLimits, *, jerk: bool, per_piece: int = 40) -> float:
     """By how much limits are passed on a grid of each piece, in fractions of them, at most; negative where none is."""
     shares = np.linspace(0.0, 1.0, per_piece)
     lengths = np.diff(motion.breaks)

@@ -9,15 +9,15 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from gelenk.kinematics.kernels import chain_jacobians, chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import CertificationFailed
-from gelenk.model.poses import Poses
-from gelenk.trajectory.audit import Audit, audit
-from gelenk.trajectory.audit_demands import Demands, Ends, JointLimits, TipLimits
-from gelenk.trajectory.audit_pieces import extremes, pieces_of
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.errors import CertificationFailed
+from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.audit import Audit, audit
+from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, TipLimits
+from gelenk.trajectory.audit.pieces import extremes, pieces_of
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from tests.oracles.catalogue import NAMES
 from tests.robots import robot
 
@@ -387,7 +387,7 @@ def test_speeds_and_accelerations_of_the_tip_by_differences() -> None:
 
 def test_the_tip_s_acceleration_is_exact() -> None:
     """J q̈ + J̇ q̇ at the peak itself, J̇ by the Hessian."""
-    from gelenk.kinematics.kernels import chain_hessians
+    from gelenk.kinematics.simd.kernels import chain_hessians
 
     motion = some_motion(ARM, 5)
     peak = judged(motion).tip["acceleration"]
@@ -467,9 +467,9 @@ def test_pinocchio_has_a_say(monkeypatch: pytest.MonkeyPatch) -> None:
         qs, poses = poses_at(*args)  # type: ignore[arg-type]
         return qs, Poses(poses.positions + 1e-6, poses.rotations)
 
-    from gelenk.trajectory.audit_tip import poses_at
+    from gelenk.trajectory.audit.tip import poses_at
 
-    monkeypatch.setattr("gelenk.trajectory.audit.poses_at", wrong)
+    monkeypatch.setattr("gelenk.trajectory.audit.audit.poses_at", wrong)
     with pytest.raises(CertificationFailed):
         judged(motion)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.audit_peaks import MOST, highest, promising
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.peaks import MOST, highest, promising
 
 ROUNDING = np.full(1, 1e-13)
 

@@ -8,11 +8,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.blended_motion import BlendedMotion, leg_duration, rest_to_rest
-from gelenk.trajectory.fly_over import Blend, Corner, Given, blended, corner_of
-from gelenk.trajectory.fly_over_check import checked
+from gelenk.course.motion.blended_motion import BlendedMotion, leg_duration, rest_to_rest
+from gelenk.course.motion.fly_over import Blend, Corner, Given, blended, corner_of
+from gelenk.course.motion.fly_over_check import checked
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
 
 
 def corner(A: Any, B: Any, C: Any, v1: float, v2: float) -> Corner:
@@ -80,7 +80,7 @@ def test_a_leg_with_a_stop_is_the_trapezoid_of_the_lecture(
 
 
 def test_a_blend_that_is_longer_than_a_leg_is_refused_with_what_fits() -> None:
-    with pytest.raises(InvalidField, match=r"end 8 m after B, and BC is 7 m long; allowed is at most 7 s") as refused:
+    with pytest.raises(InvalidField, match=r"end 8 m after B, and BC is 7 m long; allowed: at most 7 s") as refused:
         blended(LECTURE, "blend_time", 8.0)
     assert refused.value.field == "blend_time"
     with pytest.raises(InvalidField, match=r"at most 3.5 m"):
@@ -90,7 +90,7 @@ def test_a_blend_that_is_longer_than_a_leg_is_refused_with_what_fits() -> None:
     with pytest.raises(InvalidField, match=r"at least 0.357569 m/s²"):
         blended(LECTURE, "max_acceleration", 0.3)
     short = corner((0, 0), (1, 0), (1, 5), 1.0, 1.0)
-    with pytest.raises(InvalidField, match=r"begin 1.5 m before B, and AB is 1 m long; allowed is at most 2 s"):
+    with pytest.raises(InvalidField, match=r"begin 1.5 m before B, and AB is 1 m long; allowed: at most 2 s"):
         blended(short, "blend_time", 3.0)
     with pytest.raises(InvalidField, match=r"at most 1 m"):
         blended(short, "radius", 1.1)
@@ -146,9 +146,9 @@ def test_from_rest_in_the_corner_and_to_rest_in_it() -> None:
     arriving = blended(corner((0, 0), (1, 0), (1, 2), 1.0, 0.0), "blend_time", 1.0)
     np.testing.assert_allclose(arriving.exit, [1.0, 0.0])
     assert (arriving.closest_time, arriving.closest_distance) == (1.0, 0.0)
-    with pytest.raises(InvalidField, match="0 whatever the blend"):
+    with pytest.raises(InvalidField, match="the speed on this leg is 0"):
         blended(leaving.corner, "distance_before", 0.5)
-    with pytest.raises(InvalidField, match="run through"):
+    with pytest.raises(InvalidField, match="covers all of"):
         rest_to_rest(leaving, 1.0)
 
 

@@ -10,28 +10,28 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.kinematics.ik.words import Direction
-from gelenk.kinematics.kernels import chain_hessians, chain_jacobians, chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField
-from gelenk.model.poses import Poses, transform
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
-from gelenk.trajectory import follow_trace
-from gelenk.trajectory.follow import JointWay, follow
-from gelenk.trajectory.paths import Path, PathSamples, Unit, circle, line, sequence
-from gelenk.trajectory.problem import Following
-from gelenk.trajectory.spline_paths import blended_lines, spline
-from gelenk.trajectory.splines import cubic_spline
+from gelenk.errors import InvalidField
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.search.words import Direction
+from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians, chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses, transform
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
+from gelenk.trajectory.follow import integrate as follow_trace
+from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.paths import Path, PathSamples, Unit, circle, line, sequence
+from gelenk.trajectory.paths.spline_paths import blended_lines, spline
+from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows, samples
 
 XY = Task(("x", "y"))
 SCARA = Task(("x", "y", "z", "rz"))
 
 
-def pinocchio_poses(arm: Robot, chain: Chain, qs: Array) -> Poses:
+def pinocchio_poses(arm: RobotModel, chain: Chain, qs: Array) -> Poses:
     """T_base_tip by Pinocchio alone."""
     expansion = arm.expansion(chain)
     base, tip = arm.frame_id(chain.base_frame), arm.frame_id(chain.tip_frame)
@@ -109,7 +109,7 @@ def random_path(kind: str, T: Array, rng: np.random.Generator, task: Task, size:
     return made[kind]()
 
 
-def inside(way: JointWay, count: int) -> Array:
+def inside(way: FollowedPath, count: int) -> Array:
     """Places on the way that are no knots."""
     return np.linspace(0.0, way.reached, count + 2)[1:-1] + 1e-9
 
@@ -388,7 +388,7 @@ def test_mimic_joints_move_along() -> None:
     <limit lower="-9" upper="9" effort="1" velocity="1"/><mimic joint="first" multiplier="2" offset="0.7"/></joint>
     <joint name="third" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="1 0 0"/>
     <limit lower="-2" upper="2" effort="1" velocity="1"/></joint></robot>"""
-    arm = Robot(read_urdf(text))
+    arm = RobotModel(read_urdf(text))
     chain = arm.chain("base", "c")
     assert chain.joint_names == ("first", "third")
     q = np.array([0.2, 0.4])

@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from gelenk.kinematics.ik.solve import Options, inverse_kinematics
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.kinematics.kernels import chain_jacobians
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.robot import Robot
-from gelenk.trajectory import follow as follow_module
-from gelenk.trajectory.follow import JointWay, follow
-from gelenk.trajectory.follow_course import Course
-from gelenk.trajectory.follow_trace import Trace, traced
-from gelenk.trajectory.paths import Path, line
-from gelenk.trajectory.problem import Following
-from gelenk.trajectory.words import NearSingularity
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.simd.kernels import chain_jacobians
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.words import NearSingularity
+from gelenk.trajectory.follow import follow as follow_module
+from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.follow.integrate import Trace, traced
+from gelenk.trajectory.follow.rate_field import Course
+from gelenk.trajectory.paths.paths import Path, line
+from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows
 from tests.trajectory.test_follow import XY, KnownWay, deviations, moved, pinocchio_poses, pose, starts
 
@@ -26,7 +26,7 @@ L1, L2 = 1.0, 0.7
 """Links of the catalogue's planar arm."""
 
 
-def planar() -> tuple[Robot, Chain]:
+def planar() -> tuple[RobotModel, Chain]:
     arm = robot("planar_2r")
     return arm, arm.chain(None, None)
 
@@ -62,7 +62,7 @@ def where_sigma_is(path: Path, sigma: float, low: float, high: float) -> float:
     )
 
 
-def go(path: Path, q: Array, near: NearSingularity = "stop", least: float = 0.01) -> JointWay:
+def go(path: Path, q: Array, near: NearSingularity = "stop", least: float = 0.01) -> FollowedPath:
     arm, chain = planar()
     return follow(arm, chain, path, q, Following(task=XY, near_singularity=near, min_singular_value=least))
 

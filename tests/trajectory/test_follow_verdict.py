@@ -7,17 +7,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gelenk.kinematics.ik.solve import Options, inverse_kinematics
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.robot import Robot
-from gelenk.trajectory.follow import JointWay, follow
-from gelenk.trajectory.follow_course import Course
-from gelenk.trajectory.follow_trace import traced
-from gelenk.trajectory.paths import Path, line
-from gelenk.trajectory.problem import Following
-from gelenk.trajectory.words import NearSingularity
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.words import NearSingularity
+from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.follow.integrate import traced
+from gelenk.trajectory.follow.rate_field import Course
+from gelenk.trajectory.paths.paths import Path, line
+from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows
 from tests.trajectory.test_follow import SCARA, XY, moved, pose, starts
 
@@ -43,19 +43,21 @@ BEYOND = re.compile(r"beyond (\S+)% of the path")
 
 
 @cache
-def arm_of(name: str) -> Robot:
+def arm_of(name: str) -> RobotModel:
     """An arm of the catalogue, or of a table."""
     if name != "iiwa":
         return robot(name)
     return of_table(rows("standard", [(0.0, angle, d, 0.0) for d, angle in IIWA], "R" * 7))
 
 
-def halted(name: str, count: int, near: NearSingularity = "stop") -> list[tuple[Robot, Chain, Path, Array, JointWay]]:
+def halted(
+    name: str, count: int, near: NearSingularity = "stop"
+) -> list[tuple[RobotModel, Chain, Path, Array, FollowedPath]]:
     """Random lines, from some within the arm's reach to far beyond it, that are not done to their ends."""
     arm, task = arm_of(name), ARMS[name]
     chain = arm.chain(None, None)
     rng = np.random.default_rng(5)
-    found: list[tuple[Robot, Chain, Path, Array, JointWay]] = []
+    found: list[tuple[RobotModel, Chain, Path, Array, FollowedPath]] = []
     for k, q in enumerate(starts(chain, task, count, seed=7, least=0.05)):
         T = pose(chain, q)
         shift = (0.2, 0.5, 2.0)[k % 3] * rng.normal(size=3) * ([1.0, 1.0, 0.0] if task == XY else 1.0)

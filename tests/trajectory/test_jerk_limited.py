@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import ruckig
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.jerk_limited import JerkLimits, JointState, Synchronization, at_rest, jerk_limited
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.jerk_limited import JerkLimits, JointState, Synchronization, at_rest, jerk_limited
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 
 def limits(*triples: tuple[float, float, float]) -> JerkLimits:

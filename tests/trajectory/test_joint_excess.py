@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gelenk.trajectory.joint_excess import first_limit_excess
-from gelenk.trajectory.joint_splines import longest_prefix, promised, spline_motion
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import Segment
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.words import Law
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.joints.excess import first_limit_excess
+from gelenk.trajectory.joints.splines import longest_prefix, promised, spline_motion
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import Boundary
+from gelenk.trajectory.problem.problem import Segment
 from tests.trajectory.arms import (
     BOUNDARIES,
     LAWS,

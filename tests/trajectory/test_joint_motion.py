@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.joint_motion import compared_point_to_point, point_to_point_motion
-from gelenk.trajectory.problem import MotionLimits
-from gelenk.trajectory.words import Law
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.joints.motion import compared_point_to_point, point_to_point_motion
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.problem.problem import SegmentLimits
 from tests.trajectory.arms import ARMS, LAWS, arm, end_state, excess, jump, limits
 
 WITH_JERK: frozenset[Law] = frozenset({"quintic", "septic", "jerk_limited"})
@@ -49,7 +49,7 @@ def jerk_limited_time(distance: float, v: float, a: float, j: float) -> float:
         ("time_optimal", limits([0.8], [1.6]), 3.0),
     ],
 )
-def test_the_least_duration_of_a_law(law: Law, bound: MotionLimits, duration: float) -> None:
+def test_the_least_duration_of_a_law(law: Law, bound: SegmentLimits, duration: float) -> None:
     motion = point_to_point_motion(np.array([0.5]), np.array([-1.5]), law, bound)
     assert motion.duration == pytest.approx(duration, rel=1e-9)
 
@@ -137,11 +137,11 @@ def test_a_thousand_motions_of_real_arms(name: str) -> None:
             assert least["time_optimal"] <= least[law] * (1.0 + 1e-12)
 
 
-def _line(steps: Array, bound: MotionLimits) -> tuple[float, float, float]:
+def _line(steps: Array, bound: SegmentLimits) -> tuple[float, float, float]:
     return tuple(float((values / steps).min()) for values in (bound.velocity, bound.acceleration, bound.jerk))  # type: ignore[return-value]
 
 
-def _sound(start: Array, target: Array, law: Law, bound: MotionLimits) -> float:
+def _sound(start: Array, target: Array, law: Law, bound: SegmentLimits) -> float:
     """The least duration of a motion that keeps what its law promises; so does a longer one."""
     motion = point_to_point_motion(start, target, law, bound)
     longer = point_to_point_motion(start, target, law, bound, 1.7 * motion.duration)
@@ -229,7 +229,7 @@ def test_too_short_a_duration_says_what_is_the_least_and_for_whom(law: Law) -> N
     start, target = np.zeros(3), np.array([0.1, -2.0, 0.3])
     bound = limits([1.0] * 3, [4.0] * 3, 40.0)
     least = point_to_point_motion(start, target, law, bound).duration
-    with pytest.raises(InvalidField, match=r"at least \d.* s, in which joint 2 comes to its limit of") as refusal:
+    with pytest.raises(InvalidField, match=r"at least \d.* s, when joint 2 reaches its limit of") as refusal:
         point_to_point_motion(start, target, law, bound, 0.5 * least, field="segments.3")
     assert refusal.value.field == "segments.3.duration"
     told = float(refusal.value.reason.split("at least ")[1].split(" s")[0])

@@ -8,13 +8,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.joint_splines import compared_spline, promised, spline_motion, spline_way
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import Segment
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.words import Law
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.joints.splines import compared_spline, promised, spline_motion, spline_path
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import Boundary
+from gelenk.trajectory.problem.problem import Segment
 from tests.trajectory.arms import (
     ARMS,
     BOUNDARIES,
@@ -54,7 +54,7 @@ def test_the_exam_tells_by_how_much_its_times_are_too_short() -> None:
     bound = limits([float(np.radians(200.0))], [float(np.radians(5000.0))])
     segment = Segment("spline", "cubic", bound, configurations=q, times=np.array([1.0, 1.5, 3.0]))
     with pytest.raises(
-        InvalidField, match=r"joint 1 comes to 1\.54056 times its limit of velocity at 1\.27218 s"
+        InvalidField, match=r"joint 1 reaches 1\.54056 times its limit of velocity at 1\.27218 s"
     ) as refusal:
         spline_motion(np.radians([45.0]), segment, free(1), field="segments.2")
     assert refusal.value.field == "segments.2.times"
@@ -73,7 +73,7 @@ def test_the_way_is_the_spline_that_scipy_finds(boundary: Boundary) -> None:
     waypoints = np.concatenate((WAYPOINTS, [START]))
     knots = np.concatenate(([START], waypoints))
     segment = through(boundary=boundary, configurations=waypoints, limits=limits([1.0, 0.4], [3.0, 3.0]))
-    way = spline_way(START, segment, free(2))
+    way = spline_path(START, segment, free(2))
     steps = [max(abs(step[0]), abs(step[1]) / 0.4) for step in np.diff(knots, axis=0)]
     np.testing.assert_allclose(way.breaks, np.concatenate(([0.0], np.cumsum(steps))), rtol=1e-14)
     other = CubicSpline(way.breaks, knots, bc_type=boundary.replace("_", "-"))
@@ -159,7 +159,7 @@ def test_the_factor_that_is_told_for_times_is_enough_and_no_larger_than_needed()
         factor = float(refusal.value.reason.split()[-1])
         motion = spline_motion(START, replace(segment, times=factor * segment.times), free(2))
         assert abs(excess(motion, SLOW, jerk=False, per_piece=2001)) <= 1e-6
-        with pytest.raises(InvalidField, match="times are multiplied by"):
+        with pytest.raises(InvalidField, match="multiply all times by"):
             spline_motion(START, replace(segment, times=0.999 * factor * segment.times), free(2))
 
 
@@ -222,8 +222,8 @@ _TIMES = np.array([1.0, 2.0, 3.0])
         (through(configurations=np.array([[1.0, math.nan]])), "waypoints.0", "magnitude"),
         (through(configurations=np.array([[1.0, 1e300]])), "waypoints.0", "magnitude"),
         (through(boundary="periodic"), "waypoints.2", "ends where it starts, and joint 1 is 1 away"),
-        (through(times=_TIMES, boundary="natural"), "boundary", "would not start at rest"),
-        (through(times=_TIMES, boundary="not_a_knot"), "boundary", "would not start at rest"),
+        (through(times=_TIMES, boundary="natural"), "boundary", "would neither start nor end at rest"),
+        (through(times=_TIMES, boundary="not_a_knot"), "boundary", "would neither start nor end at rest"),
         (through(times=_TIMES, law="time_optimal"), "times", "not allowed with the law `time_optimal`"),
         (through(times=_TIMES, law="jerk_limited"), "boundary", "take `assigned`"),
         (through(times=_TIMES, duration=3.0), "duration", "not allowed beside `times`"),
@@ -234,7 +234,7 @@ _TIMES = np.array([1.0, 2.0, 3.0])
         (through(times=np.array([-1.0, 1.0, 2.0])), "times.0", "not after the start"),
         (through(times=np.array([1.0, math.nan, 2.0])), "times", "at most 1e"),
         (through(times=np.array([1.0, 2.0, 1e300])), "times", "at most 1e"),
-        (through(times=0.1 * _TIMES), "times", "all times are multiplied by"),
+        (through(times=0.1 * _TIMES), "times", "multiply all times by"),
         (through(duration=0.01), "duration", "must be at least"),
         (through(duration=math.nan), "duration", "greater than 0 s"),
         (through(limits=limits([1.0, 0.0], [3.0, 3.0])), "limits.joint_velocity", "joint 2: must be a number from"),

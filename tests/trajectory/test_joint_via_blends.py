@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.joint_motion import point_to_point_motion
-from gelenk.trajectory.problem import MotionLimits
-from gelenk.trajectory.via_blends import via_blends
+from gelenk.errors import InvalidField
+from gelenk.trajectory.joints.motion import point_to_point_motion
+from gelenk.trajectory.joints.via_blends import via_blends
+from gelenk.trajectory.problem.problem import SegmentLimits
 from tests.trajectory.arms import ARMS, arm, end_state, excess, jump
 
-BOUND = MotionLimits(np.array([1.0, 0.8]), np.array([3.0, 2.0]), np.array([1e6, 1e6]))
+BOUND = SegmentLimits(np.array([1.0, 0.8]), np.array([3.0, 2.0]), np.array([1e6, 1e6]))
 START = np.array([0.0, 0.5])
 POINTS = np.array([[0.6, 0.1], [0.2, -0.4], [1.0, 0.3]])
 
@@ -101,7 +101,7 @@ _TIMES = np.array([2.0, 4.0, 7.0])
         ({"times": _TIMES, "blend_time": 1.9}, "blend_time", "too short for its blends"),
         ({"duration": 0.5}, "duration", "must be at least"),
         ({"duration": math.inf}, "duration", "greater than 0 s"),
-        ({"limits": MotionLimits(-BOUND.velocity, BOUND.acceleration, BOUND.jerk)}, "limits.joint_velocity", "number"),
+        ({"limits": SegmentLimits(-BOUND.velocity, BOUND.acceleration, BOUND.jerk)}, "limits.joint_velocity", "number"),
     ],
 )
 def test_what_is_refused(options: dict[str, Any], field: str, reason: str) -> None:
@@ -112,7 +112,7 @@ def test_what_is_refused(options: dict[str, Any], field: str, reason: str) -> No
 
 
 def test_a_velocity_that_is_too_high_at_given_times() -> None:
-    fast = MotionLimits(np.array([0.3, 0.8]), np.array([30.0, 20.0]), BOUND.jerk)
-    with pytest.raises(InvalidField, match=r"joint 1 comes to .* times its limit of velocity in segment 1") as refusal:
+    fast = SegmentLimits(np.array([0.3, 0.8]), np.array([30.0, 20.0]), BOUND.jerk)
+    with pytest.raises(InvalidField, match=r"joint 1 reaches .* times its limit of velocity in segment 1") as refusal:
         via_blends(START, POINTS, fast, times=np.array([1.0, 4.0, 7.0]))
     assert refusal.value.field == "times"

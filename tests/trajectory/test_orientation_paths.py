@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, RotationSpline, Slerp
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.orientation_paths import (
-    AxisAngle,
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.paths.orientation_paths import (
+    AxisAnglePath,
     OrientationPath,
     axis_angle,
     both_ways,
     through,
     travelled,
 )
-from gelenk.trajectory.rotation_splines import rotation_corner, rotation_spline
-from gelenk.trajectory.so3 import angular_accelerations, angular_velocities, rate_matrices
-from gelenk.trajectory.zyz_paths import zyz_paths
+from gelenk.trajectory.paths.rotation_splines import rotation_corner, rotation_spline
+from gelenk.trajectory.paths.so3 import angular_accelerations, angular_velocities, rate_matrices
+from gelenk.trajectory.paths.zyz_paths import zyz_paths
 
 HALF = np.array([0.5])
 ENDS = np.array([0.0, 1.0])
@@ -168,7 +168,7 @@ def test_the_turn_over_a_corner_joins_its_legs() -> None:
     path = rotation_corner(entry, corner, leaving)
     rotations, rates, _ = path.at(ENDS)
     np.testing.assert_allclose(rotations, [entry, leaving], atol=5e-15)
-    ways: list[AxisAngle] = [axis_angle(entry, corner), axis_angle(corner, leaving)]
+    ways: list[AxisAnglePath] = [axis_angle(entry, corner), axis_angle(corner, leaving)]
     np.testing.assert_allclose(rates, [2.0 * way.angle * way.base_axis for way in ways], atol=1e-13)
     x = np.linspace(0.01, 0.99, 20)
     np.testing.assert_allclose(path.at(x)[1], differs_by_steps(path, x)[0], atol=1e-7)

@@ -9,13 +9,13 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation, Slerp
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.model.poses import Poses, transform
-from gelenk.trajectory.fly_over import blended, corner_of
-from gelenk.trajectory.paths import Path, PathSequence, circle, line, sequence
-from gelenk.trajectory.spline_paths import blended_lines, spline
-from gelenk.trajectory.zyz_paths import zyz_paths, zyz_turns
+from gelenk.course.motion.fly_over import blended, corner_of
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses, transform
+from gelenk.trajectory.paths.paths import Path, PathSequence, circle, line, sequence
+from gelenk.trajectory.paths.spline_paths import blended_lines, spline
+from gelenk.trajectory.paths.zyz_paths import zyz_paths, zyz_turns
 
 
 def poses(count: int, seed: int, step: float = 0.7) -> Poses:
@@ -365,7 +365,7 @@ def test_blends_that_do_not_fit_are_refused() -> None:
     with pytest.raises(InvalidField, match="leg 0"):
         blended_lines(square, [1.1, 0.1])
     back = Poses(np.array([[0.0, 0, 0], [1, 0, 0], [0.2, 0, 0]]), np.tile(np.eye(3), (3, 1, 1)))
-    with pytest.raises(InvalidField, match="takes a stop"):
+    with pytest.raises(InvalidField, match="requires a stop"):
         blended_lines(back, [0.1])
 
 

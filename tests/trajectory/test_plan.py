@@ -6,25 +6,25 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from gelenk.kinematics.ik.task import Task
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.errors import AuditFailed, InvalidField, OutsideLimits
-from gelenk.model.poses import Poses
+from gelenk.errors import AuditFailed, InvalidField, OutsideLimits
+from gelenk.ik.search.task import Task
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
 from gelenk.trajectory import plan as planning
-from gelenk.trajectory.audit import audit
-from gelenk.trajectory.audit_demands import Demands, Stretch, TipLimits
+from gelenk.trajectory.audit.audit import audit
+from gelenk.trajectory.audit.demands import Demands, LimitedInterval, TipLimits
+from gelenk.trajectory.audit.words import Law, OrientationLaw
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.plan import plan
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import Following, MotionLimits, Problem, Segment, Trajectory
-from gelenk.trajectory.words import Law, OrientationLaw
+from gelenk.trajectory.problem.problem import Following, Segment, SegmentLimits, Trajectory, TrajectoryProblem
 from tests.robots import robot
 
 PANDA = robot("panda")
 ARM = PANDA.chain(None, None)
 READY = np.array([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785])
 VELOCITY = np.array([2.175] * 4 + [2.61] * 3)
-LIMITS = MotionLimits(VELOCITY, 2.0 * VELOCITY, 20.0 * VELOCITY)
+LIMITS = SegmentLimits(VELOCITY, 2.0 * VELOCITY, 20.0 * VELOCITY)
 TIP = replace(LIMITS, tip=TipLimits(0.25, 0.8, 1.5, 4.0))
 
 
@@ -45,15 +45,15 @@ ABOVE = moved(SIDE, 0.0, 0.0, 0.2)
 
 
 def planned(*segments: Segment, following: Following | None = None, **options: object) -> Trajectory:
-    problem = Problem(READY, segments, following or Following())
+    problem = TrajectoryProblem(READY, segments, following or Following())
     return plan(PANDA, ARM, replace(problem, **options))  # type: ignore[arg-type]
 
 
-def line(target: Array, law: Law = "trapezoidal", limits: MotionLimits = LIMITS, **options: object) -> Segment:
+def line(target: Array, law: Law = "trapezoidal", limits: SegmentLimits = LIMITS, **options: object) -> Segment:
     return Segment("line", law, limits, pose=target, **options)  # type: ignore[arg-type]
 
 
-def joint(target: Array, law: Law = "trapezoidal", limits: MotionLimits = LIMITS, **options: object) -> Segment:
+def joint(target: Array, law: Law = "trapezoidal", limits: SegmentLimits = LIMITS, **options: object) -> Segment:
     return Segment("joint", law, limits, configuration=target, **options)  # type: ignore[arg-type]
 
 
@@ -87,10 +87,10 @@ def test_a_pose_is_reached_in_the_nearest_configuration() -> None:
     arm = robot("ur5")
     chain = arm.chain(None, None)
     start = np.array([0.4, -1.2, 1.4, -1.7, -1.4, 0.2])
-    limits = MotionLimits(np.full(6, 3.0), np.full(6, 6.0), np.full(6, 60.0))
+    limits = SegmentLimits(np.full(6, 3.0), np.full(6, 6.0), np.full(6, 60.0))
     goal = start + 0.2
     T = Poses(*chain_poses(chain.flat, goal[None])).matrices()[0]
-    found = plan(arm, chain, Problem(start, (Segment("joint", "cubic", limits, pose=T),)))
+    found = plan(arm, chain, TrajectoryProblem(start, (Segment("joint", "cubic", limits, pose=T),)))
     assert found.motion.at(found.motion.breaks[-1:])[0] == pytest.approx(goal, abs=1e-9)
 
 
@@ -139,7 +139,7 @@ def test_a_blend_of_a_given_time_is_the_course_s_fly_over(law: Law) -> None:
 @pytest.mark.quick(3)
 @pytest.mark.parametrize("law", ["cubic", "trapezoidal", "jerk_limited", "time_optimal"])
 @pytest.mark.parametrize("limits", [TIP, replace(LIMITS, tip=TipLimits(speed=0.25))], ids=["limits", "speed alone"])
-def test_a_blend_keeps_to_its_acceleration(law: Law, limits: MotionLimits) -> None:
+def test_a_blend_keeps_to_its_acceleration(law: Law, limits: SegmentLimits) -> None:
     found = planned(line(SIDE, law, limits=limits, blend_acceleration=0.4), line(ABOVE, law, limits=limits))
     blend = found.segments[0].blend
     assert blend is not None
@@ -165,14 +165,18 @@ def test_a_blend_beyond_its_acceleration_fails_the_audit() -> None:
     blend = found.segments[0].blend
     assert blend is not None
     assert blend.acceleration is None
-    demands = Demands(tip=TIP.tip, stretches=(Stretch(blend.start_time, blend.end_time, TipLimits(acceleration=0.3)),))
+    demands = Demands(
+        tip=TIP.tip, stretches=(LimitedInterval(blend.start_time, blend.end_time, TipLimits(acceleration=0.3)),)
+    )
     judged = audit(PANDA, ARM, found.motion, demands)
     assert [reason.check for reason in judged.reasons] == ["tip"]
-    assert "allowed is 0.3 m/s²" in judged.reasons[0].detail
+    assert "the limit is 0.3 m/s²" in judged.reasons[0].detail
     ratio = judged.tip["acceleration"].ratio
     assert ratio is not None
     assert ratio > 1.0
-    stretch = Demands(tip=TIP.tip, stretches=(Stretch(blend.start_time, blend.end_time, TipLimits(acceleration=1.5)),))
+    stretch = Demands(
+        tip=TIP.tip, stretches=(LimitedInterval(blend.start_time, blend.end_time, TipLimits(acceleration=1.5)),)
+    )
     assert audit(PANDA, ARM, found.motion, stretch).passed
 
 
@@ -206,7 +210,7 @@ def test_a_duration_of_the_whole_slows_all_down(law: Law) -> None:
 
 
 def test_two_durations_contradict_each_other() -> None:
-    with pytest.raises(InvalidField, match=r"segments\.0\.duration.*only one of the two"):
+    with pytest.raises(InvalidField, match=r"segments\.0\.duration.*give one of them"):
         planned(joint(READY + 0.1, duration=3.0), duration=3.0)
 
 
@@ -224,7 +228,7 @@ def test_poses_are_passed_at_their_times() -> None:
     found = planned(Segment("spline", "cubic", LIMITS, poses=poses, times=times))
     assert tip_at(found, times).positions == pytest.approx(poses.positions, abs=4e-5)
     assert found.motion.duration == 6.5
-    with pytest.raises(InvalidField, match=r"segments\.0\.times.*all times are multiplied by"):
+    with pytest.raises(InvalidField, match=r"segments\.0\.times.*multiply all times by"):
         planned(Segment("spline", "cubic", LIMITS, poses=poses, times=0.1 * times))
     with pytest.raises(InvalidField, match=r"segments\.0\.times.*go backwards along its path"):
         planned(Segment("spline", "cubic", LIMITS, poses=poses, times=np.array([0.1, 30.0, 30.2])))
@@ -235,7 +239,7 @@ def test_a_line_turns_about_one_axis_or_by_euler_angles() -> None:
     target[:3, :3] = begin[:3, :3] @ Rotation.from_euler("xyz", [0.3, -0.3, 0.4]).as_matrix()
 
     def halfway(orientation: OrientationLaw) -> Array:
-        problem = Problem(READY + 0.3, (line(target, "cubic", orientation=orientation),))
+        problem = TrajectoryProblem(READY + 0.3, (line(target, "cubic", orientation=orientation),))
         found = plan(PANDA, ARM, problem)
         assert found.failure is None
         middle: Array = tip_at(found, np.array([0.5 * found.motion.duration])).rotations[0]
@@ -269,7 +273,10 @@ def test_every_way_of_the_tip_turns_by_euler_angles(kind: str) -> None:
             line(end, "cubic", orientation=orientation),
         )
 
-    found = {law: plan(PANDA, ARM, Problem(READY + 0.3, segments(law))) for law in ("axis_angle", "zyz", "zyz_other")}
+    found = {
+        law: plan(PANDA, ARM, TrajectoryProblem(READY + 0.3, segments(law)))
+        for law in ("axis_angle", "zyz", "zyz_other")
+    }
     assert found["axis_angle"].failure is found["zyz"].failure is None
     assert found["zyz_other"].completed_fraction < 1.0, "the other triple is a turn of nearly π further"
     poses = {law: tip_at(one, np.linspace(0.0, one.motion.duration, 400)) for law, one in found.items()}
@@ -338,7 +345,7 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
     [
         ((line(SIDE, blend_radius=0.1),), "segments.0.blend_radius", "only into a line"),
         ((line(SIDE, blend_radius=0.1), joint(READY)), "segments.0.blend_radius", "only into a line"),
-        ((line(SIDE, blend_radius=0.1), line(HERE)), "segments.0.blend_radius", "leads back"),
+        ((line(SIDE, blend_radius=0.1), line(HERE)), "segments.0.blend_radius", "turns back"),
         ((line(SIDE, blend_radius=0.31), line(ABOVE)), "segments.0.blend_radius", "0.3 m long"),
         ((line(SIDE, blend_radius=0.25), line(ABOVE)), "segments.0.blend_radius", "segment 1 is 0.2 m long"),
         (
@@ -368,20 +375,20 @@ def test_what_makes_no_sense_is_refused_by_name(segments: tuple[Segment, ...], f
 
 def test_a_start_outside_limits_is_refused() -> None:
     with pytest.raises(OutsideLimits, match="panda_joint1"):
-        plan(PANDA, ARM, Problem(READY + 9.0, (joint(READY),)))
+        plan(PANDA, ARM, TrajectoryProblem(READY + 9.0, (joint(READY),)))
 
 
 def test_damping_states_what_it_costs() -> None:
     arm = robot("planar_2r")
     chain = arm.chain(None, None)
-    limits = MotionLimits(np.full(2, 3.0), np.full(2, 6.0), np.full(2, 60.0))
+    limits = SegmentLimits(np.full(2, 3.0), np.full(2, 6.0), np.full(2, 60.0))
     # Past the base at 0.35 m, where 0.3 m is the nearest that links of 1 and 0.7 m allow.
     T = Poses(*chain_poses(chain.flat, np.array([[0.0, 2.4]]))).matrices()[0]
     start = np.array([np.arcsin(0.35 / np.hypot(*T[:2, 3])) - np.arctan2(T[1, 3], T[0, 3]), 2.4])
     T = Poses(*chain_poses(chain.flat, start[None])).matrices()[0]
     through = moved(T, -2.0 * T[0, 3], 0.0, 0.0)
     xy = Following(task=Task(("x", "y")), min_singular_value=0.3)
-    problem = Problem(start, (Segment("line", "cubic", limits, pose=through),), xy)
+    problem = TrajectoryProblem(start, (Segment("line", "cubic", limits, pose=through),), xy)
     stopped = plan(arm, chain, problem)
     assert stopped.failure is not None
     assert stopped.failure.reason == "singularity"

@@ -12,12 +12,12 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.robot import Robot
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.plan import plan
-from gelenk.trajectory.problem import MotionLimits, Problem, Segment, Trajectory
-from gelenk.trajectory.words import Law
+from gelenk.trajectory.problem.problem import Segment, SegmentLimits, Trajectory, TrajectoryProblem
 from tests.robots import robot
 
 ARMS = ("panda", "ur5", "puma560", "xarm7", "stanford", "kinova")
@@ -29,10 +29,10 @@ PERIOD = 0.05
 TOLERANCE = 1e-4
 
 
-def random_limits(chain: Chain, rng: np.random.Generator) -> MotionLimits:
+def random_limits(chain: Chain, rng: np.random.Generator) -> SegmentLimits:
     n = len(chain)
     velocity = rng.uniform(0.5, 3.0, n)
-    return MotionLimits(velocity, velocity * rng.uniform(1.0, 4.0, n), velocity * rng.uniform(10.0, 60.0, n))
+    return SegmentLimits(velocity, velocity * rng.uniform(1.0, 4.0, n), velocity * rng.uniform(10.0, 60.0, n))
 
 
 def random_configuration(chain: Chain, rng: np.random.Generator) -> Array:
@@ -42,11 +42,11 @@ def random_configuration(chain: Chain, rng: np.random.Generator) -> Array:
 
 
 @cache
-def data_of(arm: Robot) -> pin.Data:
+def data_of(arm: RobotModel) -> pin.Data:
     return arm.model.createData()
 
 
-def pose(arm: Robot, chain: Chain, q: Array) -> Array:
+def pose(arm: RobotModel, chain: Chain, q: Array) -> Array:
     """T_base_tip through Pinocchio."""
     full = arm.expansion(chain).matrix @ q + arm.expansion(chain).offset
     data = data_of(arm)
@@ -64,7 +64,7 @@ def moved(T: Array, rng: np.random.Generator) -> Array:
     return target
 
 
-def solved(name: str, law: Law, number: int) -> tuple[Robot, Chain, Problem, Trajectory]:
+def solved(name: str, law: Law, number: int) -> tuple[RobotModel, Chain, TrajectoryProblem, Trajectory]:
     """A joint segment, and a line after it."""
     rng = np.random.default_rng([ARMS.index(name), LAWS.index(law), number])
     arm = robot(name)
@@ -76,7 +76,7 @@ def solved(name: str, law: Law, number: int) -> tuple[Robot, Chain, Problem, Tra
         Segment("joint", law, limits, configuration=middle),
         Segment("line", law, others, pose=target),
     )
-    problem = Problem(start, segments)
+    problem = TrajectoryProblem(start, segments)
     return arm, chain, problem, plan(arm, chain, problem)
 
 
@@ -130,7 +130,7 @@ def check_position_limits(chain: Chain, qs: Array) -> None:
     assert (qs <= chain.upper + 1e-9).all()
 
 
-def check_line(arm: Robot, chain: Chain, problem: Problem, found: Trajectory) -> None:
+def check_line(arm: RobotModel, chain: Chain, problem: TrajectoryProblem, found: Trajectory) -> None:
     """Each pose lies on the line, and turns with it; the last one is the target, or where the answer says it ended."""
     middle, target = problem.segments[0].configuration, problem.segments[1].pose
     assert middle is not None

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PPoly
 
-from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 
 
 def some(pieces: int, degree: int, n: int, seed: int) -> PiecewisePolynomial:

@@ -7,13 +7,13 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.linalg import solve_banded
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.certify import Promise, certified
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.spline_steps import spline_steps
-from gelenk.trajectory.splines import Boundary, Ends, Spline, cubic_spline, through_samples
-from gelenk.trajectory.tridiagonal import Tridiagonal, solution
+from gelenk.course.motion.check import MotionClaims, certified
+from gelenk.course.motion.spline_steps import spline_steps
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.splines import Boundary, EndRates, Spline, cubic_spline, through_samples
+from gelenk.trajectory.motion.tridiagonal import Tridiagonal, solution
 
 BOUNDARIES: tuple[Boundary, ...] = ("clamped", "natural", "not_a_knot", "periodic", "assigned")
 
@@ -32,10 +32,10 @@ def all_printed(values: Array, texts: str) -> bool:
     return all(printed(value, text) for value, text in zip(values.ravel(), texts.split(), strict=True))
 
 
-def ends(*values: float) -> Ends:
+def ends(*values: float) -> EndRates:
     """Velocities at start and end, then accelerations."""
     v_i, v_f, a_i, a_f = (np.array([value]) for value in (*values, 0.0, 0.0)[:4])
-    return Ends(v_i, v_f, a_i, a_f)
+    return EndRates(v_i, v_f, a_i, a_f)
 
 
 # The lecture's
@@ -108,16 +108,16 @@ def test_five_knots_of_the_lecture(boundary: Boundary, velocities: str) -> None:
 # Against SciPy, and what is promised
 
 
-def random_problem(rng: np.random.Generator, boundary: Boundary, least: int = 2) -> tuple[Array, Array, Ends]:
+def random_problem(rng: np.random.Generator, boundary: Boundary, least: int = 2) -> tuple[Array, Array, EndRates]:
     N, n = int(rng.integers(least, 12)), int(rng.integers(1, 5))
     times = np.cumsum(10.0 ** rng.uniform(-2.0, 1.0, N)) + rng.normal()
     q = rng.normal(size=(N, n))
     if boundary == "periodic":
         q[-1] = q[0]
-    return times, q, Ends(*rng.normal(size=(4, n)))
+    return times, q, EndRates(*rng.normal(size=(4, n)))
 
 
-def rival(times: Array, q: Array, boundary: Boundary, given: Ends) -> CubicSpline:
+def rival(times: Array, q: Array, boundary: Boundary, given: EndRates) -> CubicSpline:
     conditions = {
         "clamped": ((1, given.start_velocity), (1, given.end_velocity)),
         "natural": "natural",
@@ -168,7 +168,9 @@ def test_each_boundary_keeps_what_it_promises(boundary: Boundary) -> None:
 def checked(found: Spline, times: Array, q: Array) -> float:
     """The largest error of the certificate of a spline, of which no end is looked at."""
     none = np.empty((0, q.shape[1]))
-    certificate = certified(found.motion, Promise(times, q, none, none, 2, {k: peaks(found.motion, k) for k in (1, 2)}))
+    certificate = certified(
+        found.motion, MotionClaims(times, q, none, none, 2, {k: peaks(found.motion, k) for k in (1, 2)})
+    )
     return max(certificate.knot_error, certificate.continuity_error, certificate.peak_error)
 
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.interpolate import BPoly, CubicHermiteSpline
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.certify import Promise, certified
-from gelenk.trajectory.extremes import Peaks, candidates, peaks
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.time_law_steps import lift_steps, peak_step, two_point_steps
-from gelenk.trajectory.time_laws import between, hermite_pieces, normalised, quartic_cubic_quartic
+from gelenk.course.motion.check import MotionClaims, certified
+from gelenk.course.motion.time_law_steps import lift_steps, peak_step, two_point_steps
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.extremes import Peaks, candidates, peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.time_laws import between, hermite_pieces, normalised, quartic_cubic_quartic
 
 
 def column(*values: float) -> Array:
@@ -162,7 +162,7 @@ def test_a_thousand_random_434_are_smooth_and_meet_their_fourteen_conditions() -
         times = np.concatenate([[rng.normal()], rng.uniform(0.2, 3.0, 3)]).cumsum()
         knots, starts, ends = rng.normal(size=(4, 2)), rng.normal(size=(2, 2)), rng.normal(size=(2, 2))
         motion = quartic_cubic_quartic(times, knots, starts, ends)
-        promise = Promise(times, knots, starts, ends, 2, {})
+        promise = MotionClaims(times, knots, starts, ends, 2, {})
         found = certified(motion, promise)
         assert max(found.boundary_error, found.knot_error, found.continuity_error) < 1e-11
         assert np.abs(motion.at(times) - knots).max() < 1e-9
@@ -208,16 +208,16 @@ def test_what_is_wrong_is_withheld(wrong: str) -> None:
     times, knots = np.array([0.0, 0.5, 1.5, 2.0]), column(0.0, 0.3, 1.2, 1.5)
     motion = quartic_cubic_quartic(times, knots)
     rest, found = np.zeros((2, 1)), {order: peaks(motion, order) for order in (1, 2, 3)}
-    good = Promise(times, knots, rest, rest, 2, found)
+    good = MotionClaims(times, knots, rest, rest, 2, found)
     assert certified(motion, good).peak_error < 1e-12
     off = rest + np.array([[0.0], [1e-6]])
     bad = {
-        "knot": Promise(times, knots + 1e-6, rest, rest, 2, found),
-        "start": Promise(times, knots, off, rest, 2, found),
-        "end": Promise(times, knots, rest, off, 2, found),
-        "peak": Promise(times, knots, rest, rest, 2, {1: Peaks(found[1].values * (1 - 1e-6), found[1].times)}),
-        "time": Promise(times, knots, rest, rest, 2, {1: Peaks(found[1].values, found[1].times + 0.1)}),
-        "join": Promise(times, knots, rest, rest, 3, found),
+        "knot": MotionClaims(times, knots + 1e-6, rest, rest, 2, found),
+        "start": MotionClaims(times, knots, off, rest, 2, found),
+        "end": MotionClaims(times, knots, rest, off, 2, found),
+        "peak": MotionClaims(times, knots, rest, rest, 2, {1: Peaks(found[1].values * (1 - 1e-6), found[1].times)}),
+        "time": MotionClaims(times, knots, rest, rest, 2, {1: Peaks(found[1].values, found[1].times + 0.1)}),
+        "join": MotionClaims(times, knots, rest, rest, 3, found),
     }[wrong]
     with pytest.raises(Exception, match="withheld"):
         certified(motion, bad)

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField, TooLarge
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.time_optimal import TimeOptimal, time_optimal
+from gelenk.errors import InvalidField, TooLarge
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.timing.time_optimal import TimeOptimal, time_optimal
 from tests.oracles import path_speeds
 
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.splines import cubic_spline, through_samples
-from gelenk.trajectory.time_laws import between
-from gelenk.trajectory.time_scaling import Limits, uniform_scaling
-from gelenk.trajectory.time_scaling_steps import scaling_steps
+from gelenk.course.motion.time_scaling_steps import scaling_steps
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.time_scaling import ScalingLimits, uniform_scaling
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import cubic_spline, through_samples
+from gelenk.trajectory.motion.time_laws import between
 
 
 def printed(value: float, text: str) -> bool:
@@ -42,7 +42,7 @@ def line_by_two_links(count: int) -> tuple[Array, Array, Array, Array]:
 
 def test_the_line_of_the_lecture() -> None:
     motion = through_samples(*line_by_two_links(501))
-    limits = Limits(np.array([3.0, 2.5]), np.array([5.0, 7.0]))
+    limits = ScalingLimits(np.array([3.0, 2.5]), np.array([5.0, 7.0]))
     for text, value in zip(("5.756899290", "3.004575851"), np.abs(peaks(motion, 1).values), strict=True):
         assert value == pytest.approx(float(text), abs=1e-9)
     for text, value in zip(("30.759859736", "20.114406054"), np.abs(peaks(motion, 2).values), strict=True):
@@ -63,7 +63,7 @@ def cubic(displacement: Array, duration: float = 1.0) -> PiecewisePolynomial:
 
 def test_the_simple_example() -> None:
     motion = cubic(np.array([1.0, -2.0]))
-    found = uniform_scaling(motion, Limits(np.array([1.0, 2.0]), np.array([8.0, 8.0])))
+    found = uniform_scaling(motion, ScalingLimits(np.array([1.0, 2.0]), np.array([8.0, 8.0])))
     assert [bound.ratio for bound in found.bounds] == pytest.approx([1.5, 1.5])
     assert found.course_factor == pytest.approx(1.5)
     assert found.binding.quantity == "velocity"
@@ -74,7 +74,7 @@ def test_the_simple_example() -> None:
 
 def test_loose_limits_speed_up_only_without_the_one() -> None:
     motion = cubic(np.array([1.0, -2.0]))
-    found = uniform_scaling(motion, Limits(np.array([10.0, 10.0]), np.array([100.0, 100.0])))
+    found = uniform_scaling(motion, ScalingLimits(np.array([10.0, 10.0]), np.array([100.0, 100.0])))
     assert found.course_factor == 1.0
     assert found.factor is not None
     assert printed(found.factor, ".346410161514")
@@ -82,12 +82,12 @@ def test_loose_limits_speed_up_only_without_the_one() -> None:
 
 
 def test_a_jerk_takes_the_cube_root() -> None:
-    found = uniform_scaling(cubic(np.array([1.0])), Limits(jerk=np.array([1.5])))
+    found = uniform_scaling(cubic(np.array([1.0])), ScalingLimits(jerk=np.array([1.5])))
     assert found.factor == pytest.approx(2.0)
 
 
 def test_what_stands_still_has_no_factor() -> None:
-    found = uniform_scaling(cubic(np.zeros(2)), Limits(np.ones(2)))
+    found = uniform_scaling(cubic(np.zeros(2)), ScalingLimits(np.ones(2)))
     assert (found.course_factor, found.factor) == (1.0, None)
     assert all("without the 1" not in step.title for step in scaling_steps(found, 1.0))
 
@@ -100,7 +100,7 @@ def test_a_thousand_scaled_motions_just_reach_a_limit_and_go_beyond_none() -> No
         n, N = int(rng.integers(1, 7)), int(rng.integers(2, 7))
         times = np.cumsum(rng.uniform(0.2, 2.0, N))
         motion = cubic_spline(times, rng.normal(size=(N, n)), "clamped").motion
-        limits = Limits(*(10.0 ** rng.uniform(-1.0, 1.0, (3, n))))
+        limits = ScalingLimits(*(10.0 ** rng.uniform(-1.0, 1.0, (3, n))))
         found = uniform_scaling(motion, limits)
         assert found.factor is not None
         assert found.course_factor == max(1.0, found.factor)
@@ -119,7 +119,7 @@ def test_a_thousand_scaled_motions_just_reach_a_limit_and_go_beyond_none() -> No
 
 
 def test_the_steps_show_the_numbers() -> None:
-    found = uniform_scaling(cubic(np.array([1.0, -2.0])), Limits(np.array([1.0, 2.0]), np.array([8.0, 8.0])))
+    found = uniform_scaling(cubic(np.array([1.0, -2.0])), ScalingLimits(np.array([1.0, 2.0]), np.array([8.0, 8.0])))
     text = "\n".join(line for step in scaling_steps(found, 1.0) for line in step.latex)
     assert r"k = \max\{1, k_{\mathrm{vel}}, \sqrt{k_{\mathrm{acc}}}\} = 1.5" in text
     assert r"\frac{12}{8} = 1.5" in text

@@ -9,18 +9,18 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.model.poses import Poses, transform
-from gelenk.trajectory.audit_demands import TipLimits
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
-from gelenk.trajectory.paths import circle, line
-from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
-from gelenk.trajectory.problem import MotionLimits
-from gelenk.trajectory.spline_paths import blended_lines
-from gelenk.trajectory.timing import Timed, compared, timed
-from gelenk.trajectory.words import Law
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses, transform
+from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.laws.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.paths.paths import circle, line
+from gelenk.trajectory.paths.spline_paths import blended_lines
+from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.timing import Timed, compared, timed
 from tests.trajectory.timed_ways import LAWS, SMOOTH, at_breaks, gantry, joint_ratios, limits, planar_line, straight
 
 # The lecture's numbers
@@ -172,7 +172,7 @@ def test_no_other_trapezoid_is_faster_along_the_line_of_two_links() -> None:
         assert found.motion.duration <= (length + 2.0 * d) * k * (1.0 + 1e-4)
 
 
-def splines(seed: int) -> tuple[CubicSpline, MotionLimits]:
+def splines(seed: int) -> tuple[CubicSpline, SegmentLimits]:
     rng = np.random.default_rng(seed)
     knots = rng.uniform(-2.0, 2.0, (5, 7))
     return CubicSpline(np.linspace(0.0, 1.0, 5), knots), limits(rng.uniform(1.0, 3.0, 7), rng.uniform(3.0, 15.0, 7))
@@ -204,7 +204,7 @@ def test_time_optimal_is_within_two_percent_of_another_implementation_on_a_finer
 # What is promised
 
 
-def example(law: Law) -> tuple[Timed, PiecewisePolynomial, MotionLimits]:
+def example(law: Law) -> tuple[Timed, PiecewisePolynomial, SegmentLimits]:
     way, bounds = planar_line(20), limits([3.0, 2.5], [5.0, 7.0], [50.0, 70.0])
     return timed(None, way, law, bounds), way, bounds
 
@@ -318,7 +318,7 @@ def test_too_short_a_duration_is_refused_and_the_least_is_named(law: Law) -> Non
         (limits([9.0, 9.0], 90.0, [900.0, 0.3]), "joint 2 reaches its limit of jerk, 0.3"),
     ],
 )
-def test_the_joint_that_binds_is_named(bounds: MotionLimits, words: str) -> None:
+def test_the_joint_that_binds_is_named(bounds: SegmentLimits, words: str) -> None:
     with pytest.raises(InvalidField, match=words):
         timed(None, straight(1.0, -1.0), "quintic", bounds, duration=1e-3)
 

@@ -6,22 +6,22 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.poses import transform
-from gelenk.trajectory.audit import audit
-from gelenk.trajectory.audit_demands import Demands, JointLimits, TipLimits
-from gelenk.trajectory.composition import in_time, times_at
-from gelenk.trajectory.jerk_limited import JerkLimits, at_rest, jerk_limited
-from gelenk.trajectory.paths import circle
-from gelenk.trajectory.problem import MotionLimits
-from gelenk.trajectory.s_curves import lasting, planned, profiles
-from gelenk.trajectory.time_laws import between
-from gelenk.trajectory.time_optimal import time_optimal
-from gelenk.trajectory.timing import Timed, compared, timed
-from gelenk.trajectory.tip_rows import tip_rows
-from gelenk.trajectory.way_geometry import geometry_of, tip_through
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import transform
+from gelenk.trajectory.audit.audit import audit
+from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
+from gelenk.trajectory.laws.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
+from gelenk.trajectory.motion.composition import in_time, times_at
+from gelenk.trajectory.motion.time_laws import between
+from gelenk.trajectory.paths.path_geometry import geometry_of, tip_through
+from gelenk.trajectory.paths.paths import circle
+from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.time_optimal import time_optimal
+from gelenk.trajectory.timing.timing import Timed, compared, timed
+from gelenk.trajectory.timing.tip_constraints import tip_rows
 from tests.robots import robot
 from tests.trajectory.timed_ways import (
     LAWS,
@@ -38,7 +38,7 @@ PANDA = robot("panda")
 ARM = PANDA.chain(None, None)
 
 
-def random_limits(rng: np.random.Generator, joints: int, tip: TipLimits | None = None) -> MotionLimits:
+def random_limits(rng: np.random.Generator, joints: int, tip: TipLimits | None = None) -> SegmentLimits:
     v, a, j = (10.0 ** rng.uniform(-1.0, 2.0, joints) for _ in range(3))
     return limits(v, a, j, tip, joints)
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
-from gelenk.trajectory.certify import Promise, certified
-from gelenk.trajectory.extremes import peaks
-from gelenk.trajectory.parabolic_blends import with_accelerations, with_blend_times
-from gelenk.trajectory.trapezoid import PointToPoint, Task, fastest, lasting, point_to_point
-from gelenk.trajectory.trapezoid_steps import blend_steps, trapezoid_steps
+from gelenk.course.motion.check import MotionClaims, certified
+from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.joints.parabolic_blends import with_accelerations, with_blend_times
+from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, fastest, lasting, point_to_point
+from gelenk.trajectory.motion.extremes import peaks
 
 
 def printed(value: float, text: str) -> bool:
@@ -35,19 +35,21 @@ def shortest(distance: float, v_i: float, v_f: float, v_max: float, a: float) ->
     return min(times)
 
 
-def course(distance: float, v_i: float = 0.0, v_f: float = 0.0) -> Task:
+def course(distance: float, v_i: float = 0.0, v_f: float = 0.0) -> JointMove:
     """The lecture's limits."""
-    return Task(distance, v_i, v_f, 0.8, 1.6)
+    return JointMove(distance, v_i, v_f, 0.8, 1.6)
 
 
-def driven(starts: Array, tasks: list[Task], duration: float | None = None, may_reverse: bool = False) -> PointToPoint:
+def driven(
+    starts: Array, tasks: list[JointMove], duration: float | None = None, may_reverse: bool = False
+) -> PointToPoint:
     """A plan that has been checked against what was asked of it."""
     plan = point_to_point(starts, tasks, duration, may_reverse=may_reverse)
     ends = starts + [task.distance for task in tasks]
     starting, ending = (np.array([[getattr(task, f"{end}_velocity") for task in tasks]]) for end in ("start", "end"))
     motion = plan.motion
     found = {order: peaks(motion, order) for order in (1, 2, 3)}
-    promise = Promise(motion.breaks[[0, -1]], np.array([starts, ends]), starting, ending, 1, found)
+    promise = MotionClaims(motion.breaks[[0, -1]], np.array([starts, ends]), starting, ending, 1, found)
     certified(motion, promise)
     assert np.abs(motion.at(motion.breaks[[0, -1]]) - [starts, ends]).max() < 1e-9 * max(1.0, np.abs(ends).max())
     for j, task in enumerate(tasks):
@@ -104,7 +106,7 @@ def test_in_a_given_time() -> None:
 
 
 def test_the_least_time_without_a_limit_of_the_velocity() -> None:
-    task = Task(2.0, 0.0, 0.0, np.inf, 1.6)
+    task = JointMove(2.0, 0.0, 0.0, np.inf, 1.6)
     least = 2.0 * np.sqrt(2.0 / 1.6)
     assert fastest(task).duration == pytest.approx(least)
     with pytest.raises(InvalidField, match=r"'duration': joint 1 needs at least 2\.236"):
@@ -132,7 +134,7 @@ def test_end_velocities(distance: float, times: tuple[str, str, str], peak: str,
 
 
 def test_from_a_negative_position_with_end_velocities() -> None:
-    plan = driven(np.array([-2.0]), [Task(3.0, 0.5, 1.0, 2.0, 3.0)])
+    plan = driven(np.array([-2.0]), [JointMove(3.0, 0.5, 1.0, 2.0, 3.0)])
     assert printed(plan.motion.duration, "1.770833333")
 
 
@@ -140,8 +142,12 @@ def test_infeasible_end_velocities_are_named_with_what_is_feasible() -> None:
     with pytest.raises(InvalidField) as caught:
         point_to_point(np.zeros(1), [course(0.02, 0.3, 0.1)])
     assert caught.value.field == "start_velocity"
-    assert "takes a distance of |v_i² - v_f²|/2a = 0.025, and there is 0.02" in caught.value.reason
-    for tried in (Task(0.02, 0.3, 0.1, 0.8, 2.0), course(0.02, np.sqrt(0.074), 0.1), course(0.02, 0.3, np.sqrt(0.026))):
+    assert "needs a distance of |v_i² - v_f²|/2a = 0.025, and there is 0.02" in caught.value.reason
+    for tried in (
+        JointMove(0.02, 0.3, 0.1, 0.8, 2.0),
+        course(0.02, np.sqrt(0.074), 0.1),
+        course(0.02, 0.3, np.sqrt(0.026)),
+    ):
         driven(np.zeros(1), [tried])
     for text in (
         "acceleration of at least 2,",
@@ -169,8 +175,8 @@ def test_a_velocity_away_from_the_target_or_beyond_its_limit(field: str) -> None
 
 def test_a_duration_too_long_to_go_straight() -> None:
     with pytest.raises(InvalidField, match=r"at most 0\.6909830056 s without turning back"):
-        point_to_point(np.zeros(1), [Task(0.5, 1.0, 1.0, 2.0, 1.6)], 5.0)
-    edge = driven(np.zeros(1), [Task(0.5, 1.0, 1.0, 2.0, 1.6)], 0.6909830056)
+        point_to_point(np.zeros(1), [JointMove(0.5, 1.0, 1.0, 2.0, 1.6)], 5.0)
+    edge = driven(np.zeros(1), [JointMove(0.5, 1.0, 1.0, 2.0, 1.6)], 0.6909830056)
     assert edge.profiles[0].peak_velocity == pytest.approx(np.sqrt(0.2), abs=1e-4)
 
 
@@ -181,7 +187,9 @@ def test_a_thousand_random_joints_with_end_velocities() -> None:
     for _ in range(1000):
         v_max, a = 10.0 ** rng.uniform(-1.0, 1.0, 2)
         v_i, v_f = rng.uniform(-v_max, v_max, 2) * rng.integers(0, 2, 2)
-        task = Task(float(rng.normal() * 10.0 ** rng.uniform(-2, 1)), float(v_i), float(v_f), float(v_max), float(a))
+        task = JointMove(
+            float(rng.normal() * 10.0 ** rng.uniform(-2, 1)), float(v_i), float(v_f), float(v_max), float(a)
+        )
         plan = driven(rng.normal(size=1), [task], may_reverse=True)
         profile = plan.profiles[0]
         assert profile.duration == pytest.approx(shortest(task.distance, v_i, v_f, v_max, a), rel=1e-9)
@@ -200,7 +208,7 @@ def test_a_thousand_random_joints_with_end_velocities() -> None:
 
 
 def test_the_exam_of_two_joints() -> None:
-    tasks = [Task(-1.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.0, 0.0, 0.8, 0.5)]
+    tasks = [JointMove(-1.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.0, 0.0, 0.8, 0.5)]
     plan = driven(np.zeros(2), tasks)
     assert printed(plan.own[0].duration, "2.625")
     assert printed(plan.own[1].duration, "2.366431913240")
@@ -218,7 +226,7 @@ def test_a_thousand_random_arms_end_together() -> None:
         n = int(rng.integers(1, 8))
         limits = 10.0 ** rng.uniform(-0.5, 0.5, (2, n))
         distances = rng.normal(size=n) * (rng.random(n) > 0.2)
-        tasks = [Task(float(d), 0.0, 0.0, float(v), float(a)) for d, v, a in zip(distances, *limits, strict=True)]
+        tasks = [JointMove(float(d), 0.0, 0.0, float(v), float(a)) for d, v, a in zip(distances, *limits, strict=True)]
         v, a, L = limits[0], limits[1], np.abs(distances)
         alone = np.where(v * v / a < L, (L * a + v * v) / (a * v), 2.0 * np.sqrt(L / a))
         duration = float(alone.max() * rng.uniform(1.0, 2.0)) if i % 2 else None
@@ -231,7 +239,7 @@ def test_a_thousand_random_arms_end_together() -> None:
 
 
 def test_in_step_a_moving_joint_keeps_its_end_velocities() -> None:
-    tasks = [Task(5.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.1, 0.2, 0.8, 0.5), Task(0.0, 0.0, 0.0, 1.0, 1.0)]
+    tasks = [JointMove(5.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.1, 0.2, 0.8, 0.5), JointMove(0.0, 0.0, 0.0, 1.0, 1.0)]
     plan = driven(np.zeros(3), tasks)
     assert plan.factors == (1.0, None, None)
     assert plan.profiles[1].acceleration == 0.5
@@ -239,8 +247,10 @@ def test_in_step_a_moving_joint_keeps_its_end_velocities() -> None:
 
 def test_a_moving_joint_that_cannot_wait_is_named() -> None:
     with pytest.raises(InvalidField, match="joint 2 with its end velocities takes at most"):
-        point_to_point(np.zeros(2), [Task(9.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.7, 0.7, 0.8, 0.5)])
-    plan = driven(np.zeros(2), [Task(9.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.7, 0.7, 0.8, 0.5)], may_reverse=True)
+        point_to_point(np.zeros(2), [JointMove(9.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.7, 0.7, 0.8, 0.5)])
+    plan = driven(
+        np.zeros(2), [JointMove(9.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.7, 0.7, 0.8, 0.5)], may_reverse=True
+    )
     assert plan.profiles[1].reverses
 
 
@@ -248,7 +258,7 @@ def test_the_course_path_of_a_line() -> None:
     """A line in space, driven by its length."""
     start, end = np.array([0.4, -0.2, 0.3]), np.array([0.6, 0.5, 0.1])
     L = float(np.linalg.norm(end - start))
-    plan = driven(np.zeros(1), [Task(L, 0.0, 0.0, 0.5, 1.0)])
+    plan = driven(np.zeros(1), [JointMove(L, 0.0, 0.0, 0.5, 1.0)])
     assert printed(plan.motion.duration, "2.009966887054")
     point = start + (end - start) * plan.motion.at(np.array([0.7]))[0, 0] / L
     for value, text in zip(point, (".459603956068", ".008613846238", ".240396043932"), strict=True):
@@ -296,7 +306,7 @@ def test_a_segment_too_short_is_named() -> None:
     with pytest.raises(InvalidField, match="'blend_time': segment 1 of 1 s is too short") as caught:
         with_blend_times(TIMES, POINTS, np.full(4, 0.7))
     assert "take 1.05 s" in caught.value.reason
-    with pytest.raises(InvalidField, match="segment 1 of 1 s is too short for joint 1: it takes an acceleration of at"):
+    with pytest.raises(InvalidField, match="segment 1 of 1 s is too short for joint 1: it needs an acceleration of at"):
         with_accelerations(TIMES, POINTS, np.array([1.9, 8.0]))
     with pytest.raises(InvalidField, match="segment 1 of 1 s is too short for its blends"):
         with_accelerations(TIMES, POINTS, np.array([2.1, 8.0]))
@@ -316,7 +326,7 @@ def test_a_thousand_random_via_points() -> None:
         motion, rest = found.motion, np.zeros((1, n))
         certificate = certified(
             motion,
-            Promise(times[[0, -1]], points[[0, -1]], rest, rest, 1, {k: peaks(motion, k) for k in (1, 2)}),
+            MotionClaims(times[[0, -1]], points[[0, -1]], rest, rest, 1, {k: peaks(motion, k) for k in (1, 2)}),
         )
         assert certificate.knot_error < 1e-12
         assert np.abs(motion.at(times) - points).max() <= found.deviations.max() + 1e-9
@@ -334,11 +344,15 @@ def test_a_thousand_random_via_points() -> None:
         ([course(0.0)], None, r"T = 0"),
         ([course(0.1, 0.3, 0.1)], None, r"t_a = \frac{|v_p - v_i|}{a} = \frac{|0.4582575695 - 0.3|}{1.6}"),
         ([course(2.0)], 3.5, "0.4037087982"),
-        ([Task(-1.0, 0.0, 0.0, 0.5, 0.8), Task(0.7, 0.0, 0.0, 0.8, 0.5)], None, r"k = \frac{T}{T_j} = 1.109264959"),
+        (
+            [JointMove(-1.0, 0.0, 0.0, 0.5, 0.8), JointMove(0.7, 0.0, 0.0, 0.8, 0.5)],
+            None,
+            r"k = \frac{T}{T_j} = 1.109264959",
+        ),
     ],
     ids=["coast", "no coast", "no distance", "end velocities", "given time", "two joints"],
 )
-def test_the_steps_show_the_numbers(tasks: list[Task], duration: float | None, formula: str) -> None:
+def test_the_steps_show_the_numbers(tasks: list[JointMove], duration: float | None, formula: str) -> None:
     plan = point_to_point(np.zeros(len(tasks)), tasks, duration)
     assert formula in "\n".join(line for step in trapezoid_steps(tasks, plan) for line in step.latex)
 

@@ -8,9 +8,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.orientation_paths import OrientationPath
-from gelenk.trajectory.zyz_paths import zyz_corner, zyz_paths, zyz_spline, zyz_triples, zyz_turns
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.paths.orientation_paths import OrientationPath
+from gelenk.trajectory.paths.zyz_paths import zyz_corner, zyz_paths, zyz_spline, zyz_triples, zyz_turns
 from tests.trajectory.test_orientation_paths import ENDS, angle_between, differs_by_steps, zyz
 
 KNOTS = np.array([0.0, 0.3, 0.45, 1.0])

@@ -5,13 +5,13 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from gelenk.model.arrays import Array
-from gelenk.trajectory.audit_demands import TipLimits
-from gelenk.trajectory.paths import Path
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import MotionLimits
-from gelenk.trajectory.timing import Timed
-from gelenk.trajectory.words import Law
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.timing import Timed
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")
 SMOOTH = ("quintic", "septic", "jerk_limited")
@@ -24,12 +24,12 @@ def limits(
     jerk: float | list[float] | Array = LOOSE,
     tip: TipLimits | None = None,
     joints: int = 1,
-) -> MotionLimits:
+) -> SegmentLimits:
     """Limits of all joints alike, or of each."""
     given = [np.asarray(values, float) for values in (velocity, acceleration, jerk)]
     count = max(joints, *(values.size for values in given))
     rows = [np.broadcast_to(values, (count,)).copy() for values in given] if joints else [np.empty(0)] * 3
-    return MotionLimits(rows[0], rows[1], rows[2], tip or TipLimits())
+    return SegmentLimits(rows[0], rows[1], rows[2], tip or TipLimits())
 
 
 def hermite(s: Array, q: Array, first: Array, second: Array) -> PiecewisePolynomial:
@@ -109,7 +109,7 @@ def instants(motion: PiecewisePolynomial, per_piece: int) -> Array:
     return times
 
 
-def joint_ratios(found: Timed, bounds: MotionLimits, *, with_jerk: bool, per_piece: int = 10) -> Array:
+def joint_ratios(found: Timed, bounds: SegmentLimits, *, with_jerk: bool, per_piece: int = 10) -> Array:
     """The largest velocity, acceleration and jerk in fractions of their limits; shape (2,) or (3,)."""
     times = instants(found.motion, per_piece)
     each = (bounds.velocity, bounds.acceleration, bounds.jerk)[: 3 if with_jerk else 2]

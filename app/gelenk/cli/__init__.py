@@ -2,9 +2,8 @@
 
 - `main`: the commands and exit codes; `session`: the options that commands share.
 - `robots`, `arms`, `motions`, `jobs`, `tables`, `bench`, `ask`: the commands themselves.
-- `inputs`, `rows`: robots, tables and numbers from arguments, files and standard input; `xacro`: expands xacro here.
+- `files`: robots, tables and configurations as input, answers as output.
 - `completion`: completion in a shell; `examples`: the examples of `--help`.
 - `batches`: splits a large batch into several calls.
-- `outputs`: answers as tables, JSON, CSV and npy.
 - `local`: the application without a network.
 """

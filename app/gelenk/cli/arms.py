@@ -8,9 +8,9 @@ import typer
 
 from gelenk.cli.batches import in_calls
 from gelenk.cli.completion import METHODS, REFERENCES, REPRESENTATIONS, one_of
-from gelenk.cli.inputs import fields_of
-from gelenk.cli.outputs import Rows, picture_kind
-from gelenk.cli.rows import AXES, ORIENTATIONS, numbers_of, rows_of
+from gelenk.cli.files.inputs import fields_of
+from gelenk.cli.files.outputs import AnswerRows, picture_kind
+from gelenk.cli.files.rows import AXES, ORIENTATIONS, numbers_of, rows_of
 from gelenk.cli.session import (
     BaseOption,
     FieldsOption,
@@ -20,10 +20,10 @@ from gelenk.cli.session import (
     TipOption,
     session,
 )
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
-    from gelenk.cli.rows import Rows as Given
+    from gelenk.cli.files.rows import InputRows as Given
     from gelenk.client import Client
     from gelenk.contract.ik import InverseAnswer, NearestInfo, SolutionInfo
     from gelenk.contract.pose import Pose
@@ -67,7 +67,7 @@ def fk(
         answer = in_calls(partial(client.fk, name), body, "joint_positions", progress)
     rows = [_pose_row(pose, pose_format) for pose in answer.poses]
     note = f"T of {answer.tip_frame} in {answer.base_frame}; {_certificate(answer.certificate)}"
-    shared.write(answer, Rows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
+    shared.write(answer, AnswerRows((*AXES, *ORIENTATIONS[pose_format]), rows, (note,)))
 
 
 def _with_configurations(client: "Client", name: str, given: "Given", body: dict[str, Any]) -> dict[str, Any]:
@@ -124,7 +124,7 @@ def jacobian(
         for index, (rank, condition) in enumerate(zip(answer.ranks, answer.condition_numbers, strict=True))
     ]
     columns = ("configuration", "row", *answer.joint_names)
-    shared.write(answer, Rows(columns, rows, notes[:20], array=answer.jacobians))
+    shared.write(answer, AnswerRows(columns, rows, notes[:20], array=answer.jacobians))
 
 
 def ik(
@@ -170,7 +170,7 @@ def ik(
         raise typer.Exit(UNREACHED)
 
 
-def _solutions(answer: "InverseAnswer") -> Rows:
+def _solutions(answer: "InverseAnswer") -> AnswerRows:
     columns = ("target", "status", *answer.joint_names, "position error", "orientation error")
     rows: list[tuple[Any, ...]] = []
     for index, result in enumerate(answer.results):
@@ -184,7 +184,7 @@ def _solutions(answer: "InverseAnswer") -> Rows:
     # As in the API's npy: for each target a solution, or the nearest configuration.
     first = [result.solutions[0] if result.solutions else result.nearest for result in answer.results]
     array = [one.joint_positions for one in first if one is not None]
-    return Rows(columns, rows, reasons[:20], array=array if len(array) == len(first) == len(rows) else None)
+    return AnswerRows(columns, rows, reasons[:20], array=array if len(array) == len(first) == len(rows) else None)
 
 
 def manipulability(
@@ -212,4 +212,4 @@ def manipulability(
         for part, info in (("translation", result.translation), ("rotation", result.rotation)):
             if info is not None:
                 rows.append((index, part, info.measure, info.condition_number, info.isotropy, info.rank))
-    shared.write(answer, Rows(("configuration", "part", "measure", "condition number", "isotropy", "rank"), rows))
+    shared.write(answer, AnswerRows(("configuration", "part", "measure", "condition number", "isotropy", "rank"), rows))

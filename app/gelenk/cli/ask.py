@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.completion import robots_beginning_with
-from gelenk.cli.inputs import fields_of
-from gelenk.cli.outputs import Output
+from gelenk.cli.files.inputs import fields_of
+from gelenk.cli.files.outputs import Output
 from gelenk.cli.session import session
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
-    from gelenk.calls.call import Call, Sent
+    from gelenk.client.call import Call, Sent
 
 _BY_FILES = {"add_archive", "replace_archive"}
 """Operations that take a file; the command `add` calls them."""
@@ -22,8 +22,8 @@ _BY_FILES = {"add_archive", "replace_archive"}
 @cache
 def operations() -> "dict[str, Sent[Any, Any]]":
     """Return all operations by name; loaded on demand, because that takes seconds."""
-    from gelenk.calls.call import Sent  # noqa: PLC0415
-    from gelenk.calls.operations import Operations  # noqa: PLC0415
+    from gelenk.client.call import Sent  # noqa: PLC0415
+    from gelenk.client.operations import Operations  # noqa: PLC0415
 
     methods = {name: value for name, value in sorted(vars(Operations).items()) if isinstance(value, Sent)}
     return {name: method for name, method in methods.items() if name not in _BY_FILES}

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from gelenk.calls.refusals import Refused, refusal
+from gelenk.client.refusals import Refused, refusal
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gelenk.cli.outputs import Rows
+from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, RobotArgument, TipOption, session
 
 if TYPE_CHECKING:
     from gelenk.client import Client
-    from gelenk.model.arrays import Array
+    from gelenk.robot.arrays import Array
 
 _KEYS = ("operation", "single_milliseconds", "batch_microseconds_each", "ratio")
 _FEWEST = 5
@@ -49,7 +49,7 @@ def bench(
     told = [dict(zip(_KEYS, row, strict=True)) for row in rows]
     shown = [(operation, round(single, 3), round(each, 3), round(ratio)) for operation, single, each, ratio in rows]
     answer = {"robot": robot, "where": where, "batch": batch, "rows": told}
-    shared.output.write(lambda: json.dumps(answer), Rows(columns, shown, (note,)))
+    shared.output.write(lambda: json.dumps(answer), AnswerRows(columns, shown, (note,)))
 
 
 def _measured(

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 import typer
 
-from gelenk.places import catalogue
+from gelenk.package_data import catalogue
 
 METHODS = ("auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares")
 LAWS = ("trapezoidal", "cubic", "quintic", "septic", "jerk_limited", "time_optimal")

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from gelenk.cli.outputs import Format
+from gelenk.cli.files.outputs import Format
 from gelenk.cli.session import session
 
 JobArgument = Annotated[str, typer.Argument(metavar="JOB", help="Its id.")]

@@ -11,12 +11,12 @@ import typer
 from rich.console import Console
 
 import gelenk
-from gelenk.calls.refusals import NotAnswering, Refused
 from gelenk.cli import arms, ask, bench, jobs, motions, robots, tables
 from gelenk.cli.examples import example_of
-from gelenk.cli.outputs import Format, Output, check_place
+from gelenk.cli.files.outputs import Format, Output, check_place
 from gelenk.cli.session import Session
-from gelenk.model.errors import InvalidInput, KinematicsError, NotFound
+from gelenk.client.refusals import NotAnswering, Refused
+from gelenk.errors import InvalidInput, KinematicsError, NotFound
 
 _ASKED_WRONG, _NO_SERVICE, _FAILED, _INTERRUPTED = 2, 3, 4, 130
 EXIT_CODES = (
@@ -114,7 +114,7 @@ def main() -> None:
         if error.name == "gelenk" or str(error.name).startswith("gelenk."):
             raise
         _end(
-            f"{error.name} is missing, without which nothing is computed or served here: install gelenk[server] "
+            f"{error.name} is missing, which computing or serving here needs: install gelenk[server] "
             "(in a checkout: pip install '.[server]'), or name a service with --server",
             _NO_SERVICE,
         )

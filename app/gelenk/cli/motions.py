@@ -9,11 +9,11 @@ import typer
 
 from gelenk.cli.arms import UNREACHED
 from gelenk.cli.completion import LAWS, WORKSPACES, one_of
-from gelenk.cli.inputs import fields_of
-from gelenk.cli.outputs import Format, Rows, picture_kind
-from gelenk.cli.rows import numbers_of, target_of
+from gelenk.cli.files.inputs import fields_of
+from gelenk.cli.files.outputs import AnswerRows, Format, picture_kind
+from gelenk.cli.files.rows import numbers_of, target_of
 from gelenk.cli.session import BaseOption, FieldsOption, LaterOption, RobotArgument, TipOption, session
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 
 
 def trajectory(
@@ -56,7 +56,7 @@ def trajectory(
     notes = [f"{answer.duration:.6g} s, {answer.completed_fraction:.0%} of it can be done"]
     if answer.failure is not None:
         notes.append(answer.failure.detail)
-    shared.write(answer, Rows(columns, rows, (*notes, *answer.notes)))
+    shared.write(answer, AnswerRows(columns, rows, (*notes, *answer.notes)))
     if answer.failure is not None:
         raise typer.Exit(UNREACHED)
 
@@ -104,7 +104,7 @@ def workspace(
             if plot is not None and picture is not None:
                 plot.write_bytes(client.picture(f"v1/jobs/{job.id}/result", picture))
     if wants_points:
-        shared.write(answer, Rows(answer.array.columns, points))
+        shared.write(answer, AnswerRows(answer.array.columns, points))
         return
     box, reach = answer.bounding_box, answer.reach
     rows: list[tuple[str, Any]] = [("samples", answer.samples_counted), ("volume [m³]", answer.voxels.volume)]
@@ -112,7 +112,7 @@ def workspace(
         rows += [("lower [m]", _vector(box.lower)), ("upper [m]", _vector(box.upper))]
         rows += [("reach [m]", f"{reach.min:.6f} … {reach.max:.6f}")]
     rows.append(("best measure", answer.measure.max))
-    shared.write(answer, Rows(("", "value"), rows, answer.notes))
+    shared.write(answer, AnswerRows(("", "value"), rows, answer.notes))
 
 
 def _vector(values: Sequence[float]) -> str:

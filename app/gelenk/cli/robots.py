@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gelenk.cli.completion import robots_beginning_with
-from gelenk.cli.inputs import description_from, is_file, name_of
-from gelenk.cli.outputs import Rows
+from gelenk.cli.files.inputs import description_from, is_file, name_of
+from gelenk.cli.files.outputs import AnswerRows
 from gelenk.cli.session import BaseOption, TipOption, session
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from gelenk.contract.robots import RobotInfo
@@ -31,7 +31,7 @@ def robots(
         with shared.client() as client:
             answer = client.robots()
         rows = [(one.name, one.source, one.format, one.description) for one in answer.robots]
-        shared.write(answer, Rows(("name", "source", "format", "description"), rows))
+        shared.write(answer, AnswerRows(("name", "source", "format", "description"), rows))
         return
     with shared.robot(robot) as (client, name):
         if urdf:
@@ -41,7 +41,7 @@ def robots(
     shared.write(info, _joints(info))
 
 
-def _joints(info: "RobotInfo") -> Rows:
+def _joints(info: "RobotInfo") -> AnswerRows:
     columns = ("joint", "type", "parent", "child", "lower", "upper", "velocity", "effort")
     rows = [
         (
@@ -52,7 +52,7 @@ def _joints(info: "RobotInfo") -> Rows:
     ]
     ends = info.default_chain
     about = f"default chain {ends.base_frame} → {ends.tip_frame}: {', '.join(info.joint_names)}"
-    return Rows(columns, rows, (about, *info.warnings))
+    return AnswerRows(columns, rows, (about, *info.warnings))
 
 
 def add(

@@ -12,15 +12,15 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from gelenk.cli.completion import frames_beginning_with, robots_beginning_with
-from gelenk.cli.inputs import packages_of, pairs_of, robot_named
-from gelenk.cli.outputs import Output, Rows
-from gelenk.model.errors import InvalidField
+from gelenk.cli.files.inputs import packages_of, pairs_of, robot_named
+from gelenk.cli.files.outputs import AnswerRows, Output
+from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from gelenk.calls.jobs import Job
     from gelenk.client import Client
+    from gelenk.client.jobs import Job
     from gelenk.contract.jobs import JobInfo
 
 A = TypeVar("A")
@@ -107,7 +107,7 @@ class Session:
             transport = None
             if not self.server:
                 from gelenk.cli.local import InProcess  # noqa: PLC0415
-                from gelenk.model.compilation import STORE, when_compiling  # noqa: PLC0415
+                from gelenk.robot.compilation import STORE, when_compiling  # noqa: PLC0415
 
                 if sys.stderr.isatty():
                     text = _COMPILING.format("" if STORE is None else ", once")
@@ -123,7 +123,7 @@ class Session:
         with self.client() as client, robot_named(client, argument, arguments, packages, self.strict) as name:
             yield client, name
 
-    def write(self, answer: "BaseModel", rows: Rows) -> None:
+    def write(self, answer: "BaseModel", rows: AnswerRows) -> None:
         """Write an answer of the API."""
         self.output.write(lambda: answer.model_dump_json(exclude_unset=True), rows)
 
@@ -166,7 +166,7 @@ class Session:
         columns = ("id", "kind", "state", "progress", "created", "finished")
         notes = () if info.error is None else (info.error.detail,)
         row = (info.id, info.kind, info.state, info.progress, info.created, info.finished)
-        self.write(info, Rows(columns, [row], notes))
+        self.write(info, AnswerRows(columns, [row], notes))
 
 
 def session(context: typer.Context) -> Session:

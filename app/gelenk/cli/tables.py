@@ -7,10 +7,10 @@ import typer
 
 from gelenk.cli.completion import CONVENTIONS, one_of
 from gelenk.cli.examples import example_of
-from gelenk.cli.inputs import fields_of, is_file, table_from
-from gelenk.cli.outputs import Format, Rows
+from gelenk.cli.files.inputs import fields_of, is_file, table_from
+from gelenk.cli.files.outputs import AnswerRows, Format
 from gelenk.cli.session import BaseOption, FieldsOption, RobotArgument, TipOption, session
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 
 if TYPE_CHECKING:
     from gelenk.contract.dh import DhTablePayload
@@ -28,12 +28,12 @@ def _table(file: Path) -> Any:
     return table_from(file)
 
 
-def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> Rows:
+def _rows(dh: "DhTablePayload", notes: tuple[str, ...] = ()) -> AnswerRows:
     columns = ("name", "type", "a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort")
     rows = [[getattr(row, column) for column in columns] for row in dh.joints]
     places = {"base": dh.base, "tool": dh.tool}
     told = [f"{name}: {pose.model_dump_json(exclude_unset=True)}" for name, pose in places.items() if pose is not None]
-    return Rows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
+    return AnswerRows(columns, rows, (f"{dh.convention} convention", *notes), (f"convention: {dh.convention}", *told))
 
 
 @tables.command("to-urdf", epilog=example_of("dh to-urdf"))
@@ -47,7 +47,7 @@ def to_urdf(
     with shared.client() as client:
         answer = client.dh_to_urdf(name=name, dh=_table(table))
     if shared.output.format is Format.JSON:
-        shared.write(answer, Rows((), ()))
+        shared.write(answer, AnswerRows((), ()))
     else:
         shared.output.put(answer.urdf.encode())
 
@@ -104,7 +104,7 @@ def compare(
         ("largest orientation error [rad]", answer.max_orientation_error),
     ]
     notes = () if answer.first_difference is None else (str(answer.first_difference),)
-    shared.write(answer, Rows(("", "value"), rows, notes))
+    shared.write(answer, AnswerRows(("", "value"), rows, notes))
     if not answer.equivalent:
         raise typer.Exit(_DIFFERENT)
 
@@ -125,10 +125,10 @@ def derive(
         answer = client.derive_dh(**{"dh": _table(table), "symbolic": symbolic, **fields_of(fields)})
     matrices = [*answer.A, *answer.T_0, *([answer.jacobian.matrix] if answer.jacobian else [])]
     if latex:
-        rows = Rows(("name", "formula"), [(one.name, one.latex) for one in matrices], answer.notes)
+        rows = AnswerRows(("name", "formula"), [(one.name, one.latex) for one in matrices], answer.notes)
     else:
         lines = [
             (one.name if i == 0 else "", "  ".join(row)) for one in matrices for i, row in enumerate(one.plain or [])
         ]
-        rows = Rows(("name", "formula"), lines, answer.notes)
+        rows = AnswerRows(("name", "formula"), lines, answer.notes)
     shared.write(answer, rows)

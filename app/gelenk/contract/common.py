@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 
 
 def as_lists(value: Any) -> Any:

@@ -8,7 +8,7 @@ from gelenk.contract.common import Answer, ChainOptions, RobotName
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import Pose, PoseFormat
-from gelenk.kinematics.comparison.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Mistake
+from gelenk.dh.compare.words import ORIENTATION_TOLERANCE, POSITION_TOLERANCE, SAMPLES, Mistake
 
 Findable: TypeAlias = Literal["base", "tool", "offsets", "signs"]
 

@@ -20,7 +20,7 @@ from gelenk.contract.quantities import (
     Voltage,
     Warnings,
 )
-from gelenk.course.dc_motor import Damping, Motor, Regime
+from gelenk.course.actuators.dc_motor import Damping, Motor, Regime
 
 MAX_SAMPLES = 10_000
 

@@ -7,10 +7,10 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.pose import Pose
-from gelenk.model.arrays import Array
-from gelenk.model.description import Mimic
-from gelenk.model.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
-from gelenk.model.errors import InvalidPose
+from gelenk.errors import InvalidPose
+from gelenk.robot.arrays import Array
+from gelenk.robot.description import Mimic
+from gelenk.robot.dh import MAX_JOINTS, MAX_SNAP_TOLERANCE, DhJoint, DhTable
 
 JointName = Annotated[str, Field(min_length=1, max_length=128, pattern=r"^[^\x00-\x1f\x7f-\x9f]+$")]
 

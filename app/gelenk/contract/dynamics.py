@@ -82,7 +82,8 @@ class DynamicsAnswer(Answer):
     )
     coriolis_matrices: list[Matrix] | None = Field(
         default=None,
-        description="C(q, q̇), of the many with these C q̇ one with dM/dt - 2C skew, [kg m², kg m or kg] per second.",
+        description="C(q, q̇): of the many matrices with this C q̇ the one for which dM/dt - 2C is skew, "
+        "[kg m², kg m or kg] per second.",
     )
     coriolis_torques: list[list[float]] | None = Field(
         default=None, description="C q̇, Coriolis and centrifugal torques, [N m or N]."

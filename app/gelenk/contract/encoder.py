@@ -7,9 +7,9 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Ratio, Steps
-from gelenk.course.encoders import TURN, Decoding
-from gelenk.course.gray import Code
-from gelenk.course.quadrature import Direction
+from gelenk.course.actuators.encoders import TURN, Decoding
+from gelenk.course.actuators.gray import Code
+from gelenk.course.actuators.quadrature import Direction
 
 MAX_READINGS = 10_000
 MAX_BITS = 32

@@ -7,8 +7,8 @@ from pydantic import AfterValidator, Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
-from gelenk.trajectory.blended_motion import PhaseName
-from gelenk.trajectory.fly_over import Given, Turn
+from gelenk.course.motion.blended_motion import PhaseName
+from gelenk.course.motion.fly_over import Given, Turn
 
 MAX_SAMPLES = 10_000
 

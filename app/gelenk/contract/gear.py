@@ -13,7 +13,7 @@ from gelenk.contract.quantities import (
     Steps,
     Torque,
 )
-from gelenk.course.gear import PowerFlow
+from gelenk.course.actuators.gear import PowerFlow
 
 
 class GearRequest(Payload):

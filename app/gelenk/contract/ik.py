@@ -9,8 +9,8 @@ from gelenk.contract.common import Answer, ChainOptions, OnTheWire
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations
 from gelenk.contract.pose import Pose, PoseFormat, pose_fields
-from gelenk.kinematics.ik.words import Direction, ObjectiveName, Status, StopReason
-from gelenk.model.arrays import Array
+from gelenk.ik.search.words import Direction, ObjectiveName, Status, StopReason
+from gelenk.robot.arrays import Array
 
 MAX_TARGETS = 1_000_000
 MAX_STEPWISE = 1000

@@ -8,8 +8,8 @@ from pydantic import Discriminator, Field, Tag, field_validator
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
 from gelenk.contract.kinematics import Configuration
-from gelenk.kinematics.derive.lagrangian.bodies import STANDARD_GRAVITY, Body, Dynamics, Gravity
-from gelenk.model.dh import MAX_JOINTS, MAX_LENGTH
+from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, Gravity, LinkBody, MassProperties
+from gelenk.robot.dh import MAX_JOINTS, MAX_LENGTH
 
 MAX_CONFIGURATIONS = 100
 MAX_MASS = 1e6
@@ -48,11 +48,11 @@ class LinkPayload(Payload):
         description="I_i, about the centre of mass, the axis normal to the plane, [kg m²].",
     )
 
-    def body(self) -> Body:
+    def body(self) -> LinkBody:
         """Return the core's body."""
         center = self.center_of_mass
         point = (center[0], center[1], center[2]) if isinstance(center, list) else center
-        return Body(self.mass, point, self.inertia)
+        return LinkBody(self.mass, point, self.inertia)
 
 
 class GravityPayload(Payload):
@@ -94,13 +94,13 @@ class DynamicsPayload(Payload):
         default=None, description="For C in numbers: one entry per configuration of `joint_positions`, [rad/s or m/s]."
     )
 
-    def dynamics(self) -> Dynamics:
+    def dynamics(self) -> MassProperties:
         """Return the core's masses, gravity and velocities."""
         given = self.gravity
         vector, size = (given, math.hypot(*given)) if isinstance(given, list) else (given.direction, given.magnitude)
         length = math.hypot(*vector) or 1.0
         gravity = Gravity(size, (vector[0] / length, vector[1] / length, vector[2] / length))
-        return Dynamics(tuple(link.body() for link in self.links), gravity, self.joint_velocities)
+        return MassProperties(tuple(link.body() for link in self.links), gravity, self.joint_velocities)
 
 
 class BodyInfo(Answer):

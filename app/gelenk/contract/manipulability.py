@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configuration, Configurations, JacobianCertificateInfo
-from gelenk.kinematics.ik.words import DIRECTIONS, Direction
+from gelenk.ik.search.words import DIRECTIONS, Direction
 
 MAX_DETAILED = 10_000
 """Maximum number of configurations of an answer in JSON; as npy there may be more."""

@@ -6,11 +6,11 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Payload, RobotName
 from gelenk.contract.pose import MAX_MAGNITUDE, Vector3
-from gelenk.course.mechanism import GivenPair, Node
-from gelenk.course.mobility import NodeCount
-from gelenk.course.pairs import KINDS, LETTERS, Geometry
-from gelenk.course.rotations import unit_axis
-from gelenk.model.errors import InvalidField, listed, quoted
+from gelenk.course.mobility.mechanism import GivenPair, Node
+from gelenk.course.mobility.mobility import NodeCount
+from gelenk.course.mobility.pairs import KINDS, LETTERS, PairGeometry
+from gelenk.course.orientation.rotations import unit_axis
+from gelenk.errors import InvalidField, listed, quoted
 
 MAX_LINKS = 500
 MAX_PAIRS = 1000
@@ -86,14 +86,14 @@ class PairPayload(Payload):
         """Check whether it gives anything about its location."""
         return any(field is not None for field in (self.point, self.axis, self.second_axis, self.pitch))
 
-    def _geometry(self, number: int) -> Geometry | None:
+    def _geometry(self, number: int) -> PairGeometry | None:
         if not self.has_geometry():
             return None
         axis, second = (
             None if direction is None else _triple(unit_axis(direction, f"pairs/{number}/{name}").tolist())
             for name, direction in (("axis", self.axis), ("second_axis", self.second_axis))
         )
-        return Geometry(None if self.point is None else _triple(self.point), axis, second, self.pitch)
+        return PairGeometry(None if self.point is None else _triple(self.point), axis, second, self.pitch)
 
 
 class NodePayload(Payload):

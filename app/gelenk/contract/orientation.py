@@ -8,11 +8,11 @@ from pydantic import Field, model_validator
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.pose import MAX_MAGNITUDE, ORIENTATIONS, Matrix3, Pose, Vector3, Vector4
-from gelenk.course.composition import Motion
-from gelenk.course.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidPose
-from gelenk.model.poses import ROTATION_TOLERANCE, transform
+from gelenk.course.orientation.composition import FrameMotion
+from gelenk.course.orientation.rotations import DEGENERATE, Validation, about_axis, elementary, unit_axis, validated
+from gelenk.errors import InvalidPose
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import ROTATION_TOLERANCE, transform
 
 MAX_MOTIONS = 64
 MAX_POINTS = 10_000
@@ -106,7 +106,7 @@ class MotionPayload(Payload):
         kind = "a reflection" if found.is_reflection else "not a rotation"
         reason = (
             f"the matrix is {kind}: ‖RᵀR - I‖ = {found.orthogonality_error:.6g}, det R = {found.determinant:.6g}; "
-            f"allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
+            f"the limit is a distance of {ROTATION_TOLERANCE:g} from SO(3), or `project` for the nearest rotation"
         )
         raise InvalidPose(reason, found.distance, f"{place}rotation")
 
@@ -134,13 +134,13 @@ class OrientationRequest(MotionPayload):
         default_factory=list, description="Points in the frame that all motions lead to, [m]."
     )
 
-    def motions(self) -> tuple[Array, list[Motion], list[Validation | None]]:
+    def motions(self) -> tuple[Array, list[FrameMotion], list[Validation | None]]:
         """Return the first transform, the further motions, and how far each matrix was from a rotation."""
         first, validation = self.read()
         further, validations = [], [validation]
         for i, motion in enumerate(self.then):
             T, validation = motion.read(f"then/{i}/")
-            further.append(Motion(T, motion.about))
+            further.append(FrameMotion(T, motion.about))
             validations.append(validation)
         return first, further, validations
 

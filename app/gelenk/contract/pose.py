@@ -7,9 +7,9 @@ import numpy.typing as npt
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from gelenk.contract.common import Payload, as_lists
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidArray, InvalidPose
-from gelenk.model.poses import nearest_rotation, transform, unit_quaternion
+from gelenk.errors import InvalidArray, InvalidPose
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import nearest_rotation, transform, unit_quaternion
 
 PoseFormat: TypeAlias = Literal[
     "quaternion_xyzw", "quaternion_wxyz", "rpy", "zyz", "rotation_vector", "rotation", "matrix"
@@ -95,7 +95,7 @@ class Pose(Payload):
         if self.rotation is not None:
             return nearest_rotation(np.array(self.rotation))
         # Compiled code: a client, which passes poses on without reading them, need not load it.
-        from gelenk.model.notations import (  # noqa: PLC0415
+        from gelenk.robot.notations import (  # noqa: PLC0415
             rotations_from_quaternions_xyzw,
             rotations_from_rpy,
             rotations_from_vectors,

@@ -8,8 +8,8 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo
-from gelenk.kinematics.ik.words import Direction
-from gelenk.kinematics.words import SingularityKind
+from gelenk.ik.search.words import Direction
+from gelenk.kinematics.velocity.words import SingularityKind
 
 MAX_REPORTS = 2000
 """Maximum number of configurations of a call with whole reports, as JSON."""

@@ -9,7 +9,7 @@ from gelenk.contract.common import Answer
 from gelenk.contract.course_motion import Coordinates, MotionAnswer, SampledRequest, Time, Times, Waypoints
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
-from gelenk.trajectory.splines import Boundary
+from gelenk.trajectory.motion.splines import Boundary
 
 
 class SplineRequest(SampledRequest):

@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
-from gelenk.kinematics.ik.words import Direction
+from gelenk.ik.search.words import Direction
 
 MAX_TESTS = 100
 MAX_WRENCH = 1e6

@@ -16,8 +16,8 @@ from gelenk.contract.course_motion import (
 )
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.time_scaling import Quantity
+from gelenk.trajectory.laws.time_scaling import Quantity
+from gelenk.trajectory.motion.splines import Boundary
 
 
 class TimeScalingRequest(SampledRequest):

@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer
 from gelenk.contract.kinematics import CertificateInfo
 from gelenk.contract.pose import Pose
-from gelenk.trajectory.words import Check, Law, SegmentType, StopReason
+from gelenk.trajectory.audit.words import Check, Law, SegmentType, StopReason
 
 LimitSource = Literal["request", "robot", "assumed"]
 

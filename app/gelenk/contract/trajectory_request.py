@@ -9,11 +9,11 @@ from gelenk.contract.common import ChainOptions, OnTheWire, Payload
 from gelenk.contract.course_motion import Duration
 from gelenk.contract.kinematics import ByName, ByOrder, Configuration
 from gelenk.contract.pose import ORIENTATIONS, Pose, PoseFormat
-from gelenk.kinematics.ik.words import Direction
-from gelenk.model.arrays import Array
-from gelenk.model.arrays import Configuration as GivenConfiguration
-from gelenk.trajectory.splines import Boundary
-from gelenk.trajectory.words import Law, NearSingularity, OrientationLaw
+from gelenk.ik.search.words import Direction
+from gelenk.robot.arrays import Array
+from gelenk.robot.arrays import Configuration as GivenConfiguration
+from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw
+from gelenk.trajectory.motion.splines import Boundary
 
 MAX_SAMPLES = 100_000
 """Maximum number of samples of a motion."""

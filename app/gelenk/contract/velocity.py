@@ -8,8 +8,8 @@ from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vec
 from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
 from gelenk.contract.singularities import SingularityInfo
-from gelenk.kinematics.ik.words import Direction, ObjectiveName
-from gelenk.kinematics.words import InverseName, InverseStatus
+from gelenk.ik.search.words import Direction, ObjectiveName
+from gelenk.kinematics.velocity.words import InverseName, InverseStatus
 
 MAX_MAGNITUDE = 1e6
 """Largest entry of a twist, or of a derivative of one."""

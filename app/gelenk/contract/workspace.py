@@ -7,7 +7,7 @@ from pydantic import Field
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.jobs import JobName
 from gelenk.contract.pose import Vector3
-from gelenk.kinematics.ik.words import Direction
+from gelenk.ik.search.words import Direction
 
 _Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
 JointRange = Annotated[list[_Bound], Field(min_length=2, max_length=2)]

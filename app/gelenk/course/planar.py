@@ -17,8 +17,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from gelenk.course.steps import Step, tex
-from gelenk.model.arrays import Array
-from gelenk.model.errors import CertificationFailed
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array
 
 Interval: TypeAlias = tuple[float, float]
 Location: TypeAlias = Literal["inside", "boundary", "outside"]
@@ -85,7 +85,7 @@ def area(rings: Sequence[Interval]) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class WorkspacePlace:
     """Position of a point relative to a workspace.
 
     Attributes:
@@ -99,17 +99,17 @@ class Place:
     distance: float | None
 
 
-def place(rings: Sequence[Interval], radius: float, tolerance: float) -> Place:
+def place(rings: Sequence[Interval], radius: float, tolerance: float) -> WorkspacePlace:
     """Locate a radius, [m], relative to rings; the centre of a disc is not a boundary."""
     bounds = [bound for inner, outer in rings for bound in (inner, outer) if bound > 0.0 or outer == 0.0]
     inside = any(inner <= radius <= outer for inner, outer in rings)
     if not bounds:
-        return Place("outside", None, None)
+        return WorkspacePlace("outside", None, None)
     nearest = min(bounds, key=lambda bound: abs(bound - radius))
     distance = abs(nearest - radius)
     if distance <= tolerance:
-        return Place("boundary", nearest, distance if inside else -distance)
-    return Place("inside" if inside else "outside", nearest, distance if inside else -distance)
+        return WorkspacePlace("boundary", nearest, distance if inside else -distance)
+    return WorkspacePlace("inside" if inside else "outside", nearest, distance if inside else -distance)
 
 
 def orientations(arm: PlanarWorkspace, x: float, y: float) -> tuple[Interval, ...]:

@@ -6,8 +6,8 @@ from typing import Any, Literal, TypeAlias
 
 import orjson
 
-from gelenk.model import errors
-from gelenk.model.errors import JobFailed, KinematicsError
+from gelenk import errors
+from gelenk.errors import JobFailed, KinematicsError
 
 State: TypeAlias = Literal["queued", "running", "succeeded", "failed", "cancelled"]
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from gelenk.model.errors import TooLarge, UnknownJob
+from gelenk.errors import TooLarge, UnknownJob
 from gelenk.store import folders
 
 _PREFIX = "part-"

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import orjson
 
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
 from gelenk.store.folders import read_plain
 
 _URDF, _ABOUT = "robot.urdf", "robot.json"
@@ -30,7 +30,7 @@ class RobotText(NamedTuple):
     ends: tuple[str, str]
 
 
-def robot_files(name: str, robot: Robot, urdf: str) -> dict[str, bytes]:
+def robot_files(name: str, robot: RobotModel, urdf: str) -> dict[str, bytes]:
     """A robot as files of a request.
 
     Args:
@@ -57,6 +57,6 @@ def robot_text(folder: Path) -> RobotText:
 
 
 @lru_cache(maxsize=2)
-def robot_of(text: RobotText) -> Robot:
+def robot_of(text: RobotText) -> RobotModel:
     """The robot, ready for computation; built once for all parts of a job that a process computes."""
-    return Robot(read_urdf(text.urdf.decode(*_ENCODING)), text.ends)
+    return RobotModel(read_urdf(text.urdf.decode(*_ENCODING)), text.ends)

@@ -8,11 +8,11 @@ from concurrent.futures import TimeoutError as NotYet
 from dataclasses import dataclass, field
 from typing import IO, Any, Protocol, TypeAlias, TypeVar
 
+from gelenk.errors import JobFailed, UnknownJob
 from gelenk.jobs.job import Job
 from gelenk.jobs.parts import Parts, computed
 from gelenk.jobs.store import JobStore
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
-from gelenk.model.errors import JobFailed, UnknownJob
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")

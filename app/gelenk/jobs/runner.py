@@ -8,11 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from gelenk.jobs.job import Failure, Job
-from gelenk.jobs.run import Executor, Files, Run
-from gelenk.jobs.store import JobStore
-from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
-from gelenk.model.errors import (
+from gelenk.errors import (
     JobCancelled,
     JobFailed,
     JobFinished,
@@ -23,6 +19,10 @@ from gelenk.model.errors import (
     ServiceStopping,
     UnknownJob,
 )
+from gelenk.jobs.job import Failure, Job
+from gelenk.jobs.run import Executor, Files, Run
+from gelenk.jobs.store import JobStore
+from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
 from gelenk.processes.turns import Turns
 
 _RENDERING_SECONDS = 60.0

@@ -18,11 +18,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
+from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from gelenk.jobs.job import Job
 from gelenk.jobs.owners import Owners
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.robot_files import robot_digest
-from gelenk.model.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from gelenk.store import folders
 
 JOB_FILE = "job.json"

@@ -9,22 +9,22 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import orjson
 
+from gelenk.errors import InvalidField
 from gelenk.jobs.packing import packed, unpacked
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
 from gelenk.jobs.store import write_result
-from gelenk.kinematics.dexterity import Orientations, Over, excluded, orientations, shares
-from gelenk.kinematics.sampling import Sampling
-from gelenk.kinematics.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
-from gelenk.kinematics.tip_motion import Motion
-from gelenk.kinematics.voxels import MAX_VOXELS, VoxelTable, merged
-from gelenk.kinematics.workspace import PART, Part, Plan, Plane, Wish, plan, sampled
-from gelenk.model.arrays import Array, Indices
-from gelenk.model.chain import Chain
-from gelenk.model.description import Description
-from gelenk.model.errors import InvalidField
-from gelenk.model.robot import Robot
+from gelenk.kinematics.workspace.dexterity import Orientations, Over, excluded, orientations, shares
+from gelenk.kinematics.workspace.sampling import Sampling
+from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
+from gelenk.kinematics.workspace.tip_motion import TipReach
+from gelenk.kinematics.workspace.voxels import MAX_VOXELS, VoxelTable, merged
+from gelenk.kinematics.workspace.workspace import PART, Plane, SampledPart, SamplingPlan, Wish, plan, sampled
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.chain import Chain
+from gelenk.robot.description import Description
+from gelenk.robot.robot import RobotModel
 
 KIND = "workspace"
 SUMMARY, ARRAY = "result.json", "result.npy"
@@ -46,7 +46,7 @@ Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure",
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class WorkspaceWork:
     """A requested workspace, and how to compute it.
 
     Attributes:
@@ -63,7 +63,7 @@ class Question:
     description: Description
     chain: Chain
     wish: Wish
-    plan: Plan
+    plan: SamplingPlan
     asked: Orientations | None
     excluded: str | None
 
@@ -75,7 +75,7 @@ class Question:
         return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
 
 
-def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, count: int) -> Question:
+def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over, count: int) -> WorkspaceWork:
     """The checked request: errors are reported before there is a job.
 
     Args:
@@ -96,10 +96,10 @@ def question(name: str, robot: Robot, chain: Chain, wish: Wish, over: Over, coun
         reason = excluded(motion, work.grid.dimensions, asked.spread)
         notes = (*work.notes, *_spread_notes(motion, wish.plane, asked), *([reason] if reason else []))
         work = replace(work, notes=notes)
-    return Question(name, replace(robot.description, warnings=()), chain, wish, work, asked, reason)
+    return WorkspaceWork(name, replace(robot.description, warnings=()), chain, wish, work, asked, reason)
 
 
-def _spread_notes(motion: Motion, plane: Plane | None, asked: Orientations) -> list[str]:
+def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) -> list[str]:
     """Why a dexterity map cannot be what it may be expected to be."""
     missed = _missed_notes(motion, plane)
     match asked.spread:
@@ -110,7 +110,7 @@ def _spread_notes(motion: Motion, plane: Plane | None, asked: Orientations) -> l
     return missed
 
 
-def _missed_notes(motion: Motion, plane: Plane | None) -> list[str]:
+def _missed_notes(motion: TipReach, plane: Plane | None) -> list[str]:
     """Where the middles of the voxels are not on what the tip keeps to."""
     if motion.kept_to is not None:
         note = (
@@ -127,7 +127,7 @@ def _missed_notes(motion: Motion, plane: Plane | None) -> list[str]:
     return [note]
 
 
-def work_of(asked: Question) -> Work:
+def work_of(asked: WorkspaceWork) -> Work:
     """The function that computes a request."""
 
     def work(run: Run) -> Files:
@@ -139,7 +139,7 @@ def work_of(asked: Question) -> Work:
     return work
 
 
-def _put_together(job: tuple[Question, Parts, str | None]) -> Workspace | None:
+def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | None:
     """Write the files of a result from its parts, in a process of its own.
 
     Returns:
@@ -149,7 +149,7 @@ def _put_together(job: tuple[Question, Parts, str | None]) -> Workspace | None:
     survey = Survey(asked.plan)
     for part in parts.of(_SAMPLES, asked.plan.parts):
         survey.add(_part(part))
-    found = survey.result(Robot(asked.description, (asked.chain.base_frame, asked.chain.tip_frame)), asked.chain)
+    found = survey.result(RobotModel(asked.description, (asked.chain.base_frame, asked.chain.tip_frame)), asked.chain)
     if asked.asked is not None:
         return found
     for name, content in _files(asked, found, None, digest).items():
@@ -157,7 +157,7 @@ def _put_together(job: tuple[Question, Parts, str | None]) -> Workspace | None:
     return None
 
 
-def _files(asked: Question, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
+def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
     """What the job leaves behind."""
     table = found.points if found.points is not None else found.voxel_rows(asked.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
@@ -169,7 +169,7 @@ def _files(asked: Question, found: Workspace, dexterity: Array | None, robot_dig
     }
 
 
-def check_size(asked: Question) -> None:
+def check_size(asked: WorkspaceWork) -> None:
     """Refuse samples that fall into more voxels than there may be, before there is a job.
 
     Raises:
@@ -193,7 +193,7 @@ def check_size(asked: Question) -> None:
     raise InvalidField("voxel_size", f"{told}; at most {most:,} are allowed: ask for {' or '.join(ways)}")
 
 
-def _voxels_met(plan: Plan) -> int:
+def _voxels_met(plan: SamplingPlan) -> int:
     """How many voxels the samples fall into: counted where the samples are few, else estimated from the first of them.
 
     Good and Turing: the next sample meets a new voxel as probably as those so far are alone in theirs, and later ones
@@ -217,7 +217,7 @@ def _rounded_up(length: float) -> float:
     return float(f"{math.ceil(length / step) * step:.6g}")
 
 
-def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
+def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:
     """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
     assert asked.asked is not None  # noqa: S101 - what it is called for
     centres = asked.plan.grid.centres(found.voxels.keys)
@@ -233,7 +233,7 @@ def _dexterity(run: Run, asked: Question, found: Workspace) -> Array:
     return np.concatenate([np.empty(0), *(unpacked(part)["shares"] for part in run.parts.of(_VOXELS, count))])
 
 
-def _sampled(job: tuple[Plan, int]) -> bytes:
+def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
     """Part number k of a plan, in a process of its own; see `sampled`."""
     part = sampled(job)
     return packed(
@@ -246,7 +246,7 @@ def _sampled(job: tuple[Plan, int]) -> bytes:
     )
 
 
-def _part(content: bytes) -> Part:
+def _part(content: bytes) -> SampledPart:
     """What `_sampled` has packed."""
     values = unpacked(content)
     first, count, best = values["numbers"].tolist()
@@ -254,7 +254,9 @@ def _part(content: bytes) -> Part:
     least, most, total = values["measures"].tolist()
     voxels = VoxelTable(*(values[entry.name] for entry in fields(VoxelTable)))
     lower, upper = values["box"]
-    return Part(first, values.get("points"), voxels, count, lower, upper, (near, far), (least, most, total), best)
+    return SampledPart(
+        first, values.get("points"), voxels, count, lower, upper, (near, far), (least, most, total), best
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,7 +280,7 @@ class _Arm:
     orientations: Orientations
 
 
-def _arm(asked: Question) -> _Arm:
+def _arm(asked: WorkspaceWork) -> _Arm:
     """Within the joint limits unless requested otherwise; a joint that turns freely does so here too."""
     assert asked.asked is not None  # noqa: S101
     chain, ranges = asked.chain, asked.plan.sampling.ranges
@@ -304,13 +306,13 @@ def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
 
 
 @lru_cache(maxsize=2)
-def _unpacked(pickled: bytes) -> tuple[Robot, Chain, _Arm]:
+def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, _Arm]:
     arm: _Arm = pickle.loads(pickled)  # noqa: S301 - written by this service
-    robot = Robot(arm.description, arm.ends)
+    robot = RobotModel(arm.description, arm.ends)
     return robot, replace(robot.chain(*arm.ends), lower=arm.lower, upper=arm.upper), arm
 
 
-def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
+def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
     """What travels as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
     certificate = found.certificate
@@ -339,7 +341,7 @@ def _summary(asked: Question, found: Workspace, dexterity: Array | None) -> dict
     }
 
 
-def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
+def _voxels(work: SamplingPlan, found: Workspace) -> dict[str, Any]:
     grid, count = work.grid, len(found.voxels)
     return {
         "size": grid.size,
@@ -355,7 +357,7 @@ def _voxels(work: Plan, found: Workspace) -> dict[str, Any]:
     }
 
 
-def _measure(asked: Question, found: Workspace) -> dict[str, Any]:
+def _measure(asked: WorkspaceWork, found: Workspace) -> dict[str, Any]:
     work, measures = asked.plan, found.measures
     axes = (np.eye(3) if work.turn is None else work.turn).T
     directions = np.zeros((len(work.rows), 6))
@@ -369,7 +371,7 @@ def _measure(asked: Question, found: Workspace) -> dict[str, Any]:
     return content | dict(zip(names, values, strict=True))
 
 
-def _dexterity_summary(asked: Question, found: Workspace, values: Array) -> dict[str, Any]:
+def _dexterity_summary(asked: WorkspaceWork, found: Workspace, values: Array) -> dict[str, Any]:
     assert asked.asked is not None  # noqa: S101
     grid, full = asked.plan.grid, found.voxels.keys[values == 1.0]
     counts = (0, 0, 0) if asked.excluded else (len(grid.inner(full)), len(full), len(grid.grown(full)))

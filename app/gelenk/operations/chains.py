@@ -2,12 +2,12 @@
 
 from typing import Any, Protocol
 
-from gelenk.kinematics.configuration import check_limits, configurations
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import TooLarge
-from gelenk.model.robot import Robot
+from gelenk.errors import TooLarge
 from gelenk.operations.outcome import Limits
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import check_limits, configurations
+from gelenk.robot.robot import RobotModel
 
 
 class AtConfigurations(Protocol):
@@ -34,7 +34,7 @@ class AtConfigurations(Protocol):
         ...
 
 
-def chain_and_positions(robot: Robot, call: AtConfigurations) -> tuple[Chain, Array]:
+def chain_and_positions(robot: RobotModel, call: AtConfigurations) -> tuple[Chain, Array]:
     """Return the chain of a request and its configurations, shape (N, n), [rad or m].
 
     Raises:

@@ -6,17 +6,17 @@ import numpy as np
 
 from gelenk.contract.compare_dh import CompareRequest
 from gelenk.contract.pose import PoseFormat
-from gelenk.kinematics.compare import Comparison, compare
-from gelenk.kinematics.comparison.alignment import Freedom
-from gelenk.kinematics.comparison.numbers import Difference
-from gelenk.kinematics.comparison.screws import PARAMETERS
-from gelenk.kinematics.comparison.trials import Diagnosis
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.poses import Poses
-from gelenk.model.robot import Robot
+from gelenk.dh.compare.alignment import Freedom
+from gelenk.dh.compare.compare import Comparison, compare
+from gelenk.dh.compare.numbers import Difference
+from gelenk.dh.compare.screws import PARAMETERS
+from gelenk.dh.compare.trials import Diagnosis
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.pose_arrays import pose_list
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 
@@ -30,7 +30,7 @@ def is_heavy(_: CompareRequest) -> bool:
     return True
 
 
-def _compared(robot: Robot, call: CompareRequest) -> dict[str, Any]:
+def _compared(robot: RobotModel, call: CompareRequest) -> dict[str, Any]:
     chain = robot.chain(call.base_frame, call.tip_frame)
     tolerances = call.position_tolerance, call.orientation_tolerance
     comparison = compare(robot, chain, call.dh.table(), _freedom(call), tolerances, seed=call.random_seed)
@@ -76,7 +76,7 @@ def _content(chain: Chain, call: CompareRequest, comparison: Comparison) -> dict
 def _replaced(call: CompareRequest) -> list[str]:
     """Return notes on the poses in `dh` that `find` replaces."""
     given = [place for place in ("base", "tool") if getattr(call.dh, place) is not None and place in (call.find or ())]
-    return [f"`find` has {place} found: that of `dh` is set aside" for place in given]
+    return [f"`find` asks for {place}: that of `dh` is ignored" for place in given]
 
 
 def _pose(T: Array, pose_format: PoseFormat) -> dict[str, object]:

@@ -5,8 +5,8 @@ from typing import Any
 
 from gelenk.contract.convert_dh import ConvertRequest
 from gelenk.contract.dh import table_content
-from gelenk.kinematics.certify import certify_conversion
-from gelenk.model.convert import converted
+from gelenk.dh.tables.convert import converted
+from gelenk.kinematics.judge.judge import certify_conversion
 from gelenk.operations.outcome import Outcome
 
 

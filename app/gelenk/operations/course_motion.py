@@ -7,14 +7,14 @@ from typing import Any, TypeVar
 import numpy as np
 
 from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS, SampledRequest
+from gelenk.course.motion.check import MotionClaims, certified
 from gelenk.course.steps import Step
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField, counted
+from gelenk.errors import InvalidField, counted
 from gelenk.operations.outcome import Outcome, PictureFormat
-from gelenk.trajectory.certify import Promise, certified
-from gelenk.trajectory.extremes import Peaks, peaks
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.time_scaling import QUANTITIES, Limits
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits
+from gelenk.trajectory.motion.extremes import Peaks, peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _QUICK_NUMBERS = 300
 _QUICK_KNOTS = 24
@@ -26,7 +26,7 @@ PeaksByOrder = dict[int, Peaks]
 
 
 @dataclass(frozen=True, slots=True)
-class Planned:
+class PlannedMotion:
     """A planned motion, what its certificate promises, and further fields of the answer.
 
     Attributes:
@@ -43,7 +43,7 @@ class Planned:
     """
 
     motion: PiecewisePolynomial
-    limits: Limits
+    limits: ScalingLimits
     times: Array
     knots: Array
     start_rates: Array
@@ -54,7 +54,7 @@ class Planned:
     passed: tuple[Array, Array] | None = None
 
 
-def motion_outcome(call: _Request, plan: Callable[[_Request], Planned]) -> Outcome:
+def motion_outcome(call: _Request, plan: Callable[[_Request], PlannedMotion]) -> Outcome:
     """Return a motion as JSON, or its profiles as a picture.
 
     Args:
@@ -74,14 +74,14 @@ def is_heavy_motion(call: SampledRequest) -> bool:
     return count * len(first) > _QUICK_NUMBERS or len(waypoints) * len(first) > _QUICK_KNOTS
 
 
-def _picture(call: _Request, kind: PictureFormat, plan: Callable[[_Request], Planned]) -> bytes:
+def _picture(call: _Request, kind: PictureFormat, plan: Callable[[_Request], PlannedMotion]) -> bytes:
     # Matplotlib takes a third of a second to load.
-    from gelenk.plots.profiles import Lines, profiles_picture  # noqa: PLC0415
+    from gelenk.plots.profiles import ProfileLines, profiles_picture  # noqa: PLC0415
 
     planned = plan(call)
     limits, joints = planned.limits, planned.knots.shape[1]
     _certified(planned, _peaks(planned.motion))
-    lines = Lines(
+    lines = ProfileLines(
         [f"joint {j + 1}" for j in range(joints)],
         _UNITS,
         (limits.velocity, limits.acceleration, limits.jerk),
@@ -94,12 +94,14 @@ def _peaks(motion: PiecewisePolynomial) -> PeaksByOrder:
     return {order: peaks(motion, order) for order in (1, 2, 3)}
 
 
-def _certified(planned: Planned, found: PeaksByOrder) -> dict[str, Any]:
-    promise = Promise(planned.times, planned.knots, planned.start_rates, planned.end_rates, planned.continuity, found)
+def _certified(planned: PlannedMotion, found: PeaksByOrder) -> dict[str, Any]:
+    promise = MotionClaims(
+        planned.times, planned.knots, planned.start_rates, planned.end_rates, planned.continuity, found
+    )
     return {**asdict(certified(planned.motion, promise)), "continuity": planned.continuity}
 
 
-def _answer(call: _Request, plan: Callable[[_Request], Planned]) -> dict[str, Any]:
+def _answer(call: _Request, plan: Callable[[_Request], PlannedMotion]) -> dict[str, Any]:
     planned = plan(call)
     motion = planned.motion
     times, found = _sample_times(call, motion), _peaks(motion)
@@ -162,7 +164,7 @@ def _told_peaks(found: Peaks, limit: Array | None) -> list[dict[str, Any]]:
     ]
 
 
-def limit_warnings(found: PeaksByOrder, limits: Limits) -> list[str]:
+def limit_warnings(found: PeaksByOrder, limits: ScalingLimits) -> list[str]:
     """Return a warning for each joint and quantity whose limit is exceeded."""
     texts = []
     for order, quantity in enumerate(QUANTITIES, start=1):
@@ -182,7 +184,7 @@ def told_steps(steps: Sequence[Step]) -> list[dict[str, Any]]:
     return [asdict(step) for step in steps]
 
 
-def limits_of(call: SampledRequest, joints: int) -> Limits:
+def limits_of(call: SampledRequest, joints: int) -> ScalingLimits:
     """Return the limits of a request, one number per joint.
 
     Raises:
@@ -190,10 +192,10 @@ def limits_of(call: SampledRequest, joints: int) -> Limits:
     """
     given = call.limits
     if given is None:
-        return Limits()
+        return ScalingLimits()
     names = ("joint_velocity", "joint_acceleration", "joint_jerk")
     found = (getattr(given, name) for name in names)
-    return Limits(
+    return ScalingLimits(
         *(
             None if values is None else spread(values, joints, f"limits.{name}")
             for name, values in zip(names, found, strict=True)

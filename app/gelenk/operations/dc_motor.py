@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.dc_motor import DcMotorRequest
-from gelenk.course.dc_motor import (
+from gelenk.course.actuators.dc_motor import (
     balance,
     modes,
     motor_steps,
@@ -14,10 +14,10 @@ from gelenk.course.dc_motor import (
     operating_point,
     torque_speed_line,
 )
-from gelenk.course.motor_response import step_response
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
+from gelenk.course.actuators.motor_response import step_response
+from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome
+from gelenk.robot.arrays import Array
 
 _SAMPLES = 101
 _QUICK_SAMPLES = 1000

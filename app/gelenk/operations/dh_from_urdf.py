@@ -5,10 +5,10 @@ from typing import Any
 
 from gelenk.contract.dh import table_content
 from gelenk.contract.dh_from_urdf import FromUrdfOptions, FromUrdfRequest
-from gelenk.kinematics.dh_of_chain import dh_of_chain
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf
+from gelenk.dh.compare.of_chain import dh_of_chain
 from gelenk.operations.outcome import Outcome
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf
 
 
 def run(call: FromUrdfRequest) -> Outcome:
@@ -23,10 +23,10 @@ def is_heavy(_: FromUrdfRequest) -> bool:
 
 def _from_urdf(call: FromUrdfRequest) -> dict[str, Any]:
     description = read_urdf(call.urdf, call.strict)
-    return table_answer(Robot(description), call, description.warnings)
+    return table_answer(RobotModel(description), call, description.warnings)
 
 
-def table_answer(robot: Robot, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:
+def table_answer(robot: RobotModel, options: FromUrdfOptions, warnings: tuple[str, ...]) -> dict[str, Any]:
     """Return the table of a chain with its certificate, as JSON content."""
     chain = robot.chain(options.base_frame, options.tip_frame)
     table, notes, certificate = dh_of_chain(robot, chain, options.convention, options.snap_tolerance)

@@ -4,14 +4,14 @@ from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.dh_to_urdf import ToUrdfRequest
-from gelenk.kinematics.certify import certify_table
-from gelenk.model.appearance import INVENTED_MASSES
-from gelenk.model.convert import BASE_FRAME, TOOL_FRAME, describe_dh
-from gelenk.model.description import MOVABLE, Description
-from gelenk.model.errors import listed
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import UNLIMITED, read_urdf, write_urdf
+from gelenk.dh.tables.convert import BASE_FRAME, TOOL_FRAME, describe_dh
+from gelenk.errors import listed
+from gelenk.kinematics.judge.judge import certify_table
 from gelenk.operations.outcome import Outcome
+from gelenk.robot.appearance import INVENTED_MASSES
+from gelenk.robot.description import MOVABLE, Description
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import UNLIMITED, read_urdf, write_urdf
 
 
 def run(call: ToUrdfRequest) -> Outcome:
@@ -28,7 +28,7 @@ def _to_urdf(call: ToUrdfRequest) -> dict[str, Any]:
     table = call.dh.table()
     described = describe_dh(call.name, table)
     urdf = write_urdf(described)
-    robot = Robot(read_urdf(urdf), (BASE_FRAME, TOOL_FRAME))
+    robot = RobotModel(read_urdf(urdf), (BASE_FRAME, TOOL_FRAME))
     certificate = certify_table(robot, robot.chain(None, None), table)
     return {
         "urdf": urdf,

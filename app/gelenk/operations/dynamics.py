@@ -5,17 +5,13 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.dynamics import DynamicsRequest
-from gelenk.kinematics.bodies import Load
-from gelenk.kinematics.configuration import configurations
-from gelenk.kinematics.dynamics import Dynamics, dynamics
-from gelenk.kinematics.ik.words import DIRECTIONS
-from gelenk.kinematics.lagrangian import State
-from gelenk.kinematics.mechanism import mechanism
-from gelenk.kinematics.statics import certify_statics, overloaded_joints, statics
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField
-from gelenk.model.robot import Robot
+from gelenk.errors import InvalidField
+from gelenk.ik.search.words import DIRECTIONS
+from gelenk.kinematics.dynamics.bodies import Load
+from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
+from gelenk.kinematics.dynamics.lagrangian import State
+from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.force.statics import certify_statics, overloaded_joints, statics
 from gelenk.operations.chains import check_numbers, positions
 from gelenk.operations.loads import (
     MECHANISM,
@@ -31,6 +27,10 @@ from gelenk.operations.loads import (
     wrench_rows,
 )
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import configurations
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _FIELDS = {
@@ -107,12 +107,12 @@ def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
     rows = configurations(chain, values, field)
     if len(rows) != count:
         if not count:
-            raise InvalidField("joint_positions", f"there are none, and yet `{field}` are given: one a configuration")
+            raise InvalidField("joint_positions", f"is empty, but `{field}` has entries: give one per configuration")
         raise InvalidField(field, f"{entries(rows, count)}: one each")
     return rows
 
 
-def _held(robot: Robot, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
+def _held(robot: RobotModel, chain: Chain, call: DynamicsRequest, qs: Array) -> Array:
     """Return the joint torques Jᵀγ of the wrenches, certified; zero without wrenches. Shape (N, n)."""
     if call.wrenches is None:
         return np.zeros_like(qs)

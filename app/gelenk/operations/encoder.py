@@ -4,10 +4,10 @@ from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.encoder import EncoderRequest
-from gelenk.course import gray, quadrature
-from gelenk.course.encoders import COUNTS_A_LINE, TURN, Scale, required, required_step, scale_steps
+from gelenk.course.actuators import gray, quadrature
+from gelenk.course.actuators.encoders import COUNTS_A_LINE, TURN, Scale, required, required_step, scale_steps
 from gelenk.course.steps import Step, tex
-from gelenk.model.errors import InvalidField, counted
+from gelenk.errors import InvalidField, counted
 from gelenk.operations.outcome import Outcome
 
 _FIELDS = {

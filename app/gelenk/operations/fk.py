@@ -3,7 +3,7 @@
 from typing import Any
 
 from gelenk.contract.fk import ForwardRequest
-from gelenk.kinematics.forward import forward_kinematics
+from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.operations.chains import chain_and_positions, check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.pose_arrays import pose_array, pose_list

@@ -6,14 +6,14 @@ from typing import Any, get_args
 import numpy as np
 
 from gelenk.contract.fly_over import FlyOverRequest
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
+from gelenk.course.motion.blended_motion import BlendedMotion, rest_to_rest
+from gelenk.course.motion.fly_over import Blend, Given, blended, corner_of
+from gelenk.course.motion.fly_over_check import checked
+from gelenk.course.motion.fly_over_steps import fly_over_steps, fly_over_warnings
+from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome, PictureFormat
-from gelenk.trajectory.blended_motion import BlendedMotion, rest_to_rest
-from gelenk.trajectory.fly_over import Blend, Given, blended, corner_of
-from gelenk.trajectory.fly_over_check import checked
-from gelenk.trajectory.fly_over_steps import fly_over_steps, fly_over_warnings
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _QUICK_SAMPLES = 500
 

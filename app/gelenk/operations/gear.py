@@ -4,8 +4,8 @@ from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.gear import GearRequest
-from gelenk.course.gear import Gear, Sides, back_driving_note, gear_steps, inertias, sides
-from gelenk.model.errors import InvalidField
+from gelenk.course.actuators.gear import Gear, Sides, back_driving_note, gear_steps, inertias, sides
+from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome
 
 

@@ -4,19 +4,19 @@ from collections import Counter
 from typing import Any
 
 from gelenk.contract.ik import MAX_STEPWISE, MAX_TARGETS, InverseRequest
-from gelenk.kinematics.ik.closed_form import ClosedForm, closed_form, is_looked_at, look_at
-from gelenk.kinematics.ik.result import InverseKinematics
-from gelenk.kinematics.ik.search import ITERATIONS_PER_START, MAX_ITERATIONS
-from gelenk.kinematics.ik.solve import inverse_kinematics, solve_quickly
-from gelenk.kinematics.ik.verdict import Question
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.compilation import is_awaited
+from gelenk.ik.closed.closed_form import ClosedForm, closed_form, is_looked_at, look_at
+from gelenk.ik.search.search import ITERATIONS_PER_START, MAX_ITERATIONS
+from gelenk.ik.solve import inverse_kinematics, solve_quickly
+from gelenk.ik.verdict.result import InverseKinematics
+from gelenk.ik.verdict.verdict import TargetProblem
 from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
-from gelenk.operations.ik_request import Bounds, asked, options_of, task_of
+from gelenk.operations.ik_request import TargetLimits, asked, options_of, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.operations.warm_up import WarmUp
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import is_awaited
 from gelenk.store.records import LoadedRobot
 
 _QUICK_STARTS = 64
@@ -38,15 +38,15 @@ def attempt(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> Outcom
     """Try the operation with a few starts; return None if they do not suffice."""
     chain, targets, seeds = asked(loaded.robot, call, _bounds(limits))
     tolerances = call.position_tolerance, call.orientation_tolerance
-    question = Question(loaded.robot, chain, targets, seeds, task_of(call), tolerances, call.respect_limits)
+    question = TargetProblem(loaded.robot, chain, targets, seeds, task_of(call), tolerances, call.respect_limits)
     budget = max(1, (call.max_iterations or MAX_ITERATIONS) // ITERATIONS_PER_START)
     starts = min(budget, max(1, _QUICK_STARTS * 7 // max(7, len(chain))))
     result = solve_quickly(question, starts, call.random_seed, by_form=call.method == "analytic")
     return None if result is None else _outcome(chain, call, result)
 
 
-def _bounds(limits: Limits) -> Bounds:
-    return Bounds(MAX_TARGETS, MAX_STEPWISE, limits.answer_numbers)
+def _bounds(limits: Limits) -> TargetLimits:
+    return TargetLimits(MAX_TARGETS, MAX_STEPWISE, limits.answer_numbers)
 
 
 def _chain(loaded: LoadedRobot, call: InverseRequest) -> Chain:

@@ -7,14 +7,14 @@ import numpy as np
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
 from gelenk.contract.pose import PoseFormat
-from gelenk.kinematics.ik.fixed import narrowed
-from gelenk.kinematics.ik.result import COUNTED, Failure, InverseKinematics, Path, SolutionBranches
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.poses import Poses
+from gelenk.ik.verdict.fixed import narrowed
+from gelenk.ik.verdict.result import COUNTED, InverseKinematics, IterationPath, SolutionBranches, UnsolvedTarget
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.ik_request import task_of
 from gelenk.operations.pose_arrays import pose_list
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
 
 _ROWS_NAMED = 200
 """Maximum number of unsolved rows in a header: proxies allow headers of a few kilobytes."""
@@ -119,7 +119,7 @@ def _name_branches(solutions: list[dict[str, Any]], branches: SolutionBranches, 
             solution["elbow_angle"] = angle
 
 
-def _failure(chain: Chain, pose_format: PoseFormat, failure: Failure) -> dict[str, Any]:
+def _failure(chain: Chain, pose_format: PoseFormat, failure: UnsolvedTarget) -> dict[str, Any]:
     nearest = Poses(*chain_poses(chain.flat, failure.nearest[None]))
     entry: dict[str, Any] = {
         "reason": failure.reason,
@@ -139,12 +139,12 @@ def _failure(chain: Chain, pose_format: PoseFormat, failure: Failure) -> dict[st
     return entry
 
 
-def _path(path: Path) -> dict[str, Any]:
+def _path(path: IterationPath) -> dict[str, Any]:
     entry: dict[str, Any] = {"stop_reason": path.stop_reason}
     if path.trace is not None:
         every = max(1, -(-(len(path.trace) - 1) // (MAX_TRACE - 1)))
         if every > 1:
-            entry["note"] = f"the trace tells 1 in {every} of {len(path.trace)} configurations, and the last"
+            entry["note"] = f"the trace reports 1 in {every} of {len(path.trace)} configurations, and the last"
         entry["trace"] = [
             {
                 "error": iterate.error,

@@ -4,23 +4,23 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from gelenk.contract.ik import MAX_TRACE, InverseRequest
-from gelenk.kinematics.configuration import MAX_MAGNITUDE, configurations, one_configuration
-from gelenk.kinematics.ik.descent import Rule
-from gelenk.kinematics.ik.null_space import Objective
-from gelenk.kinematics.ik.search import mid_range
-from gelenk.kinematics.ik.solve import Options
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.kinematics.ik.words import DIRECTIONS, Direction
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, TooLarge, counted, quoted
-from gelenk.model.poses import Poses
-from gelenk.model.robot import Robot
+from gelenk.errors import InvalidField, TooLarge, counted, quoted
+from gelenk.ik.search.descent import DescentRule
+from gelenk.ik.search.null_space import Objective
+from gelenk.ik.search.search import mid_range
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.ik.solve import Options
 from gelenk.operations.pose_arrays import poses_from
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import MAX_MAGNITUDE, configurations, one_configuration
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class TargetLimits:
     """Limits of one call.
 
     Attributes:
@@ -34,7 +34,7 @@ class Bounds:
     numbers: int | None
 
 
-def asked(robot: Robot, call: InverseRequest, bounds: Bounds) -> tuple[Chain, Poses, Array]:
+def asked(robot: RobotModel, call: InverseRequest, bounds: TargetLimits) -> tuple[Chain, Poses, Array]:
     """Return the chain, the targets and the seeds: one configuration for all or one each, shape (1 or N, n).
 
     Raises:
@@ -69,7 +69,7 @@ def options_of(chain: Chain, call: InverseRequest, time_limit: float | None) -> 
         case "auto" | "analytic":
             rule = None
         case step_method:
-            rule = Rule(step_method, call.step_size, call.damping, call.switch_error)
+            rule = DescentRule(step_method, call.step_size, call.damping, call.switch_error)
     return Options(
         task=task_of(call),
         position_tolerance=call.position_tolerance,
@@ -121,7 +121,7 @@ def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:
         field = f"fixed_joints.{name}"
         if name not in chain.joint_names:
             known = ", ".join(map(quoted, chain.joint_names))
-            raise InvalidField(field, f"the chain has no joint of its own of this name; those it has are {known}")
+            raise InvalidField(field, f"the chain has no variable of this name; it has {known}")
         if not abs(value) <= MAX_MAGNITUDE:
             raise InvalidField(field, f"a finite number of magnitude ≤ {MAX_MAGNITUDE:g}")
         j = chain.joint_names.index(name)
@@ -134,7 +134,7 @@ def _check_fixed_joints(chain: Chain, call: InverseRequest) -> None:
             raise InvalidField(field, "no joint is left to move: leave at least one of the chain out")
 
 
-def _check_size(call: InverseRequest, targets: int, joints: int, bounds: Bounds) -> None:
+def _check_size(call: InverseRequest, targets: int, joints: int, bounds: TargetLimits) -> None:
     if targets > bounds.targets:
         raise TooLarge("targets", targets, bounds.targets)
     if is_stepwise(call) and targets > bounds.stepwise:
@@ -158,7 +158,7 @@ def _check_options(call: InverseRequest) -> None:
         InvalidField: A field needs another that is missing, or excludes one that is given.
     """
     if call.task is not None and len(set(call.task)) < len(call.task):
-        raise InvalidField("task", "each direction at most once")
+        raise InvalidField("task", "each direction may appear only once")
     if call.solutions == "all" and call.method not in {"auto", "analytic"}:
         raise InvalidField("solutions", "`all` is allowed with the methods `auto` and `analytic` only")
     if call.method == "analytic" and call.trace:

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.jacobian import JacobianRequest
-from gelenk.kinematics.configuration import configurations
-from gelenk.kinematics.jacobian import Jacobians, jacobians, ranks, singular_values
-from gelenk.model.arrays import Array, Indices
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, counted
+from gelenk.errors import InvalidField, counted
+from gelenk.kinematics.velocity.jacobian import Jacobians, jacobians, ranks, singular_values
 from gelenk.operations.chains import chain_and_positions, check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import configurations
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 10

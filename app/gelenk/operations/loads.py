@@ -8,15 +8,15 @@ import numpy as np
 from gelenk.contract.common import Vectors
 from gelenk.contract.dynamics import DynamicsRequest
 from gelenk.contract.statics import PayloadInfo, StaticsRequest, WrenchOptions, WrenchRequest
-from gelenk.kinematics.bodies import Load
-from gelenk.kinematics.mechanism import STANDARD_GRAVITY, Mechanism, known_mechanism, mechanism
-from gelenk.kinematics.wrenches import WrenchFrame
-from gelenk.model.appearance import INVENTED_MASSES
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, UnknownFrame, counted, listed
-from gelenk.model.robot import Robot
+from gelenk.errors import InvalidField, UnknownFrame, counted, listed
+from gelenk.kinematics.dynamics.bodies import Load
+from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
+from gelenk.kinematics.force.wrenches import WrenchFrame
 from gelenk.operations.warm_up import WarmUp
+from gelenk.robot.appearance import INVENTED_MASSES
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a URDF with `inertial` elements"
@@ -24,7 +24,7 @@ DRAWN_MASSES = f"{INVENTED_MASSES}, as placeholders; for real numbers upload a U
 _QUICK_BODIES = 8
 
 
-def chain_of(robot: Robot, call: WrenchOptions) -> Chain:
+def chain_of(robot: RobotModel, call: WrenchOptions) -> Chain:
     """Return the chain of a request.
 
     Raises:
@@ -152,7 +152,7 @@ def one_each(rows: Array, count: int, field: str) -> Array:
     return np.repeat(rows, count, axis=0)
 
 
-def weight_notes(loaded: LoadedRobot, found: Mechanism, load: Load | None) -> list[str]:
+def weight_notes(loaded: LoadedRobot, found: ChainMechanism, load: Load | None) -> list[str]:
     """Return a sentence on each thing that the numbers leave out or assume."""
     notes = [DRAWN_MASSES] if loaded.table is not None and found.bodies else []
     if found.without_mass:
@@ -160,5 +160,5 @@ def weight_notes(loaded: LoadedRobot, found: Mechanism, load: Load | None) -> li
     if found.bodies and not any(body.mass > 0.0 for body in found.bodies):
         notes.append("nothing that the chain's joints move has a mass: all terms of inertia and weight are zero")
     if load is not None and not found.moves_tip:
-        notes.append("the chain's joints do not move the tip against the root, so the payload burdens none of them")
+        notes.append("the chain's joints do not move the tip against the root, so the payload loads none of them")
     return notes

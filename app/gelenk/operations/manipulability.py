@@ -10,20 +10,20 @@ from gelenk.contract.manipulability import (
     MAX_WITH_POLYTOPES,
     ManipulabilityRequest,
 )
-from gelenk.kinematics.configuration import one_configuration
-from gelenk.kinematics.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
-from gelenk.kinematics.manipulability import (
+from gelenk.errors import InvalidField, TooLarge
+from gelenk.kinematics.ellipsoids.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
+from gelenk.kinematics.ellipsoids.manipulability import (
     Ellipsoids,
     Manipulability,
     is_within_task,
     manipulability,
     transmission_ratios,
 )
-from gelenk.model.arrays import Array, Configuration
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, TooLarge
 from gelenk.operations.chains import chain_and_positions, check_numbers
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
+from gelenk.robot.arrays import Array, Configuration
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import one_configuration
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 4
@@ -285,7 +285,7 @@ def _picture(
     kind: PictureFormat,
 ) -> bytes:
     # The drawing library takes a third of a second to load, which the service's start does not wait for.
-    from gelenk.plots.ellipsoids import Asked, manipulability_picture  # noqa: PLC0415
+    from gelenk.plots.ellipsoids import Overlay, manipulability_picture  # noqa: PLC0415
 
     translation, limited = result.parts.get("translation"), None
     directions = None if call.directions is None else _directions(call)
@@ -294,5 +294,5 @@ def _picture(
             reason = "an image shows them of a translation in a plane, as of a planar arm or the task x, y"
             raise InvalidField("polytopes", reason)
         limited = limited_motion(translation, result.Js, bounds, np.eye(3))[0]
-    asked = Asked(np.zeros((0, 3)) if directions is None else directions, call.rank_tolerance, limited)
+    asked = Overlay(np.zeros((0, 3)) if directions is None else directions, call.rank_tolerance, limited)
     return manipulability_picture(loaded.record.name, chain, q, translation, kind, asked)

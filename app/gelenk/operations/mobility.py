@@ -4,15 +4,23 @@ from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.mobility_request import MobilityRequest
-from gelenk.course.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
-from gelenk.course.mobility import KindCount, Tally, certify_mobility, tally, tally_of_counts, verdict, warnings
-from gelenk.course.mobility_steps import steps
-from gelenk.course.pairs import FREEDOMS
-from gelenk.course.screws import Posture, posture
-from gelenk.course.spaces import tasks
-from gelenk.model.chain import Chain
-from gelenk.model.robot import Robot
+from gelenk.course.mobility.mechanism import Mechanism, Pair, mechanism, mechanism_of_tree
+from gelenk.course.mobility.mobility import (
+    KindCount,
+    Tally,
+    certify_mobility,
+    tally,
+    tally_of_counts,
+    verdict,
+    warnings,
+)
+from gelenk.course.mobility.pairs import FREEDOMS
+from gelenk.course.mobility.screws import Posture, posture
+from gelenk.course.mobility.spaces import tasks
+from gelenk.course.mobility.steps import steps
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 
@@ -26,7 +34,7 @@ def is_heavy(call: MobilityRequest) -> bool:
     return call.robot is not None or call.has_geometry()
 
 
-def _counted_robot(robot: Robot) -> dict[str, Any]:
+def _counted_robot(robot: RobotModel) -> dict[str, Any]:
     found = mechanism_of_tree(robot.description)
     return _content(tally(found), found, chain=robot.chain(None, None))
 

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.orientation import OrientationRequest
-from gelenk.course.composition import composed
-from gelenk.course.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
-from gelenk.course.rotations import DEGENERATE, Validation
-from gelenk.model.arrays import Array
-from gelenk.model.poses import ROTATION_TOLERANCE
+from gelenk.course.orientation.composition import composed
+from gelenk.course.orientation.orientation import NEARLY_DEGENERATE, AxisAngle, Notations, notations
+from gelenk.course.orientation.rotations import DEGENERATE, Validation
 from gelenk.operations.outcome import Outcome
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import ROTATION_TOLERANCE
 
 _INLINE_MOTIONS = 8
 

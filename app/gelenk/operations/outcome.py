@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from gelenk.jobs.store import Limits as JobLimits
-from gelenk.model.arrays import Array
 from gelenk.operations.request_counts import RequestCounts
+from gelenk.robot.arrays import Array
 
 PictureFormat: TypeAlias = Literal["svg", "png"]
 

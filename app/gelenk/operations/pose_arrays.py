@@ -5,16 +5,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from gelenk.contract.pose import MAX_MAGNITUDE, Pose, PoseFormat, check_pose_shape
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField, InvalidPose
-from gelenk.model.notations import (
+from gelenk.errors import InvalidField, InvalidPose
+from gelenk.robot.arrays import Array
+from gelenk.robot.notations import (
     quaternions_xyzw_from_rotations,
     rotations_from_quaternions_xyzw,
     rpy_from_rotations,
     vectors_from_rotations,
     zyz_from_rotations,
 )
-from gelenk.model.poses import ROTATION_TOLERANCE, Poses
+from gelenk.robot.poses import ROTATION_TOLERANCE, Poses
 
 
 def poses_from(given: Sequence[Pose] | Array, field: str) -> Poses:
@@ -65,7 +65,7 @@ def _refuse(deviations: Array, what: str, field: str) -> None:
     far = deviations > ROTATION_TOLERANCE
     if far.any():
         row = int(np.argmax(far))
-        reason = f"{what}; allowed is a distance of {ROTATION_TOLERANCE:g} from SO(3)"
+        reason = f"{what}; the limit is a distance of {ROTATION_TOLERANCE:g} from SO(3)"
         raise InvalidPose(reason, float(deviations[row]), field, row)
 
 

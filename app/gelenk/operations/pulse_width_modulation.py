@@ -4,11 +4,11 @@ from dataclasses import asdict
 from typing import Any
 
 from gelenk.contract.pulse_width_modulation import PwmRequest
-from gelenk.course import pwm
-from gelenk.course.dc_motor import (
+from gelenk.course.actuators import pwm
+from gelenk.course.actuators.dc_motor import (
     Motor,
 )
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
 from gelenk.operations.outcome import Outcome
 
 _SAME_VOLTAGE = 1e-6

@@ -8,7 +8,7 @@ from io import StringIO
 import numpy as np
 import orjson
 
-from gelenk.model.arrays import Array
+from gelenk.robot.arrays import Array
 
 _PIECE = 4096
 """Numbers encoded at once, in a third of a millisecond; no other thread runs meanwhile."""

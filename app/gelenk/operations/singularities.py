@@ -13,22 +13,22 @@ from gelenk.contract.singularities import (
     MAX_REPORTS,
     SingularityRequest,
 )
-from gelenk.kinematics.certify import MAX_SAMPLES, JacobianCertificate, certify_jacobians
-from gelenk.kinematics.certify_singularity import certify_reports
-from gelenk.kinematics.ik.task import Task
-from gelenk.kinematics.ik.words import DIRECTIONS
-from gelenk.kinematics.jacobian import singular_values
-from gelenk.kinematics.kernels import chain_jacobians
-from gelenk.kinematics.singularity import SingularityReport, singularity_report
-from gelenk.kinematics.singularity_distance import NearestSingularity, Search, can_lose, nearest_singularity
-from gelenk.kinematics.singularity_path import Place, places_along
-from gelenk.kinematics.task_space import TaskSpace, slides, structure
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, TooLarge, counted
-from gelenk.model.robot import Robot
+from gelenk.errors import InvalidField, TooLarge, counted
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import DIRECTIONS
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from gelenk.kinematics.simd.kernels import chain_jacobians
+from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
+from gelenk.kinematics.singularity.judge import certify_reports
+from gelenk.kinematics.singularity.path import PathMinimum, places_along
+from gelenk.kinematics.singularity.report import SingularityReport, singularity_report
+from gelenk.kinematics.velocity.jacobian import singular_values
+from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
 from gelenk.operations.chains import chain_and_positions, check_numbers
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _QUICK_REPORTS = 1
@@ -93,7 +93,7 @@ def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
 def _space(call: SingularityRequest) -> TaskSpace:
     directions = DIRECTIONS if call.task is None else tuple(call.task)
     if len(set(directions)) < len(directions):
-        raise InvalidField("task", "each direction at most once")
+        raise InvalidField("task", "each direction may appear only once")
     return TaskSpace(Task(directions), call.characteristic_length, call.reference)
 
 
@@ -109,12 +109,12 @@ def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limit
     check_numbers(numbers, limits)
 
 
-def _certificate(robot: Robot, chain: Chain, qs: Array) -> JacobianCertificate:
+def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertificate:
     return certify_jacobians(robot, chain, qs, chain_jacobians(chain.flat, qs)[2])
 
 
 def _content(
-    robot: Robot, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
+    robot: RobotModel, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
 ) -> dict[str, Any]:
     space = _space(call)
     reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
@@ -166,7 +166,9 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
     return rows or len(set(slides(chain).tolist())) > 1
 
 
-def _with_more(robot: Robot, chain: Chain, certificate: JacobianCertificate, rows: list[Array]) -> JacobianCertificate:
+def _with_more(
+    robot: RobotModel, chain: Chain, certificate: JacobianCertificate, rows: list[Array]
+) -> JacobianCertificate:
     """Add further configurations, whose Jacobians are recomputed, to the certificate."""
     for first in range(0, len(rows), MAX_SAMPLES):
         part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
@@ -227,7 +229,7 @@ def _positions_that_move(chain: Chain, space: TaskSpace) -> str | None:
 
 
 def _places(
-    chain: Chain, count: int, places: list[Place], reports: list[SingularityReport]
+    chain: Chain, count: int, places: list[PathMinimum], reports: list[SingularityReport]
 ) -> Iterator[dict[str, Any]]:
     for place, report in zip(places, reports, strict=True):
         segment = min(int(place.start), max(count - 2, 0))

@@ -5,10 +5,12 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.spline import SplineRequest
-from gelenk.model.arrays import Array
+from gelenk.course.motion.formulas import SHOWN_JOINTS
+from gelenk.course.motion.spline_steps import spline_steps
+from gelenk.course.motion.time_law_steps import peak_step
 from gelenk.operations.course_motion import (
     PeaksByOrder,
-    Planned,
+    PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
@@ -19,10 +21,8 @@ from gelenk.operations.course_motion import (
     unused,
 )
 from gelenk.operations.outcome import Outcome
-from gelenk.trajectory.formulas import SHOWN_JOINTS
-from gelenk.trajectory.spline_steps import spline_steps
-from gelenk.trajectory.splines import Ends, Spline, cubic_spline
-from gelenk.trajectory.time_law_steps import peak_step
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.splines import EndRates, Spline, cubic_spline
 
 _SHOWN_UNKNOWNS = 32
 _VELOCITIES = ("start_velocity", "end_velocity")
@@ -37,7 +37,7 @@ def run(call: SplineRequest) -> Outcome:
 is_heavy = is_heavy_motion
 
 
-def _plan(call: SplineRequest) -> Planned:
+def _plan(call: SplineRequest) -> PlannedMotion:
     if call.boundary not in {"clamped", "assigned"}:
         unused(call, _VELOCITIES, f"is not allowed with `boundary` {call.boundary}")
     if call.boundary != "assigned":
@@ -45,7 +45,7 @@ def _plan(call: SplineRequest) -> Planned:
     times = np.array(call.times)
     knots = table(call.waypoints, "waypoints", len(times))
     joints = knots.shape[1]
-    ends = Ends(*(row(getattr(call, name), joints, name) for name in (*_VELOCITIES, *_ACCELERATIONS)))
+    ends = EndRates(*(row(getattr(call, name), joints, name) for name in (*_VELOCITIES, *_ACCELERATIONS)))
     between = None if call.fictitious_times is None else (call.fictitious_times[0], call.fictitious_times[1])
     found = cubic_spline(times, knots, call.boundary, ends, between)
     limits = limits_of(call, joints)
@@ -63,12 +63,12 @@ def _plan(call: SplineRequest) -> Planned:
         }
 
     starts, finals = _end_rates(call, ends, joints)
-    return Planned(
+    return PlannedMotion(
         found.motion, limits, times, knots, starts, finals, 2, f"Cubic spline, {call.boundary.replace('_', ' ')}", told
     )
 
 
-def _end_rates(call: SplineRequest, ends: Ends, joints: int) -> tuple[Array, Array]:
+def _end_rates(call: SplineRequest, ends: EndRates, joints: int) -> tuple[Array, Array]:
     """Return the derivatives that the boundary gives, at the start and at the end."""
     if call.boundary == "clamped":
         return ends.start_velocity[None], ends.end_velocity[None]

@@ -8,11 +8,11 @@ import numpy as np
 
 from gelenk.contract.common import Vectors
 from gelenk.contract.statics import StaticsRequest
-from gelenk.kinematics.configuration import configurations
-from gelenk.kinematics.ik.words import DIRECTIONS, Direction
-from gelenk.kinematics.mechanism import mechanism
-from gelenk.kinematics.statics import (
-    Balance,
+from gelenk.errors import InvalidField, TooLarge, counted
+from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.force.statics import (
+    NearestWrench,
     Statics,
     StaticsCertificate,
     balance,
@@ -21,10 +21,7 @@ from gelenk.kinematics.statics import (
     overloaded_joints,
     statics,
 )
-from gelenk.kinematics.subspaces import Subspaces
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, TooLarge, counted
+from gelenk.kinematics.velocity.subspaces import Subspaces
 from gelenk.operations.chains import check_numbers, positions
 from gelenk.operations.loads import (
     MECHANISM,
@@ -40,6 +37,9 @@ from gelenk.operations.loads import (
     wrench_rows,
 )
 from gelenk.operations.outcome import Limits, Outcome
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import configurations
 from gelenk.store.records import LoadedRobot
 
 _MOST_SPLITS = 20_000
@@ -81,13 +81,13 @@ WARM_UP = MECHANISM
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Found:
+class _Results:
     """Results of a call: `wrenches` is None if there are none, `balance` and `splits` if not requested."""
 
     still: Statics
     wrenches: Array | None
     torques: Array
-    balance: Balance | None
+    balance: NearestWrench | None
     splits: list[Subspaces] | None
     certificate: StaticsCertificate
 
@@ -118,7 +118,7 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
         InvalidField: A field needs another that is missing, or excludes one that is given.
     """
     if len(set(_task(call))) < len(_task(call)):
-        raise InvalidField("task", "each direction at most once")
+        raise InvalidField("task", "each direction may appear only once")
     if call.wrenches is not None and call.torques is not None:
         raise InvalidField("torques", "they are given instead of `wrenches`, not beside them")
     if call.payload is not None and not weighs:
@@ -149,7 +149,7 @@ def _check_size(call: StaticsRequest, count: int, n: int, limits: Limits) -> Non
         raise TooLarge("configurations whose subspaces are needed", count, _MOST_SPLITS)
 
 
-def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torques: Array | None) -> _Found:
+def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torques: Array | None) -> _Results:
     found = splits = None
     if torques is not None:
         found = balance(still, torques, call.rank_tolerance)
@@ -161,10 +161,10 @@ def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torque
         splits = still.subspaces(call.rank_tolerance) if _wants_subspaces(call) else None
     acting = np.zeros((len(still.qs), len(still.rows))) if wrenches is None else wrenches
     certificate = certify_statics(still, acting, held)
-    return _Found(still, wrenches, torques, found, splits if _wants_subspaces(call) else None, certificate)
+    return _Results(still, wrenches, torques, found, splits if _wants_subspaces(call) else None, certificate)
 
 
-def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Found) -> dict[str, Any]:
+def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict[str, Any]:
     still, splits = found.still, found.splits
     robot, chain, weighs = still.robot, still.chain, still.gravity is not None
     return {
@@ -187,7 +187,7 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Found) -> dict[s
     }
 
 
-def _balance_content(call: StaticsRequest, found: _Found, of_torques: Balance) -> dict[str, Any]:
+def _balance_content(call: StaticsRequest, found: _Results, of_torques: NearestWrench) -> dict[str, Any]:
     lengths = np.linalg.norm(found.torques - found.still.gravity_torques, axis=1)
     left = np.linalg.norm(of_torques.residuals, axis=1)
     return {

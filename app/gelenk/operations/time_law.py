@@ -6,12 +6,14 @@ import numpy as np
 
 from gelenk.contract.course_motion import MAX_SAMPLED_NUMBERS
 from gelenk.contract.time_law import TimeLawRequest
+from gelenk.course.motion.formulas import SHOWN_JOINTS
+from gelenk.course.motion.time_law_steps import lift_steps, peak_step, two_point_steps
+from gelenk.course.motion.trapezoid_steps import blend_steps, trapezoid_steps
 from gelenk.course.steps import Step
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField, counted
+from gelenk.errors import InvalidField, counted
 from gelenk.operations.course_motion import (
     PeaksByOrder,
-    Planned,
+    PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
@@ -24,14 +26,12 @@ from gelenk.operations.course_motion import (
     unused,
 )
 from gelenk.operations.outcome import Outcome
-from gelenk.trajectory.formulas import SHOWN_JOINTS
-from gelenk.trajectory.parabolic_blends import Blends, with_accelerations, with_blend_times
-from gelenk.trajectory.splines import checked_times
-from gelenk.trajectory.time_law_steps import lift_steps, peak_step, two_point_steps
-from gelenk.trajectory.time_laws import between, normalised, quartic_cubic_quartic
-from gelenk.trajectory.time_scaling import Limits
-from gelenk.trajectory.trapezoid import PointToPoint, Profile, Task, point_to_point
-from gelenk.trajectory.trapezoid_steps import blend_steps, trapezoid_steps
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations, with_blend_times
+from gelenk.trajectory.laws.time_scaling import ScalingLimits
+from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, Profile, point_to_point
+from gelenk.trajectory.motion.splines import checked_times
+from gelenk.trajectory.motion.time_laws import between, normalised, quartic_cubic_quartic
 
 _RATES = ("velocity", "acceleration", "jerk")
 _GIVEN_RATES = {"cubic": 1, "quintic": 2, "septic": 3, "4-3-4": 2, "trapezoidal": 1, "parabolic_blends": 0}
@@ -46,7 +46,7 @@ def run(call: TimeLawRequest) -> Outcome:
 is_heavy = is_heavy_motion
 
 
-def _plan(call: TimeLawRequest) -> Planned:
+def _plan(call: TimeLawRequest) -> PlannedMotion:
     law = f"with `law` {call.law}"
     unused_rates = [f"{end}_{rate}" for rate in _RATES[_GIVEN_RATES[call.law] :] for end in ("start", "end")]
     unused(call, unused_rates, f"is not allowed {law}")
@@ -72,7 +72,7 @@ def _rates(call: TimeLawRequest, end: str, joints: int) -> Array:
     return np.array([row(getattr(call, name), joints, name) for name in names]).reshape(-1, joints)
 
 
-def _two_points(call: TimeLawRequest, start: Array, target: Array) -> Planned:
+def _two_points(call: TimeLawRequest, start: Array, target: Array) -> PlannedMotion:
     if call.duration is None:
         raise InvalidField("duration", f"is needed with `law` {call.law}")
     starts = np.concatenate([start[None], _rates(call, "start", len(start))])
@@ -84,7 +84,7 @@ def _two_points(call: TimeLawRequest, start: Array, target: Array) -> Planned:
         steps = (*two_point_steps(motion, starts, ends, forms), peak_step(found[1], found[2]))
         return _told(call, limits, found, steps, normalised=forms)
 
-    return Planned(
+    return PlannedMotion(
         motion,
         limits,
         motion.breaks,
@@ -97,7 +97,7 @@ def _two_points(call: TimeLawRequest, start: Array, target: Array) -> Planned:
     )
 
 
-def _lift(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
+def _lift(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
     unused(call, ("blend_time",), "is not allowed with `law` 4-3-4")
     if len(times) != 4:
         raise InvalidField("waypoints", f"4-3-4 goes through four: start, lift-off, set-down, end; {len(times)} given")
@@ -108,10 +108,10 @@ def _lift(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
     def told(found: PeaksByOrder) -> dict[str, Any]:
         return _told(call, limits, found, (*lift_steps(motion, knots), peak_step(found[1], found[2])))
 
-    return Planned(motion, limits, times, knots, starts, ends, 2, "4-3-4 time law", told)
+    return PlannedMotion(motion, limits, times, knots, starts, ends, 2, "4-3-4 time law", told)
 
 
-def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> Planned:
+def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> PlannedMotion:
     joints = len(start)
     limits = limits_of(call, joints)
     if limits.acceleration is None:
@@ -120,7 +120,7 @@ def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> Planned:
     most = np.full(joints, np.inf) if limits.velocity is None else limits.velocity
     distances = target - start
     tasks = [
-        Task(*(float(value) for value in numbers))
+        JointMove(*(float(value) for value in numbers))
         for numbers in zip(distances, rates[0][0], rates[1][0], most, limits.acceleration, strict=True)
     ]
     plan = point_to_point(start, tasks, call.duration, may_reverse=call.may_reverse)
@@ -129,7 +129,7 @@ def _trapezoid(call: TimeLawRequest, start: Array, target: Array) -> Planned:
         profiles = [_profile(plan, j) for j in range(joints)]
         return _told(call, limits, found, trapezoid_steps(tasks, plan), profiles=profiles)
 
-    return Planned(
+    return PlannedMotion(
         plan.motion,
         limits,
         plan.motion.breaks[[0, -1]],
@@ -155,7 +155,7 @@ def _profile(plan: PointToPoint, joint: int) -> dict[str, Any]:
     }
 
 
-def _blends(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
+def _blends(call: TimeLawRequest, times: Array, knots: Array) -> PlannedMotion:
     limits = limits_of(call, knots.shape[1])
     if call.blend_time is not None:
         if limits.acceleration is not None:
@@ -179,7 +179,7 @@ def _blends(call: TimeLawRequest, times: Array, knots: Array) -> Planned:
         return _told(call, limits, peaks, blend_steps(found), blends=_told_blends(found))
 
     ends = [0, -1]
-    return Planned(
+    return PlannedMotion(
         found.motion,
         limits,
         times[ends],
@@ -203,7 +203,7 @@ def _told_blends(found: Blends) -> dict[str, Any]:
 
 
 def _told(
-    call: TimeLawRequest, limits: Limits, found: PeaksByOrder, steps: tuple[Step, ...], **further: Any
+    call: TimeLawRequest, limits: ScalingLimits, found: PeaksByOrder, steps: tuple[Step, ...], **further: Any
 ) -> dict[str, Any]:
     warnings = limit_warnings(found, limits)
     joints = len(found[1].values)

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.time_scaling import TimeScalingRequest
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
+from gelenk.course.motion.time_scaling_steps import scaling_steps
+from gelenk.errors import InvalidField
 from gelenk.operations.course_motion import (
     PeaksByOrder,
-    Planned,
+    PlannedMotion,
     is_heavy_motion,
     limit_warnings,
     limits_of,
@@ -20,11 +20,11 @@ from gelenk.operations.course_motion import (
     unused,
 )
 from gelenk.operations.outcome import Outcome
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.splines import cubic_spline, through_samples
-from gelenk.trajectory.time_laws import between
-from gelenk.trajectory.time_scaling import Bound, Limits, Scaling, uniform_scaling
-from gelenk.trajectory.time_scaling_steps import scaling_steps
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.time_scaling import Bound, Scaling, ScalingLimits, uniform_scaling
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import cubic_spline, through_samples
+from gelenk.trajectory.motion.time_laws import between
 
 _ORDERS = {"cubic": 2, "quintic": 3, "septic": 4}
 _AT_REST = 1e-9
@@ -38,7 +38,7 @@ def run(call: TimeScalingRequest) -> Outcome:
 is_heavy = is_heavy_motion
 
 
-def _plan(call: TimeScalingRequest) -> Planned:
+def _plan(call: TimeScalingRequest) -> PlannedMotion:
     motion, times, knots, continuity = _motion(call)
     limits = limits_of(call, knots.shape[1])
     if limits.velocity is None and limits.acceleration is None and limits.jerk is None:
@@ -66,7 +66,7 @@ def _plan(call: TimeScalingRequest) -> Planned:
     rest = np.zeros((_ORDERS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
     when = factor * (times - times[0])
     when[-1] = scaled.breaks[-1]
-    return Planned(scaled, limits, when, knots, rest, rest, continuity, f"Scaled by k = {factor:.6g}", told)
+    return PlannedMotion(scaled, limits, when, knots, rest, rest, continuity, f"Scaled by k = {factor:.6g}", told)
 
 
 def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array, int]:
@@ -116,7 +116,7 @@ def _bound(bound: Bound) -> dict[str, Any]:
     }
 
 
-def _warnings(motion: PiecewisePolynomial, scaling: Scaling, peaks: PeaksByOrder, limits: Limits) -> list[str]:
+def _warnings(motion: PiecewisePolynomial, scaling: Scaling, peaks: PeaksByOrder, limits: ScalingLimits) -> list[str]:
     found = limit_warnings(peaks, limits)
     if scaling.factor is None:
         found.append("Nothing moves: any time will do.")

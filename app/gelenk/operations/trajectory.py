@@ -3,15 +3,15 @@
 from typing import Any
 
 from gelenk.contract.trajectory_request import MAX_SAMPLES, TrajectoryRequest
-from gelenk.model.arrays import Array
 from gelenk.operations.outcome import Limits, Outcome
-from gelenk.operations.trajectory_planned import Bounds, Planned
+from gelenk.operations.trajectory_planned import PlannedTrajectory, TrajectorySizeLimits
+from gelenk.robot.arrays import Array
 from gelenk.store.records import LoadedRobot
 
 
 def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome:
     """Plan and audit a trajectory, and sample it."""
-    planned = Planned.of(loaded.robot, call, Bounds(MAX_SAMPLES, limits.answer_numbers))
+    planned = PlannedTrajectory.of(loaded.robot, call, TrajectorySizeLimits(MAX_SAMPLES, limits.answer_numbers))
 
     def content() -> dict[str, Any]:
         times = planned.times()

@@ -9,15 +9,15 @@ import numpy as np
 import orjson
 
 from gelenk.contract.pose import PoseFormat
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.poses import Poses
 from gelenk.operations.pose_arrays import pose_list
 from gelenk.operations.rows import json_list, json_rows
-from gelenk.operations.trajectory_limits import Bounds
-from gelenk.trajectory.audit import DERIVATIVES, Audit, Margin, Peak
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import MotionLimits, SegmentReport, Trajectory
+from gelenk.operations.trajectory_limits import SourcedLimits
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.audit import DERIVATIVES, Audit, Margin, Peak
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem.problem import SegmentLimits, SegmentReport, Trajectory
 
 _POSES = 256
 """Poses encoded at once, in less than half a millisecond."""
@@ -57,7 +57,7 @@ def told_poses(poses: Poses, pose_format: PoseFormat) -> orjson.Fragment:
     return json_list(pieces())
 
 
-def told_limits(limits: MotionLimits) -> dict[str, Any]:
+def told_limits(limits: SegmentLimits) -> dict[str, Any]:
     """Return limits as JSON content; null for a limit of the tip that is not given."""
     return {
         "joint_velocity": limits.velocity.tolist(),
@@ -67,7 +67,7 @@ def told_limits(limits: MotionLimits) -> dict[str, Any]:
     }
 
 
-def told_segments(found: Trajectory, bounds: tuple[Bounds, ...], *, coefficients: bool) -> list[dict[str, Any]]:
+def told_segments(found: Trajectory, bounds: tuple[SourcedLimits, ...], *, coefficients: bool) -> list[dict[str, Any]]:
     """Return the results of each segment."""
     entries = [_segment(report, bounds[report.index].limits) for report in found.segments]
     if coefficients:
@@ -79,7 +79,7 @@ def told_segments(found: Trajectory, bounds: tuple[Bounds, ...], *, coefficients
     return entries
 
 
-def _segment(report: SegmentReport, limits: MotionLimits) -> dict[str, Any]:
+def _segment(report: SegmentReport, limits: SegmentLimits) -> dict[str, Any]:
     entry = asdict(report)
     if report.joint_deviation is not None:
         entry["joint_deviation"] = dict(zip(("distance", "angle"), report.joint_deviation, strict=True))

@@ -13,12 +13,12 @@ import numpy as np
 
 from gelenk.contract.trajectory_answer import LimitSource
 from gelenk.contract.trajectory_request import JointValues, MotionOptions, TrajectoryLimits
-from gelenk.model.arrays import Array, Flags
-from gelenk.model.chain import Chain
-from gelenk.model.errors import UnknownJoint, WrongJointCount, listed
-from gelenk.model.robot import Robot
-from gelenk.trajectory.audit_demands import TipLimits
-from gelenk.trajectory.problem import MotionLimits
+from gelenk.errors import UnknownJoint, WrongJointCount, listed
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.chain import Chain
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.problem.problem import SegmentLimits
 
 QUANTITIES = ("joint_velocity", "joint_acceleration", "joint_jerk")
 TURNING = 1.0
@@ -49,7 +49,7 @@ class Layer:
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class SourcedLimits:
     """Limits and their sources.
 
     Attributes:
@@ -57,7 +57,7 @@ class Bounds:
         sources: Source of each joint's limit, by quantity.
     """
 
-    limits: MotionLimits
+    limits: SegmentLimits
     sources: dict[str, tuple[LimitSource, ...]]
 
 
@@ -69,7 +69,7 @@ class OwnVelocities:
     known: Flags
 
 
-def own_velocities(robot: Robot, chain: Chain) -> OwnVelocities:
+def own_velocities(robot: RobotModel, chain: Chain) -> OwnVelocities:
     """Return the velocity limits of a chain's variables."""
     joints = [robot.description.joint[name] for name in chain.joint_names]
     given = np.array([joint.limits.velocity or 0.0 for joint in joints], dtype=float)
@@ -78,7 +78,7 @@ def own_velocities(robot: Robot, chain: Chain) -> OwnVelocities:
     return OwnVelocities(np.where(known, given, otherwise), known)
 
 
-def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> Bounds:
+def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> SourcedLimits:
     """Return the limits in force.
 
     Args:
@@ -104,8 +104,8 @@ def bounds_of(chain: Chain, own: OwnVelocities, layers: Sequence[Layer]) -> Boun
         rows.append(values)
         sources.append(tuple(told.tolist()))
     faster, harder = _scale(layers, "velocity_scale"), _scale(layers, "acceleration_scale")
-    limits = MotionLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, _tip(layers, faster, harder))
-    return Bounds(limits, dict(zip(QUANTITIES, sources, strict=True)))
+    limits = SegmentLimits(rows[0] * faster, rows[1] * harder, rows[2] * harder, _tip(layers, faster, harder))
+    return SourcedLimits(limits, dict(zip(QUANTITIES, sources, strict=True)))
 
 
 def _row(chain: Chain, given: JointValues, field: str) -> Array:
@@ -142,7 +142,7 @@ def _tip(layers: Sequence[Layer], faster: float, harder: float) -> TipLimits:
     )
 
 
-def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[Bounds]) -> list[str]:
+def limit_notes(chain: Chain, own: OwnVelocities, used: Sequence[SourcedLimits]) -> list[str]:
     """Return notes on limits assumed on any of the segments, and on limits beyond the robot's own."""
     notes = []
     for quantity, words in _ASSUMED.items():

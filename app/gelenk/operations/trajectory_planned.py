@@ -7,14 +7,10 @@ from typing import Any
 import orjson
 
 from gelenk.contract.trajectory_request import TrajectoryRequest
-from gelenk.kinematics.certify import Certificate
-from gelenk.kinematics.forward import forward_kinematics
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import TooLarge
-from gelenk.model.poses import Poses
-from gelenk.model.robot import Robot
+from gelenk.errors import TooLarge
+from gelenk.kinematics.judge.judge import PoseCertificate
+from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.outcome import PictureFormat
 from gelenk.operations.rows import json_rows
 from gelenk.operations.trajectory_answer import (
@@ -28,10 +24,14 @@ from gelenk.operations.trajectory_answer import (
     told_segments,
 )
 from gelenk.operations.trajectory_limits import limit_notes
-from gelenk.operations.trajectory_request import Asked, asked, shortest_duration
+from gelenk.operations.trajectory_request import SourcedProblem, asked, shortest_duration
 from gelenk.operations.trajectory_samples import check_samples, sample_times
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.plan import plan
-from gelenk.trajectory.problem import Trajectory
+from gelenk.trajectory.problem.problem import Trajectory
 
 _NUMBERS_A_POSE = 16
 _LONGER, _LONG_SECONDS = 100.0, 60.0
@@ -43,7 +43,7 @@ SAMPLED = ("times", "joint_positions", "joint_velocities", "joint_accelerations"
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class TrajectorySizeLimits:
     """Limits of one call.
 
     Attributes:
@@ -76,7 +76,7 @@ class Bounds:
         return min(self.samples, max(2, self.numbers // numbers))
 
 
-def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chain, Asked]:
+def checked(robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> tuple[Chain, SourcedProblem]:
     """Return the chain and the core's input of a call, checked as far as possible before planning.
 
     Raises:
@@ -89,7 +89,7 @@ def checked(robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> tuple[Chai
 
 
 @dataclass(frozen=True, slots=True)
-class Planned:
+class PlannedTrajectory:
     """A planned trajectory.
 
     Attributes:
@@ -101,15 +101,15 @@ class Planned:
         bounds: Limits on the answer's size.
     """
 
-    robot: Robot
+    robot: RobotModel
     chain: Chain
     call: TrajectoryRequest
-    question: Asked
+    question: SourcedProblem
     found: Trajectory
-    bounds: Bounds
+    bounds: TrajectorySizeLimits
 
     @classmethod
-    def of(cls, robot: Robot, call: TrajectoryRequest, bounds: Bounds) -> "Planned":
+    def of(cls, robot: RobotModel, call: TrajectoryRequest, bounds: TrajectorySizeLimits) -> "PlannedTrajectory":
         """Plan a trajectory.
 
         Raises:
@@ -156,7 +156,7 @@ class Planned:
             told["tip_poses"] = told_poses(poses, self.call.pose_format)
         return told
 
-    def certificate(self, times: Array) -> Certificate | None:
+    def certificate(self, times: Array) -> PoseCertificate | None:
         """Compare the tip's poses at these times with Pinocchio's; None if they are not sent.
 
         Raises:
@@ -166,7 +166,7 @@ class Planned:
             return None
         return forward_kinematics(self.robot, self.chain, self.found.motion.at(times)).certificate
 
-    def told(self, sampled: Mapping[str, orjson.Fragment], certificate: Certificate | None) -> dict[str, Any]:
+    def told(self, sampled: Mapping[str, orjson.Fragment], certificate: PoseCertificate | None) -> dict[str, Any]:
         """Return the whole answer.
 
         Raises:
@@ -195,7 +195,7 @@ class Planned:
     def picture(self, name: str, kind: PictureFormat) -> bytes:
         """Draw position, velocity, acceleration and jerk over time, with the robot's name in the title."""
         # Matplotlib takes a third of a second to load.
-        from gelenk.plots.profiles import Lines, Span, profiles_picture  # noqa: PLC0415
+        from gelenk.plots.profiles import ProfileLines, Span, profiles_picture  # noqa: PLC0415
 
         chain, found = self.chain, self.found
         spans = []
@@ -211,5 +211,5 @@ class Planned:
         title = f"{name if len(name) <= _MOST_NAME else name[: _MOST_NAME - 1] + '…'}: {found.motion.duration:.4g} s"
         if found.failure is not None:
             title += f", {100.0 * found.completed_fraction:.3g} % done: {found.failure.reason}"
-        lines = Lines(chain.joint_names, units, (None, None, None), spans=spans)
+        lines = ProfileLines(chain.joint_names, units, (None, None, None), spans=spans)
         return profiles_picture(title, found.motion, lines, kind)

@@ -15,25 +15,25 @@ from gelenk.contract.trajectory_request import (
     SplineSegment,
     TrajectoryRequest,
 )
-from gelenk.kinematics.configuration import check_limits, configurations, one_configuration
-from gelenk.kinematics.ik.task import FULL_POSE, Task
-from gelenk.kinematics.ik.words import DIRECTIONS
-from gelenk.model.arrays import Array, Configuration
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField, InvalidPose, OutsideLimits, counted
-from gelenk.model.robot import Robot
+from gelenk.errors import InvalidField, InvalidPose, OutsideLimits, counted
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.ik.search.words import DIRECTIONS
 from gelenk.operations.pose_arrays import poses_from
-from gelenk.operations.trajectory_limits import Bounds, Layer, OwnVelocities, bounds_of, own_velocities
-from gelenk.trajectory.problem import Following, Problem
-from gelenk.trajectory.problem import Segment as Part
-from gelenk.trajectory.words import Law
+from gelenk.operations.trajectory_limits import Layer, OwnVelocities, SourcedLimits, bounds_of, own_velocities
+from gelenk.robot.arrays import Array, Configuration
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import check_limits, configurations, one_configuration
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.problem.problem import Following, TrajectoryProblem
+from gelenk.trajectory.problem.problem import Segment as Part
 
 _SHORTEST = 1e-6
 """Shortest time between waypoints, [s]."""
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class SourcedProblem:
     """The problem for the core, and the sources of its limits.
 
     Attributes:
@@ -43,13 +43,13 @@ class Asked:
         segment_bounds: Limits of each segment.
     """
 
-    problem: Problem
+    problem: TrajectoryProblem
     own: OwnVelocities
-    bounds: Bounds
-    segment_bounds: tuple[Bounds, ...]
+    bounds: SourcedLimits
+    segment_bounds: tuple[SourcedLimits, ...]
 
 
-def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
+def asked(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
     """Convert a request into the problem for the core.
 
     Raises:
@@ -61,17 +61,17 @@ def asked(robot: Robot, chain: Chain, call: TrajectoryRequest) -> Asked:
     own, whole = own_velocities(robot, chain), Layer(call)
     layers = [(whole, Layer(segment, f"segments.{i}.")) for i, segment in enumerate(call.segments)]
     bounds = tuple(bounds_of(chain, own, pair) for pair in layers)
-    problem = Problem(
+    problem = TrajectoryProblem(
         _within(chain, call.start, "start"),
         tuple(_segment(chain, call, i, bounds[i]) for i in range(len(call.segments))),
         _following(call),
         call.duration,
         call.compare_timing,
     )
-    return Asked(problem, own, bounds_of(chain, own, (whole,)), bounds)
+    return SourcedProblem(problem, own, bounds_of(chain, own, (whole,)), bounds)
 
 
-def shortest_duration(problem: Problem) -> float:
+def shortest_duration(problem: TrajectoryProblem) -> float:
     """Return the least duration of a trajectory that its request implies, [s]."""
     if problem.duration is not None:
         return problem.duration
@@ -89,11 +89,11 @@ def _task(call: TrajectoryRequest) -> Task:
     if call.task is None:
         return FULL_POSE
     if len(set(call.task)) < len(call.task):
-        raise InvalidField("task", "each direction at most once")
+        raise InvalidField("task", "each direction may appear only once")
     return Task(tuple(direction for direction in DIRECTIONS if direction in call.task))
 
 
-def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: Bounds) -> Part:
+def _segment(chain: Chain, call: TrajectoryRequest, index: int, bounds: SourcedLimits) -> Part:
     segment, place = call.segments[index], f"segments.{index}"
     stated = np.array([source == "request" for source in bounds.sources["joint_jerk"]])
     part = Part(

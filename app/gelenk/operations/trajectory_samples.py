@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from gelenk.model.arrays import Array
-from gelenk.model.errors import InvalidField
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
 
 _NEARLY = 1e-6
 """Fraction of a period that would be too short a time between the last two samples."""

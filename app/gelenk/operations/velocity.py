@@ -5,23 +5,19 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.velocity import MAX_REPORTS, VelocityRequest
-from gelenk.kinematics.certify_motion import MotionCertificate
-from gelenk.kinematics.configuration import check_limits
-from gelenk.kinematics.inverse_velocity import (
+from gelenk.errors import TooLarge, counted
+from gelenk.kinematics.singularity.report import singularity_report
+from gelenk.kinematics.velocity.inverse_velocity import (
     InverseMotion,
     exceeded,
     inverse_motion,
     velocity_limits,
 )
-from gelenk.kinematics.linear_inverse import Decomposition, Inversion, Rule, decompose
-from gelenk.kinematics.singularity import singularity_report
-from gelenk.kinematics.subspaces import rounding
-from gelenk.kinematics.task_space import TaskSpace, jacobians_with_terms, structure
-from gelenk.kinematics.velocity import TipMotion, tip_motion
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import TooLarge, counted
-from gelenk.model.robot import Robot
+from gelenk.kinematics.velocity.judge import DerivativeCertificate
+from gelenk.kinematics.velocity.linear_inverse import Decomposition, InverseRule, Inversion, decompose
+from gelenk.kinematics.velocity.subspaces import rounding
+from gelenk.kinematics.velocity.task_space import TaskSpace, jacobians_with_terms, structure
+from gelenk.kinematics.velocity.velocity import TipMotion, tip_motion
 from gelenk.operations.chains import check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.operations.singularities import singularity_info
@@ -35,6 +31,10 @@ from gelenk.operations.velocity_call import (
     space_of_call,
     targets_of_call,
 )
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import check_limits
+from gelenk.robot.robot import RobotModel
 from gelenk.store.records import LoadedRobot
 
 _QUICK = 1
@@ -80,7 +80,7 @@ def _check_size(call: VelocityRequest, count: int, joints: int, limits: Limits) 
 
 
 def _forward_outcome(
-    robot: Robot, chain: Chain, call: VelocityRequest, qs: Array, rates: Array, space: TaskSpace, motion: TipMotion
+    robot: RobotModel, chain: Chain, call: VelocityRequest, qs: Array, rates: Array, space: TaskSpace, motion: TipMotion
 ) -> Outcome:
     def content() -> dict[str, Any]:
         answer = _head(chain, call, space)
@@ -89,7 +89,7 @@ def _forward_outcome(
         if motion.spatial_accelerations is not None:
             answer["spatial_accelerations"] = np.ascontiguousarray(motion.spatial_accelerations)
         Js, terms = jacobians_with_terms(chain, qs, call.reference)
-        rule = Rule(rank_tolerance=call.rank_tolerance)
+        rule = InverseRule(rank_tolerance=call.rank_tolerance)
         parts = decompose(Js[:, space.rows], rule, space.scales, rounding(terms))
         answer["results"] = _results(robot, chain, call, qs, rates[0], space, parts)
         return _with_proof(answer, call, motion)
@@ -102,7 +102,7 @@ def _forward_outcome(
 
 
 def _inverse_outcome(
-    robot: Robot,
+    robot: RobotModel,
     chain: Chain,
     call: VelocityRequest,
     qs: Array,
@@ -151,7 +151,7 @@ def _with_proof(answer: dict[str, Any], call: VelocityRequest, motion: TipMotion
     return answer
 
 
-def _certificate(certificate: MotionCertificate) -> dict[str, Any]:
+def _certificate(certificate: DerivativeCertificate) -> dict[str, Any]:
     errors: list[float | None] = [*certificate.max_errors, None, None, None]
     return {
         "samples": certificate.samples,
@@ -165,7 +165,7 @@ def _certificate(certificate: MotionCertificate) -> dict[str, Any]:
 
 
 def _results(
-    robot: Robot,
+    robot: RobotModel,
     chain: Chain,
     call: VelocityRequest,
     qs: Array,

@@ -6,16 +6,16 @@ from typing import Any, cast
 import numpy as np
 
 from gelenk.contract.velocity import NullSpace, VelocityRequest
-from gelenk.kinematics.configuration import configurations, one_configuration
-from gelenk.kinematics.ik.null_space import Objective
-from gelenk.kinematics.ik.task import Task
-from gelenk.kinematics.ik.words import DIRECTIONS
-from gelenk.kinematics.inverse_velocity import descent
-from gelenk.kinematics.linear_inverse import Rule
-from gelenk.kinematics.task_space import TaskSpace
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidArray, InvalidField, counted, quoted
+from gelenk.errors import InvalidArray, InvalidField, counted, quoted
+from gelenk.ik.search.null_space import Objective
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import DIRECTIONS
+from gelenk.kinematics.velocity.inverse_velocity import descent
+from gelenk.kinematics.velocity.linear_inverse import InverseRule
+from gelenk.kinematics.velocity.task_space import TaskSpace
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import configurations, one_configuration
 
 RATES = ("joint_velocities", "joint_accelerations", "joint_jerks", "joint_snaps")
 """Fields of the joints' derivatives, in their order."""
@@ -99,11 +99,11 @@ def space_of_call(call: VelocityRequest) -> TaskSpace:
     """
     directions = DIRECTIONS if call.task is None else tuple(call.task)
     if len(set(directions)) < len(directions):
-        raise InvalidField("task", "each direction at most once")
+        raise InvalidField("task", "each direction may appear only once")
     return TaskSpace(Task(directions), call.characteristic_length, call.reference)
 
 
-def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> Rule:
+def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> InverseRule:
     """Return the rule of inversion.
 
     Raises:
@@ -129,7 +129,7 @@ def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: in
         raise InvalidField("damping_threshold", "only for adaptive damping")
     if asked != "twists" and call.null_space is not None and call.null_space.joint_accelerations is None:
         raise InvalidField("null_space", "`joint_velocities` and `objective` are allowed with `twists` only")
-    return Rule(
+    return InverseRule(
         call.inverse,
         call.rank_tolerance,
         damping,
@@ -146,7 +146,7 @@ def _weights(chain: Chain, call: VelocityRequest) -> Array | None:
         if not _LEAST_WEIGHT <= weight <= _LARGEST_WEIGHT:
             raise InvalidField(
                 "weights",
-                f"that of joint {quoted(name)} is {weight:g}; allowed are {_LEAST_WEIGHT:g} to {_LARGEST_WEIGHT:g}",
+                f"that of joint {quoted(name)} is {weight:g}; allowed: {_LEAST_WEIGHT:g} to {_LARGEST_WEIGHT:g}",
             )
     return weights
 
@@ -160,7 +160,7 @@ def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: 
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
             allowed = "6" if len(space) == 6 else f"6, or {len(space)} for the directions that count"
-            raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed are {allowed}")
+            raise InvalidField(f"{asked}/{i}", f"{counted(len(entry), 'number')}; allowed: {allowed}")
         # Six numbers for six directions are in the order of the directions too.
         targets[i] = entry if len(entry) == len(space) else [entry[row] for row in space.rows]
     return targets

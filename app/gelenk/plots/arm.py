@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.model.arrays import Array, Flags
-from gelenk.model.chain import Chain
-from gelenk.model.poses import transform
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import transform
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,10 +12,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from gelenk.kinematics.limited_motion import LimitedMotion
-from gelenk.kinematics.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
+from gelenk.kinematics.ellipsoids.limited_motion import LimitedMotion
+from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids, is_within_task, space_of, transmission_ratios
 from gelenk.plots.arm import ArmLine, arm_line
 from gelenk.plots.figure import (
     FORCE,
@@ -29,7 +27,7 @@ from gelenk.plots.figure import (
     new_figure,
     plain,
 )
-from gelenk.plots.legend import Entry, configuration_lines, legend, legend_height, write_head, write_legend
+from gelenk.plots.legend import LegendRow, configuration_lines, legend, legend_height, write_head, write_legend
 from gelenk.plots.shadows import (
     DASHED,
     SOLID,
@@ -40,6 +38,8 @@ from gelenk.plots.shadows import (
     draw_outline,
     draw_quantity,
 )
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
 
 View: TypeAlias = tuple[Array, str, str]
 """Two unit vectors of a projection plane as rows, shape (2, 3), and the labels of its axes."""
@@ -54,7 +54,7 @@ _TITLE_HEIGHT, _AXES_WIDTH, _AXES_HEIGHT, _LABELS_HEIGHT = 0.55, 5.3, 4.8, 0.65
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Overlay:
     """What a picture shows in addition to the ellipsoids.
 
     Attributes:
@@ -68,7 +68,7 @@ class Asked:
     limited: LimitedMotion | None
 
 
-NOTHING_MORE = Asked(np.zeros((0, 3)), 0.0, None)
+NOTHING_MORE = Overlay(np.zeros((0, 3)), 0.0, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,12 @@ class Scene:
 
 
 def manipulability_picture(
-    name: str, chain: Chain, q: Array, translation: Ellipsoids | None, kind: PictureFormat, asked: Asked = NOTHING_MORE
+    name: str,
+    chain: Chain,
+    q: Array,
+    translation: Ellipsoids | None,
+    kind: PictureFormat,
+    asked: Overlay = NOTHING_MORE,
 ) -> bytes:
     """Draw the arm with its ellipsoids.
 
@@ -173,7 +178,7 @@ def _outlines(translation: Ellipsoids, limited: LimitedMotion, extent: float) ->
     return tuple(found)
 
 
-def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Asked) -> tuple[Arrow, ...]:
+def _arrows(translation: Ellipsoids | None, quantities: Sequence[Quantity], asked: Overlay) -> tuple[Arrow, ...]:
     """Return the directions as arrows; the legend shows their components."""
     directions = asked.directions
     inside, ratios = np.zeros(len(directions), dtype=bool), np.full((2, len(directions)), np.nan)
@@ -207,7 +212,7 @@ def _scale(sizes: Array, extent: float) -> float:
     return float(max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted))
 
 
-def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
+def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
     width = 6.4
     lines = configuration_lines(chain, q, width)
     top, bottom = _TITLE_HEIGHT + len(lines) * LINE, _LABELS_HEIGHT + legend_height(entries)
@@ -225,7 +230,7 @@ def _in_plane(scene: Scene, plane: Array, title: str, chain: Chain, q: Array, en
     return figure
 
 
-def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[Entry]) -> Figure:
+def _in_projections(scene: Scene, title: str, chain: Chain, q: Array, entries: Sequence[LegendRow]) -> Figure:
     """Draw front and side views above, and the top view below the front, all on one scale."""
     width, side = 9.0, 3.6
     lines = configuration_lines(chain, q, width)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from gelenk.model.arrays import Array
+from gelenk.course.motion.fly_over import Blend
 from gelenk.plots.figure import (
     FORCE,
     INK,
@@ -20,8 +20,8 @@ from gelenk.plots.figure import (
     write,
 )
 from gelenk.plots.profiles import curve, time_axes
-from gelenk.trajectory.fly_over import Blend
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _POINTS = 200
 _MARGIN = 0.12

@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gelenk.kinematics.manipulability import Ellipsoids
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
+from gelenk.kinematics.ellipsoids.manipulability import Ellipsoids
 from gelenk.plots.figure import INK, LINE, QUIET, TITLE, write
 from gelenk.plots.shadows import DOTTED, THIN, Arrow, Outline, Quantity
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
 
 _DIGITS = {1: 4, 2: 4, 3: 3}
 _MOST_NAMED = 6
@@ -26,7 +26,7 @@ _CHARACTER = 0.078
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class LegendRow:
     """Lines of text in the legend, with a sample of the drawn line that they describe, if any."""
 
     lines: tuple[str, ...]
@@ -39,48 +39,48 @@ def legend(
     outlines: Sequence[Outline],
     arrows: Sequence[Arrow],
     translation: Ellipsoids | None,
-) -> list[Entry]:
+) -> list[LegendRow]:
     """Return the entries of the legend: what is drawn, how large, and at which scale."""
     entries = [_entry(quantity) for quantity in quantities]
     entries += [_outline_entry(outline) for outline in outlines]
     if translation is None:
-        entries.append(Entry(("The task has no translation, which alone is drawn here.",), color=QUIET))
+        entries.append(LegendRow(("The task has no translation, and only translation is drawn here.",), color=QUIET))
     elif not quantities:
-        entries.append(Entry(("No joint moves the tip in the directions of the task.",), color=QUIET))
+        entries.append(LegendRow(("No joint moves the tip in the directions of the task.",), color=QUIET))
     else:
         sigmas = translation.sigmas[0]
         isotropy = sigmas[-1] / sigmas[0] if sigmas[0] > 0.0 else 0.0
         rank, d = translation.ranks[0], translation.space.dimension
         singular = ": singular" if rank < d else ""
         measure = f"Yoshikawa's measure {translation.measures[0]:.4g}, isotropy {isotropy:.3g}"
-        entries.append(Entry((measure, f"Rank {rank} of {d}{singular}")))
+        entries.append(LegendRow((measure, f"Rank {rank} of {d}{singular}")))
     if arrows:
         words = [f"{arrow.number}  {arrow.words}" for arrow in arrows[:_MOST_NAMED]]
         more = len(arrows) - len(words)
         words.insert(0, "Along each direction alone, velocity v and force F:")
-        entries.append(Entry((*words, *([f"and {more} more directions"] if more else []))))
+        entries.append(LegendRow((*words, *([f"and {more} more directions"] if more else []))))
     return entries
 
 
-def _entry(quantity: Quantity) -> Entry:
+def _entry(quantity: Quantity) -> LegendRow:
     d = len(quantity.sizes)
     ends = ", ".join("unbounded" if np.isinf(size) else f"{size:.{_DIGITS[d]}g}" for size in quantity.sizes)
     lines = (
         f"{quantity.name} {quantity.shape}, semi-{'axis' if d == 1 else 'axes'} {ends}",
         f"1 {quantity.unit} is drawn as {quantity.scale:g} m",
     )
-    return Entry(lines, Line2D([], [], color=quantity.color, linewidth=THIN, linestyle=quantity.dashes))
+    return LegendRow(lines, Line2D([], [], color=quantity.color, linewidth=THIN, linestyle=quantity.dashes))
 
 
-def _outline_entry(outline: Outline) -> Entry:
+def _outline_entry(outline: Outline) -> LegendRow:
     name = f"{outline.name} polytope"
     if outline.vertices is None:
-        return Entry((f"{name}: {outline.missing}",), color=QUIET)
+        return LegendRow((f"{name}: {outline.missing}",), color=QUIET)
     lines = (f"{name}, within the limits of the joints", f"1 {outline.unit} is drawn as {outline.scale:g} m")
-    return Entry(lines, Line2D([], [], color=outline.color, linewidth=THIN, linestyle=DOTTED))
+    return LegendRow(lines, Line2D([], [], color=outline.color, linewidth=THIN, linestyle=DOTTED))
 
 
-def legend_height(entries: Sequence[Entry]) -> float:
+def legend_height(entries: Sequence[LegendRow]) -> float:
     """Return the height of a legend, [inch]."""
     return sum((len(entry.lines) + 0.35) * LINE for entry in entries) + 0.1
 
@@ -103,7 +103,7 @@ def write_head(figure: Figure, title: str, lines: Sequence[str]) -> None:
     write(figure, left, 1.0 - 0.46 / height, lines, color=QUIET)
 
 
-def write_legend(figure: Figure, place: tuple[float, float], entries: Sequence[Entry]) -> None:
+def write_legend(figure: Figure, place: tuple[float, float], entries: Sequence[LegendRow]) -> None:
     """Write the entries one below the other; `place` is their upper left corner in fractions of the figure."""
     left, top = place
     line, swatch = LINE / figure.get_figheight(), 0.36 / figure.get_figwidth()

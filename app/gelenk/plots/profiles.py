@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from gelenk.model.arrays import Array
 from gelenk.plots.figure import (
     INK,
     LINE,
@@ -24,7 +23,8 @@ from gelenk.plots.figure import (
     plain,
     write,
 )
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _COLORS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b4c9a", "#1f2933")
 """The colours of Okabe and Ito that are visible on white, and two more."""
@@ -56,7 +56,7 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
-class Lines:
+class ProfileLines:
     """What is drawn in addition to the motion.
 
     Attributes:
@@ -74,7 +74,7 @@ class Lines:
     spans: Sequence[Span] = ()
 
 
-def profiles_picture(title: str, motion: PiecewisePolynomial, lines: Lines, kind: PictureFormat) -> bytes:
+def profiles_picture(title: str, motion: PiecewisePolynomial, lines: ProfileLines, kind: PictureFormat) -> bytes:
     """Draw the profiles of a motion.
 
     Args:
@@ -148,7 +148,7 @@ def _draw(axes: Axes, motion: PiecewisePolynomial) -> None:
         axes.plot(times, values[:, j], color=color, linewidth=1.5, dashes=dashes, zorder=3)
 
 
-def _limit(axes: Axes, lines: Lines, which: int) -> None:
+def _limit(axes: Axes, lines: ProfileLines, which: int) -> None:
     """Draw the limits of all joints in both directions, with one line for joints that share a limit."""
     if not lines.spans:
         limit = lines.limits[which]

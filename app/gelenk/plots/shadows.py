@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.typing import LineStyleType
 
-from gelenk.model.arrays import Array
 from gelenk.plots.figure import INK, font
+from gelenk.robot.arrays import Array
 
 SOLID: LineStyleType = "-"
 DASHED: LineStyleType = (0.0, (5.0, 1.6))

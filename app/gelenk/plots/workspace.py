@@ -13,7 +13,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from gelenk.model.arrays import Array
 from gelenk.plots.figure import (
     INK,
     LINE,
@@ -28,6 +27,7 @@ from gelenk.plots.figure import (
     plain,
     write,
 )
+from gelenk.robot.arrays import Array
 
 View: TypeAlias = tuple[Array, Array, str, str]
 """Unit vectors to the right and up, shape (3,) each, and the names of these axes."""

@@ -16,9 +16,9 @@ from io import BytesIO
 from pathlib import Path, PurePosixPath
 from typing import IO, BinaryIO
 
-from gelenk.model.errors import InvalidArchive, TooLarge, quoted
-from gelenk.model.xml import MAX_BYTES
-from gelenk.store.folders import Stretch, nameless
+from gelenk.errors import InvalidArchive, TooLarge, quoted
+from gelenk.robot.xml import MAX_BYTES
+from gelenk.store.folders import FileRange, nameless
 from gelenk.store.meshes import KEPT_SUFFIXES
 
 MAX_ENTRIES = 2000
@@ -45,7 +45,7 @@ class UnpackedRobot:
 
     urdf: bytes
     urdf_folder: str
-    meshes: dict[str, Stretch]
+    meshes: dict[str, FileRange]
 
 
 @contextmanager
@@ -81,13 +81,13 @@ def _unpack(archive: zipfile.ZipFile, store: IO[bytes], max_unpacked: int) -> Un
     for entry in entries:
         _check_entry(entry)
     _check_names([entry.filename.lower() for entry in entries])
-    meshes: dict[str, Stretch] = {}
+    meshes: dict[str, FileRange] = {}
     used = 0
     for entry in entries:
         if entry is descriptions[0] or PurePosixPath(entry.filename).suffix.lower() not in KEPT_SUFFIXES:
             continue
         size = _copy(archive, entry, store, max_unpacked - used, max_unpacked)
-        meshes[entry.filename] = Stretch(store, used, size)
+        meshes[entry.filename] = FileRange(store, used, size)
         used += size
     urdf = BytesIO()
     _copy(archive, descriptions[0], urdf, MAX_BYTES, MAX_BYTES)
@@ -128,7 +128,7 @@ def _check_entry(entry: zipfile.ZipInfo) -> None:
     if len(name.encode()) > MAX_PATH_BYTES or not name.isprintable():
         raise InvalidArchive(f"its path must be at most {MAX_PATH_BYTES} bytes of printable characters", name)
     if len(parts) > MAX_FOLDERS + 1:
-        raise InvalidArchive(f"it lies {len(parts) - 1} folders deep; allowed are {MAX_FOLDERS}", name)
+        raise InvalidArchive(f"it is {len(parts) - 1} folders deep; at most {MAX_FOLDERS} are allowed", name)
     mode = entry.external_attr >> 16
     if stat.S_ISLNK(mode):
         raise InvalidArchive("links are not allowed", name)

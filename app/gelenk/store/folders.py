@@ -18,7 +18,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any, TypeAlias
 
-from gelenk.model.errors import StorageFailed, StorageFull
+from gelenk.errors import StorageFailed, StorageFull
 
 _NEW = ".new-"
 _OLD = ".old-"
@@ -28,7 +28,7 @@ _PROBE = 64 * 1024
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class FileRange:
     """A part of an open file.
 
     Attributes:
@@ -42,7 +42,7 @@ class Stretch:
     size: int
 
 
-Content: TypeAlias = bytes | Stretch
+Content: TypeAlias = bytes | FileRange
 """Content to write to a file."""
 
 

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import orjson
 
 from gelenk.contract.robots import RobotFile
-from gelenk.model.errors import KinematicsError, StorageFailed
+from gelenk.errors import KinematicsError, StorageFailed
 from gelenk.store import folders
 from gelenk.store.records import ROBOT_FILE, Source, Stamp, read_record, stamp_of
 
@@ -30,7 +30,7 @@ _SPARE_LINES = 1000
 """Number of outdated lines allowed beyond the number of robots before the file is rewritten."""
 
 
-class Entry(NamedTuple):
+class IndexEntry(NamedTuple):
     """The index entry of an uploaded robot.
 
     Attributes:
@@ -59,7 +59,7 @@ class Index:
     def __init__(self, uploads: Path, reserved: Collection[str]) -> None:
         self._uploads, self._reserved = uploads, reserved
         self._lock = threading.Lock()
-        self._known: dict[str, Entry] = {}
+        self._known: dict[str, IndexEntry] = {}
         self._inode = self._position = self._lines = self._next = 0
 
     def names(self) -> list[str]:
@@ -70,7 +70,7 @@ class Index:
             return []
         return [name for name in names if NAME.fullmatch(name) and name not in self._reserved]
 
-    def entries(self, looked_at: int | None = _LOOKED_AT) -> tuple[list[Entry], list[tuple[str, RobotFile]]]:
+    def entries(self, looked_at: int | None = _LOOKED_AT) -> tuple[list[IndexEntry], list[tuple[str, RobotFile]]]:
         """Return the known robots, sorted by name, and those that must be loaded before they can be listed.
 
         Folders that are not robots are left out.
@@ -86,7 +86,7 @@ class Index:
             self._known = {name: self._known[name] for name in names if name in self._known}
             self._forget_edited(looked_at)
             read = {name: self._read(name) for name in names if name not in self._known}
-            found = {name: entry for name, entry in read.items() if isinstance(entry, Entry)}
+            found = {name: entry for name, entry in read.items() if isinstance(entry, IndexEntry)}
             self._append(found.values())
             self._known = {name: entry for name in names if (entry := self._known.get(name) or found.get(name))}
             others = [(name, file) for name, file in read.items() if isinstance(file, RobotFile)]
@@ -121,7 +121,7 @@ class Index:
             return stamp_of(f"{self._uploads}/{name}/{ROBOT_FILE}")
         return None
 
-    def _read(self, name: str) -> Entry | RobotFile | None:
+    def _read(self, name: str) -> IndexEntry | RobotFile | None:
         try:
             record = read_record(self._uploads / name, "uploaded")
         except (KinematicsError, OSError):
@@ -151,7 +151,7 @@ class Index:
                 entry = _from_line(line)
                 self._known[entry.name] = entry
 
-    def _append(self, entries: Iterable[Entry]) -> None:
+    def _append(self, entries: Iterable[IndexEntry]) -> None:
         """Append lines; if the disk refuses them, this only costs time later."""
         content = b"".join(map(_as_line, entries))
         if content:
@@ -166,11 +166,11 @@ def summary(name: str, source: Source, file: RobotFile) -> dict[str, Any]:
     return told | {"default_chain": chain}
 
 
-def _entry(name: str, stamp: Stamp, file: RobotFile) -> Entry:
-    return Entry(name, stamp, file.owner, file.kept_bytes, orjson.dumps(summary(name, "uploaded", file)))
+def _entry(name: str, stamp: Stamp, file: RobotFile) -> IndexEntry:
+    return IndexEntry(name, stamp, file.owner, file.kept_bytes, orjson.dumps(summary(name, "uploaded", file)))
 
 
-def _as_line(entry: Entry) -> bytes:
+def _as_line(entry: IndexEntry) -> bytes:
     """Join the fields and their checksum by tabs, which JSON never contains; a line break before ends any torn line."""
     stamp = b"%d %d %d" % entry.stamp
     fields = (entry.name.encode(), stamp, orjson.dumps(entry.owner), b"%d" % entry.kept_bytes, entry.summary)
@@ -178,7 +178,7 @@ def _as_line(entry: Entry) -> bytes:
     return b"\n%b\t%d\n" % (line, zlib.crc32(line))
 
 
-def _from_line(line: bytes) -> Entry:
+def _from_line(line: bytes) -> IndexEntry:
     """Parse a line; raises ValueError if it is damaged."""
     fields, _, checksum = line.rpartition(b"\t")
     if int(checksum) != zlib.crc32(fields):
@@ -186,4 +186,4 @@ def _from_line(line: bytes) -> Entry:
     name, stamp, owner, kept_bytes, told = fields.split(b"\t")
     changed, inode, size = map(int, stamp.split())
     known = None if owner == b"null" else orjson.loads(owner)
-    return Entry(name.decode(), (changed, inode, size), known, int(kept_bytes), told)
+    return IndexEntry(name.decode(), (changed, inode, size), known, int(kept_bytes), told)

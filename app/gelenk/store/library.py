@@ -23,7 +23,7 @@ import orjson
 
 from gelenk.contract.common import ChainEnds
 from gelenk.contract.robots import RobotFile
-from gelenk.model.errors import (
+from gelenk.errors import (
     InvalidName,
     InvalidRobotFolder,
     KinematicsError,
@@ -34,9 +34,9 @@ from gelenk.model.errors import (
     UnknownMesh,
     UnknownRobot,
 )
-from gelenk.model.robot import Robot
+from gelenk.robot.robot import RobotModel
 from gelenk.store import folders
-from gelenk.store.folders import Content, Stretch
+from gelenk.store.folders import Content, FileRange
 from gelenk.store.index import NAME, Index, summary
 from gelenk.store.meshes import MeshFiles, flat
 from gelenk.store.records import ROBOT_FILE, LoadedRobot, Record, Source, describe, load, mesh_file, read_record
@@ -380,7 +380,7 @@ def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
     """
     description, _, _ = describe(upload.name, upload.format, upload.model, upload.strict)
     ends = upload.default_chain
-    robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
+    robot = RobotModel(description, (ends.base_frame, ends.tip_frame) if ends else None)
     base_frame, tip_frame = robot.default_chain
     version = f"files-{uuid.uuid4().hex[:12]}"
     used = MeshFiles(upload.meshes, upload.urdf_folder).used(description.meshes)
@@ -394,7 +394,9 @@ def _files(upload: RobotUpload) -> tuple[RobotFile, str, dict[str, Content]]:
         urdf_folder=upload.urdf_folder,
         digest=_digest(upload),
         owner=upload.owner,
-        kept_bytes=sum(content.size if isinstance(content, Stretch) else len(content) for content in contents.values()),
+        kept_bytes=sum(
+            content.size if isinstance(content, FileRange) else len(content) for content in contents.values()
+        ),
         left_out=len(upload.meshes) - len(used),
         default_chain=ChainEnds(base_frame=base_frame, tip_frame=tip_frame),
     )

@@ -10,7 +10,7 @@ from itertools import takewhile
 from operator import eq
 from pathlib import PurePosixPath
 
-from gelenk.model.errors import listed, meshes_are
+from gelenk.errors import listed, meshes_are
 
 MESH_SUFFIXES = frozenset({".stl", ".obj", ".dae"})
 COMPANION_SUFFIXES = frozenset({".mtl", ".png", ".jpg", ".jpeg"})
@@ -106,7 +106,7 @@ def mesh_warnings(found: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
         warnings.append(f"{meshes_are(tuple(missing))} missing")
     if unclear:
         candidates = tuple(dict.fromkeys(path for name in unclear for path in found[name]))
-        warnings.append(f"{meshes_are(tuple(unclear))} not shown: these files fit alike: {listed(candidates)}")
+        warnings.append(f"{meshes_are(tuple(unclear))} not shown: several files match: {listed(candidates)}")
     return tuple(warnings)
 
 

@@ -16,13 +16,13 @@ from pydantic import ValidationError
 
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.robots import RobotFile
-from gelenk.model.convert import describe_dh
-from gelenk.model.description import Description
-from gelenk.model.dh import DhTable
-from gelenk.model.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, counted, quoted
-from gelenk.model.robot import Robot
-from gelenk.model.urdf import read_urdf, write_urdf
-from gelenk.model.xml import MAX_BYTES
+from gelenk.dh.tables.convert import describe_dh
+from gelenk.errors import InvalidRobotFolder, InvalidUrdf, TooLarge, counted, quoted
+from gelenk.robot.description import Description
+from gelenk.robot.dh import DhTable
+from gelenk.robot.robot import RobotModel
+from gelenk.robot.urdf import read_urdf, write_urdf
+from gelenk.robot.xml import MAX_BYTES
 from gelenk.store.folders import read_plain
 from gelenk.store.meshes import KEPT_SUFFIXES, MeshFiles, ends, flat, mesh_warnings
 
@@ -73,7 +73,7 @@ class LoadedRobot:
     """
 
     record: Record
-    robot: Robot
+    robot: RobotModel
     urdf: str
     table: DhTable | None
     found: dict[str, list[str]]
@@ -148,7 +148,7 @@ def load(record: Record) -> LoadedRobot:
         raise TooLarge(f"bytes of {record.model_path.name}", size, MAX_BYTES)
     description, urdf, table = describe(record.name, record.file.format, read_plain(record.model_path))
     ends = record.file.default_chain
-    robot = Robot(description, (ends.base_frame, ends.tip_frame) if ends else None)
+    robot = RobotModel(description, (ends.base_frame, ends.tip_frame) if ends else None)
     return LoadedRobot(record, robot, urdf, table, _found_meshes(record, description.meshes))
 
 

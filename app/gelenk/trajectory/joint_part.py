@@ -5,35 +5,35 @@ from typing import cast
 
 import numpy as np
 
-from gelenk.kinematics.ik.closed_form import closed_form
-from gelenk.kinematics.ik.solve import Options, inverse_kinematics
-from gelenk.kinematics.ik.task import Task
-from gelenk.kinematics.ik.words import Status
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField
-from gelenk.model.poses import Poses
-from gelenk.model.robot import Robot
-from gelenk.trajectory.audit_demands import Demands, Ends, JointLimits
-from gelenk.trajectory.audit_pieces import pieces_of
-from gelenk.trajectory.audit_tip import tip_peaks
-from gelenk.trajectory.joint_excess import first_limit_excess
-from gelenk.trajectory.joint_motion import compared_point_to_point, point_to_point_motion
-from gelenk.trajectory.joint_splines import (
-    Promise,
+from gelenk.errors import InvalidField
+from gelenk.ik.closed.closed_form import closed_form
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import Status
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits
+from gelenk.trajectory.audit.pieces import pieces_of
+from gelenk.trajectory.audit.tip import tip_peaks
+from gelenk.trajectory.audit.words import StopReason
+from gelenk.trajectory.joints.excess import first_limit_excess
+from gelenk.trajectory.joints.motion import compared_point_to_point, point_to_point_motion
+from gelenk.trajectory.joints.splines import (
+    SmoothnessClass,
     compared_spline,
     longest_prefix,
     promised,
     spline_motion,
-    spline_way,
+    spline_path,
 )
-from gelenk.trajectory.joint_waypoints import WITHIN, check_within
-from gelenk.trajectory.parts import Halt, Part, standing
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import Problem, Segment, SegmentReport, TimingComparison
-from gelenk.trajectory.via_blends import via_blends
-from gelenk.trajectory.words import StopReason
+from gelenk.trajectory.joints.via_blends import via_blends
+from gelenk.trajectory.joints.waypoints import WITHIN, check_within
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.problem import Segment, SegmentReport, TimingComparison, TrajectoryProblem
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",
@@ -45,7 +45,9 @@ _MARGIN = 1e-9
 """Extra slowdown, because the sampled peaks of the tip may be slightly too low."""
 
 
-def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Part:
+def joint_part(
+    robot: RobotModel, chain: Chain, start: Array, segment: Segment, index: int, problem: TrajectoryProblem
+) -> PlannedPart:
     """Plan a joint segment, as far as it is possible.
 
     Args:
@@ -69,7 +71,7 @@ def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index
         if target is None:
             found = _solved(robot, chain, start, segment, index, problem)
             if isinstance(found, Halt):
-                return Part(standing(start), (), Demands(), found)
+                return PlannedPart(standing(start), (), Demands(), found)
             target = found
         _refuse_outside(chain, target, f"{field}.target")
         motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration, field=field)
@@ -77,7 +79,7 @@ def joint_part(robot: Robot, chain: Chain, start: Array, segment: Segment, index
     timing = _comparison(chain, start, target, segment, index) if problem.compares_timing else None
     end = motion.at(motion.breaks[-1:])[0] if halt is not None or target is None else target
     report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
-    return Part(motion, (report,), _demands(segment, start, end, problem.following.task), halt, timing)
+    return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), halt, timing)
 
 
 def _refuse_outside(chain: Chain, target: Array, field: str) -> None:
@@ -87,7 +89,9 @@ def _refuse_outside(chain: Chain, target: Array, field: str) -> None:
             raise InvalidField(field, f"{name} at {value:.10g} is outside its limits [{lower:.10g}, {upper:.10g}]")
 
 
-def _solved(robot: Robot, chain: Chain, start: Array, segment: Segment, index: int, problem: Problem) -> Array | Halt:
+def _solved(
+    robot: RobotModel, chain: Chain, start: Array, segment: Segment, index: int, problem: TrajectoryProblem
+) -> Array | Halt:
     """Return the target's configuration nearest to the start (for a redundant arm, the one that iteration finds)."""
     following = problem.following
     T = cast(Array, segment.pose)
@@ -115,7 +119,7 @@ def _through(
         motion, note = _beside(chain, start, segment, field)
         return motion, None, (note,)
     motion = spline_motion(start, segment, chain, field=field)
-    way = spline_way(start, segment, chain, field=field)
+    way = spline_path(start, segment, chain, field=field)
     excess = first_limit_excess(chain, way)
     if excess is None:
         return motion, None, ()
@@ -181,7 +185,7 @@ def _comparison(
 
 
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
-    promise = Promise(1, False) if segment.blends else promised(segment)
+    promise = SmoothnessClass(1, False) if segment.blends else promised(segment)
     limits = segment.limits
     return Demands(
         JointLimits(limits.velocity, limits.acceleration, limits.jerk),

@@ -8,20 +8,20 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gelenk.kinematics.configuration import check_limits
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import AuditFailed, InvalidField
-from gelenk.model.robot import Robot
-from gelenk.trajectory.audit import Audit, audit
-from gelenk.trajectory.audit_demands import Demands
-from gelenk.trajectory.extremes import peaks
+from gelenk.errors import AuditFailed, InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import check_limits
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.audit import Audit, audit
+from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.joint_part import joint_part
-from gelenk.trajectory.parts import Halt, Part, standing
-from gelenk.trajectory.polynomial import PiecewisePolynomial, joined
-from gelenk.trajectory.problem import Failure, Problem, Segment, Trajectory
+from gelenk.trajectory.motion.extremes import peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.paths.segment_paths import is_blended
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.problem import PlanningFailure, Segment, Trajectory, TrajectoryProblem
 from gelenk.trajectory.tip_part import tip_part
-from gelenk.trajectory.ways import is_blended
 from gelenk.trajectory.whole_audit import whole
 
 _SAME_DURATION = 1e-9
@@ -36,7 +36,7 @@ _MOMENT = 1e-9
 """Duration that stands for zero in an audit, [s]."""
 
 
-def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
+def plan(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> Trajectory:
     """Plan a trajectory.
 
     Args:
@@ -74,9 +74,9 @@ def plan(robot: Robot, chain: Chain, problem: Problem) -> Trajectory:
     )
 
 
-def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Halt | None]:
+def _parts(robot: RobotModel, chain: Chain, problem: TrajectoryProblem) -> tuple[list[PlannedPart], Halt | None]:
     """Plan the parts that can be completed, each from rest to rest; also return why the others cannot."""
-    parts: list[Part] = []
+    parts: list[PlannedPart] = []
     configuration = problem.start
     for first, segments in _grouped(problem.segments):
         part = _part(robot, chain, configuration, first, segments, problem)
@@ -88,8 +88,8 @@ def _parts(robot: Robot, chain: Chain, problem: Problem) -> tuple[list[Part], Ha
 
 
 def _part(
-    robot: Robot, chain: Chain, start: Array, first: int, segments: tuple[Segment, ...], problem: Problem
-) -> Part:
+    robot: RobotModel, chain: Chain, start: Array, first: int, segments: tuple[Segment, ...], problem: TrajectoryProblem
+) -> PlannedPart:
     segment = segments[0]
     if segment.type == "joint" or segment.configurations is not None:
         return joint_part(robot, chain, start, segment, first, problem)
@@ -125,7 +125,7 @@ def _refuse_unblendable(segments: tuple[Segment, ...], i: int) -> None:
             raise InvalidField(f"segments.{k}.duration", reason)
 
 
-def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
+def _factor(parts: list[PlannedPart], problem: TrajectoryProblem, halt: Halt | None) -> float:
     """Return the factor by which the whole motion is slowed down to last as long as requested.
 
     Raises:
@@ -136,7 +136,7 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
     for i, segment in enumerate(problem.segments):
         if segment.duration is not None or segment.times is not None:
             field = "duration" if segment.duration is not None else "times"
-            raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: only one of the two")
+            raise InvalidField(f"segments.{i}.{field}", "the trajectory has a `duration` already: give one of them")
     least = sum(part.motion.duration for part in parts)
     if halt is not None or least == 0.0:
         return 1.0
@@ -145,7 +145,7 @@ def _factor(parts: list[Part], problem: Problem, halt: Halt | None) -> float:
     return max(1.0, problem.duration / least)
 
 
-def _with_stated_jerk(part: Part, problem: Problem) -> Part:
+def _with_stated_jerk(part: PlannedPart, problem: TrajectoryProblem) -> PlannedPart:
     """Slow a part down to the requested jerk limits if its law does not keep them by itself.
 
     Raises:
@@ -168,7 +168,7 @@ def _with_stated_jerk(part: Part, problem: Problem) -> Part:
     return part.slowed(factor * (1.0 + _MARGIN)).noted((note,))
 
 
-def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], list[Audit]]:
+def _judged(robot: RobotModel, chain: Chain, parts: list[PlannedPart]) -> tuple[list[PlannedPart], list[Audit]]:
     """Audit each part that moves; slow down a part that exceeds a limit by rounding alone."""
     judged, audits = [], []
     for planned in parts:
@@ -185,12 +185,12 @@ def _judged(robot: Robot, chain: Chain, parts: list[Part]) -> tuple[list[Part], 
     return judged, audits
 
 
-def _of_jerk(part: Part, found: Audit) -> tuple[str, ...]:
+def _of_jerk(part: PlannedPart, found: Audit) -> tuple[str, ...]:
     """Return a note if the law does not keep the jerk limits and the motion exceeds them."""
     jerk = found.jerk
     if part.demands.keeps_jerk or jerk is None or jerk.ratio is None or jerk.ratio <= 1.0 + _ROUNDING:
         return ()
-    return (f"limits of jerk are not kept: {jerk.joint} comes to {jerk.ratio:.6g} times its own",)
+    return (f"jerk limits are exceeded: {jerk.joint} reaches {jerk.ratio:.6g} times its limit",)
 
 
 def _excess(found: Audit) -> float:
@@ -203,7 +203,7 @@ def _excess(found: Audit) -> float:
     return max(peak.ratio or 0.0 for peak in beyond if peak is not None)
 
 
-def _of_standing(robot: Robot, chain: Chain, motion: PiecewisePolynomial) -> Audit:
+def _of_standing(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial) -> Audit:
     """Audit joints that stand still, as a motion of tiny duration, because an audit needs pieces that take time."""
     still = PiecewisePolynomial(np.array([0.0, _MOMENT]), motion.coefficients)
     return audit(robot, chain, still, Demands())
@@ -219,5 +219,5 @@ def refuse_failed(judgement: Audit) -> None:
         raise AuditFailed("; ".join(reason.detail for reason in judgement.reasons[:_TOLD]))
 
 
-def _failure(halt: Halt, time: float) -> Failure:
-    return Failure(halt.reason, halt.segment, time, halt.position, halt.joint, halt.detail)
+def _failure(halt: Halt, time: float) -> PlanningFailure:
+    return PlanningFailure(halt.reason, halt.segment, time, halt.position, halt.joint, halt.detail)

@@ -7,35 +7,35 @@ from typing import cast
 
 import numpy as np
 
-from gelenk.kinematics.kernels import chain_poses
-from gelenk.model.arrays import Array
-from gelenk.model.chain import Chain
-from gelenk.model.errors import InvalidField
-from gelenk.model.poses import Poses
-from gelenk.model.robot import Robot
-from gelenk.trajectory.audit_demands import Demands, Ends, JointLimits, Stretch, TipLimits, WayError
-from gelenk.trajectory.composition import times_at
-from gelenk.trajectory.follow import JointWay, follow
-from gelenk.trajectory.follow_exact import way_error
-from gelenk.trajectory.parts import Halt, Part, standing
-from gelenk.trajectory.passing_times import passing_at
-from gelenk.trajectory.paths import Path
-from gelenk.trajectory.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem import (
+from gelenk.errors import InvalidField
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
+from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, LimitedInterval, PathError, TipLimits
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.follow.exact import path_error
+from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.laws.time_scaling import QUANTITIES
+from gelenk.trajectory.motion.composition import times_at
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.path_geometry import Zone, tip_through
+from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.paths.segment_paths import SegmentsPath, path_through
+from gelenk.trajectory.paths.spline_paths import PolynomialPath
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.problem import (
     BlendReport,
     Following,
-    MotionLimits,
-    Problem,
     Segment,
+    SegmentLimits,
     SegmentReport,
     TimingComparison,
+    TrajectoryProblem,
 )
-from gelenk.trajectory.spline_paths import PolynomialPath
-from gelenk.trajectory.time_scaling import QUANTITIES
-from gelenk.trajectory.timing import Timed, compared, timed
-from gelenk.trajectory.way_geometry import Zone, tip_through
-from gelenk.trajectory.ways import Way, way_of
-from gelenk.trajectory.words import Law
+from gelenk.trajectory.timing.passing_times import passing_at
+from gelenk.trajectory.timing.timing import Timed, compared, timed
 
 _DONE = 1e-9
 """Fraction of a segment that may be missing if it is to count as completed."""
@@ -47,8 +47,8 @@ _SLACK = 1.05
 
 
 def tip_part(
-    robot: Robot, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: Problem
-) -> Part:
+    robot: RobotModel, chain: Chain, start: Array, segments: Sequence[Segment], first: int, problem: TrajectoryProblem
+) -> PlannedPart:
     """Plan a line, a circle, a spline, or blended lines, as far as the joints can follow.
 
     Args:
@@ -64,31 +64,31 @@ def tip_part(
     """
     following = problem.following
     positions, rotations = chain_poses(chain.flat, start[None])
-    way = way_of(Poses(positions, rotations).matrices()[0], segments, first)
+    way = path_through(Poses(positions, rotations).matrices()[0], segments, first)
     joints = follow(robot, chain, way.path, start, following)
     halt = _halt(joints, way, first, following)
     limits = tightest([segment.limits for segment in segments])
     if joints.reached <= 0.0:
-        return Part(standing(start), (), Demands(), halt)
+        return PlannedPart(standing(start), (), Demands(), halt)
     timing = _timed(chain, way, joints, segments, limits, first)
     blends = _blends(way, joints, timing.law)
     stretches = _stretches(way.zones(segments), joints, timing.law)
     demands = _demands(way.path, joints, timing, limits, following, stretches)
-    demands = replace(demands, stated_jerk=_stated(segments), way_error=_way_error(joints, timing, limits))
+    demands = replace(demands, stated_jerk=_stated(segments), way_error=_path_error(joints, timing, limits))
     comparison = _comparison(chain, way, joints, segments, limits, first) if problem.compares_timing else None
     reports = _reports(way, joints, timing, segments, first, following, blends)
-    return Part(timing.motion, reports, demands, halt, comparison)
+    return PlannedPart(timing.motion, reports, demands, halt, comparison)
 
 
-def tightest(limits: Sequence[MotionLimits]) -> MotionLimits:
-    """Return the tightest joint limits and the loosest tip limits of several; `Way.zones` has the tighter ones."""
+def tightest(limits: Sequence[SegmentLimits]) -> SegmentLimits:
+    """Return the tightest joint limits and the loosest tip limits of several; `SegmentsPath.zones` has tighter ones."""
     if len(limits) == 1:
         return limits[0]
     tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
     velocity, acceleration, jerk = (
         np.min([getattr(one, name) for one in limits], axis=0) for name in ("velocity", "acceleration", "jerk")
     )
-    return MotionLimits(velocity, acceleration, jerk, tip)
+    return SegmentLimits(velocity, acceleration, jerk, tip)
 
 
 def _stated(segments: Sequence[Segment]) -> Array | None:
@@ -99,10 +99,10 @@ def _stated(segments: Sequence[Segment]) -> Array | None:
 
 def _timed(
     chain: Chain,
-    way: Way,
-    joints: JointWay,
+    way: SegmentsPath,
+    joints: FollowedPath,
     segments: Sequence[Segment],
-    limits: MotionLimits,
+    limits: SegmentLimits,
     first: int,
 ) -> Timed:
     """Time the path; an incomplete path gets the shortest time, whatever the request."""
@@ -127,7 +127,7 @@ def _timed(
         raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
 
 
-def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendReport]:
+def _blends(way: SegmentsPath, joints: FollowedPath, law: PiecewisePolynomial) -> list[BlendReport]:
     """Return reports of the blends that the motion reaches."""
     blends = []
     for corner in way.corners:
@@ -139,10 +139,10 @@ def _blends(way: Way, joints: JointWay, law: PiecewisePolynomial) -> list[BlendR
     return blends
 
 
-def _stretches(zones: Sequence[Zone], joints: JointWay, law: PiecewisePolynomial) -> tuple[Stretch, ...]:
+def _stretches(zones: Sequence[Zone], joints: FollowedPath, law: PiecewisePolynomial) -> tuple[LimitedInterval, ...]:
     """Return the time intervals in which the tip has its own limits."""
     return tuple(
-        Stretch(*_times_at(law, zone.begin, min(zone.end, joints.reached)), zone.tip)
+        LimitedInterval(*_times_at(law, zone.begin, min(zone.end, joints.reached)), zone.tip)
         for zone in zones
         if zone.begin < joints.reached
     )
@@ -150,11 +150,11 @@ def _stretches(zones: Sequence[Zone], joints: JointWay, law: PiecewisePolynomial
 
 def _demands(
     path: Path,
-    joints: JointWay,
+    joints: FollowedPath,
     timing: Timed,
-    limits: MotionLimits,
+    limits: SegmentLimits,
     following: Following,
-    stretches: tuple[Stretch, ...],
+    stretches: tuple[LimitedInterval, ...],
 ) -> Demands:
     """Return the requirements on the motion, which include the pose of the tip at each time."""
     law = timing.law
@@ -177,14 +177,14 @@ def _demands(
     )
 
 
-def _way_error(joints: JointWay, timing: Timed, limits: MotionLimits) -> WayError:
+def _path_error(joints: FollowedPath, timing: Timed, limits: SegmentLimits) -> PathError:
     """Bound how much ratios to limits differ from those of the exact path; ∞ if unknown, as off the path."""
     if joints.bend_errors is None:
-        return WayError(math.inf, math.inf, math.inf)
-    return way_error(joints.positions, joints.bend_errors, timing, limits)
+        return PathError(math.inf, math.inf, math.inf)
+    return path_error(joints.positions, joints.bend_errors, timing, limits)
 
 
-def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt | None:
+def _halt(joints: FollowedPath, way: SegmentsPath, first: int, following: Following) -> Halt | None:
     """Return where and why the path could not continue; None if it is complete."""
     stop = joints.stop
     if stop is None:
@@ -203,8 +203,8 @@ def _halt(joints: JointWay, way: Way, first: int, following: Following) -> Halt 
 
 
 def _reports(
-    way: Way,
-    joints: JointWay,
+    way: SegmentsPath,
+    joints: FollowedPath,
     timing: Timed,
     segments: Sequence[Segment],
     first: int,
@@ -276,7 +276,12 @@ def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[fl
 
 
 def _comparison(
-    chain: Chain, way: Way, joints: JointWay, segments: Sequence[Segment], limits: MotionLimits, first: int
+    chain: Chain,
+    way: SegmentsPath,
+    joints: FollowedPath,
+    segments: Sequence[Segment],
+    limits: SegmentLimits,
+    first: int,
 ) -> TimingComparison:
     # As in the course, scale the cubic: comparing the time-optimal law with itself would say nothing.
     law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law

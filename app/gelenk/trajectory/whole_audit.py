@@ -6,11 +6,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from gelenk.kinematics.certify import Certificate
-from gelenk.model.chain import Chain
-from gelenk.trajectory.audit import Audit, Margin, Peak, Reason, Singularity, meetings
-from gelenk.trajectory.audit_demands import WayError
-from gelenk.trajectory.polynomial import PiecewisePolynomial
+from gelenk.kinematics.judge.judge import PoseCertificate
+from gelenk.robot.chain import Chain
+from gelenk.trajectory.audit.audit import Audit, Margin, Peak, Reason, Singularity, meetings
+from gelenk.trajectory.audit.demands import PathError
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _Timed = TypeVar("_Timed", Peak, Margin, Singularity, Reason)
 
@@ -45,12 +45,12 @@ def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], st
         ),
         _certificate(audits),
         (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *reasons),
-        _way_error([one.way_error for one in audits if one.way_error is not None]),
+        _path_error([one.way_error for one in audits if one.way_error is not None]),
     )
 
 
-def _way_error(errors: Sequence[WayError]) -> WayError | None:
-    return WayError(*np.max([astuple(one) for one in errors], axis=0).tolist()) if errors else None
+def _path_error(errors: Sequence[PathError]) -> PathError | None:
+    return PathError(*np.max([astuple(one) for one in errors], axis=0).tolist()) if errors else None
 
 
 def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
@@ -80,9 +80,9 @@ def _of(audit: Audit, end: str) -> dict[str, float]:
     return {name: error for name, error in audit.ends.items() if name.startswith(end)}
 
 
-def _certificate(audits: Sequence[Audit]) -> Certificate:
+def _certificate(audits: Sequence[Audit]) -> PoseCertificate:
     all_ = [audit.certificate for audit in audits]
-    return Certificate(
+    return PoseCertificate(
         sum(one.samples for one in all_),
         max(one.max_position_error for one in all_),
         max(one.max_orientation_error for one in all_),

@@ -1,8 +1,0 @@
-"""The operations that can run as jobs, by the names of their endpoints."""
-
-from typing import Any
-
-from gelenk.api import inverse_job, trajectory_job
-from gelenk.api.long_work import LongWork
-
-LONG_WORK: dict[str, LongWork[Any]] = {"ik": inverse_job.WORK, "trajectory": trajectory_job.WORK}

@@ -1,0 +1,192 @@
+"""Robots, tables and fields, from arguments, files and standard input."""
+
+import errno
+import json
+import os
+import re
+import sys
+import tomllib
+import uuid
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gelenk.cli.files.rows import STDIN, cells_of, number, text_of
+from gelenk.cli.files.xacro import expanded
+from gelenk.errors import InvalidDhTable, InvalidField, InvalidName, counted
+
+if TYPE_CHECKING:
+    from gelenk.client import Client
+
+_TABLES = (".json", ".toml", ".csv")
+_SUFFIXES = (".urdf", ".xacro", ".xml", ".zip", *_TABLES)
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+_NUMBERS = {"a", "alpha", "d", "theta", "lower", "upper", "velocity", "effort"}
+_TOLD = re.compile(r"#\s*(convention|base|tool)\s*[:=]\s*(.*?)\s*")
+
+
+@contextmanager
+def robot_named(
+    client: "Client",
+    argument: str,
+    arguments: Mapping[str, str],
+    packages: Mapping[str, Path],
+    strict: bool = False,
+) -> Iterator[str]:
+    """Provide a robot's name at the service: its own, or a temporary one for a file.
+
+    Args:
+        client: Client of the service.
+        argument: Name, or file: URDF, xacro, a zip of one URDF and its meshes, a table as JSON, TOML or CSV.
+        arguments: Arguments for xacro, by name.
+        packages: Folders of packages for xacro, by name.
+        strict: Whether to refuse a URDF also for faults that do not affect kinematics.
+    """
+    file = Path(argument)
+    if not is_file(file):
+        _check_name(file, argument)
+        yield argument
+        return
+    name = f"{name_of(file)[:40]}-{uuid.uuid4().hex[:8]}"
+    if file.suffix.lower() == ".zip":
+        client.add_archive(name, file, strict=strict)
+    else:
+        client.add_robot(name=name, **description_from(file, arguments, packages, strict))
+    try:
+        yield name
+    finally:
+        client.remove_robot(name)
+
+
+def _check_name(file: Path, argument: str) -> None:
+    """Raise an error if the argument means a file, or cannot be a name."""
+    if file.suffix.lower() in _SUFFIXES and not file.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), argument)
+    if file.suffix and file.is_file():
+        raise InvalidField("robot", f"{argument!r} must end in one of {', '.join(_SUFFIXES)}")
+    if not _NAME.fullmatch(argument):
+        raise InvalidName(argument)
+
+
+def name_of(file: Path) -> str:
+    """Return a robot's name, made from the name of its file."""
+    stem = file.name.partition(".")[0]
+    return re.sub(r"[^A-Za-z0-9_-]", "_", stem).lstrip("_-")[:64] or "robot"
+
+
+def description_from(
+    file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path], strict: bool = False
+) -> dict[str, Any]:
+    """Return a robot without meshes as the API takes it, `dh` or `urdf`; for the arguments see `robot_named`."""
+    if file.suffix.lower() in _TABLES:
+        return {"dh": table_from(file)}
+    return {"urdf": urdf_from(file, arguments, packages), **({"strict": True} if strict else {})}
+
+
+def is_file(path: Path) -> bool:
+    """Check whether an argument means a file: it exists, and has the suffix of a robot file."""
+    return path.suffix.lower() in _SUFFIXES and path.is_file()
+
+
+def urdf_from(file: Path, arguments: Mapping[str, str], packages: Mapping[str, Path]) -> str:
+    """Read a robot description and return it as URDF."""
+    if file.suffix.lower() == ".xacro":
+        return expanded(file, arguments, packages)
+    return text_of(file.read_bytes(), file.name)
+
+
+def table_from(file: Path) -> Any:
+    """Read a Denavit-Hartenberg table: JSON and TOML with the API's fields, or CSV with a column for each.
+
+    Raises:
+        InvalidDhTable: The file cannot be read as a table.
+    """
+    text = text_of(file.read_bytes(), file.name)
+    try:
+        match file.suffix.lower():
+            case ".toml":
+                return tomllib.loads(text)
+            case ".csv":
+                return _table_of_rows(text)
+            case _:
+                content = json.loads(text)
+                return content.get("dh", content) if isinstance(content, dict) else content
+    except (tomllib.TOMLDecodeError, json.JSONDecodeError) as error:
+        raise InvalidDhTable(f"{file.name} cannot be read: {error}") from error
+
+
+def _table_of_rows(text: str) -> dict[str, Any]:
+    """Read a table from CSV, as `dh from-urdf` writes it.
+
+    Lines such as `# convention: modified` set what the rows do not: `convention` (standard if left out), and the poses
+    `base` and `tool` in the API's form.
+    """
+    lines = [line for line in text.splitlines() if line.strip()]
+    told = {found[1]: found[2] for line in lines if (found := _TOLD.fullmatch(line))}
+    header, *rows = [cells_of(line) for line in lines if not line.startswith("#")] or [[]]
+    joints = []
+    for joint, row in enumerate(rows):
+        if len(row) > len(header):
+            raise InvalidDhTable(f"{counted(len(row), 'cell')} for {counted(len(header), 'column')}", joint)
+        joints.append({name: _cell(joint, name, text) for name, text in zip(header, row, strict=False) if text})
+    places = {name: json.loads(told[name]) for name in ("base", "tool") if name in told}
+    return {"convention": told.get("convention", "standard"), "joints": joints, **places}
+
+
+def _cell(joint: int, name: str, text: str) -> float | str:
+    if name not in _NUMBERS:
+        return text
+    try:
+        return number(text)
+    except ValueError:
+        raise InvalidDhTable(f"{text!r} is not a number, and not one such as -pi/2", joint, name) from None
+
+
+def fields_of(text: str | None) -> dict[str, Any]:
+    """Return fields of the API from JSON text, a JSON file or standard input; empty if nothing is given.
+
+    Raises:
+        InvalidField: The content is not a JSON object.
+    """
+    if text is None:
+        return {}
+    if text == STDIN:
+        text = text_of(sys.stdin.buffer.read(), "standard input")
+    elif not text.lstrip().startswith(("{", "[")):
+        text = text_of(Path(text).read_bytes(), text)
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InvalidField("fields", f"is not JSON: {error}") from None
+    if not isinstance(content, dict):
+        raise InvalidField("fields", "must be a JSON object")
+    return content
+
+
+def pairs_of(given: list[str], field: str) -> dict[str, str]:
+    """Parse `NAME=VALUE` arguments.
+
+    Raises:
+        InvalidField: An argument has another form.
+    """
+    found = {}
+    for text in given:
+        name, equals, rest = text.partition("=")
+        if not (name and equals):
+            raise InvalidField(field, f"{text!r} is not NAME=VALUE")
+        found[name] = rest
+    return found
+
+
+def packages_of(given: list[str]) -> dict[str, Path]:
+    """Parse `NAME=FOLDER` arguments.
+
+    Raises:
+        InvalidField: An argument has another form, or its folder does not exist.
+    """
+    folders = pairs_of(given, "package")
+    for name, folder in folders.items():
+        if not (folder and Path(folder).is_dir()):
+            raise InvalidField("package", f"{f'{name}={folder}'!r} names no folder: it must be NAME=FOLDER")
+    return {name: Path(folder) for name, folder in folders.items()}

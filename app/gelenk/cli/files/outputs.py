@@ -1,0 +1,195 @@
+"""Answers as tables for people, and as JSON, CSV and npy for programs."""
+
+import csv
+import errno
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from rich.console import Console
+from rich.table import Table
+
+from gelenk.errors import InvalidField
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    from gelenk.robot.arrays import Array
+
+_SHOWN = 40
+"""Maximum number of rows of a table for people."""
+_DIGITS = 6
+_WIDEST = 10_000
+
+
+class Format(StrEnum):
+    """Format in which an answer is written."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+    NPY = "npy"
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerRows:
+    """An answer as rows.
+
+    Attributes:
+        columns: Names of the columns.
+        rows: Cells of each row: numbers and words.
+        notes: Sentences about all rows, for people.
+        comments: Lines before the rows in CSV, for programs that read it again.
+        array: Numbers in another shape than the rows, for npy.
+    """
+
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+    notes: Sequence[str] = ()
+    comments: Sequence[str] = ()
+    array: Sequence[Any] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where answers are written, and in which format.
+
+    Attributes:
+        form: Format; None for that of the file's suffix, or a table.
+        file: File to write to; None for standard output.
+    """
+
+    form: Format | None = None
+    file: Path | None = None
+
+    @property
+    def format(self) -> Format:
+        """The format in use: `form`, else that of the file's suffix, else a table."""
+        if self.form is not None:
+            return self.form
+        suffix = "" if self.file is None else self.file.suffix.removeprefix(".").lower()
+        return Format(suffix) if suffix in set(Format) - {Format.TABLE} else Format.TABLE
+
+    def write(self, content: Callable[[], str], rows: AnswerRows) -> None:
+        """Write an answer.
+
+        Args:
+            content: Returns the answer as JSON, as the API gives it.
+            rows: The same answer as rows.
+        """
+        match self.format:
+            case Format.JSON:
+                self.put(content().encode() + b"\n")
+            case Format.CSV:
+                self.put(_csv(rows))
+            case Format.NPY:
+                self.save(_numbers(rows))
+            case _:
+                self._show(rows)
+
+    def tell(self, answer: "BaseModel") -> None:
+        """Write an answer that has no rows: as JSON, unless another format is requested."""
+        content = answer.model_dump(mode="json", exclude_unset=True)
+        rows = AnswerRows(("field", "value"), list(content.items()))
+        Output(self.form or Format.JSON, self.file).write(lambda: answer.model_dump_json(exclude_unset=True), rows)
+
+    def save(self, array: "Array") -> None:
+        """Write an array as npy."""
+        import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
+        if self.file is None and sys.stdout.isatty():
+            raise InvalidField("format", "npy is binary: write it to a file with --output, or a pipe")
+        stream = BytesIO()
+        np.save(stream, array, allow_pickle=False)
+        self.put(stream.getvalue())
+
+    def put(self, content: bytes) -> None:
+        """Write bytes unchanged."""
+        if self.file is not None:
+            self.file.write_bytes(content)
+            return
+        try:
+            sys.stdout.buffer.write(content)
+            sys.stdout.buffer.flush()
+        except BrokenPipeError:
+            # The reader has closed the pipe: the rest is discarded, and the exit code stays the same.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+    def _show(self, rows: AnswerRows) -> None:
+        table = Table(*map(_word, rows.columns), box=None, header_style="bold", pad_edge=False)
+        for row in rows.rows[:_SHOWN]:
+            table.add_row(*(_word(cell) for cell in row))
+        left = len(rows.rows) - _SHOWN
+        notes = [*rows.notes, *([f"and {left} more rows: ask for --format csv or json"] if left > 0 else [])]
+        console = Console() if self.file is None else Console(file=StringIO(), width=200)
+        # Not by the console itself: on a closed pipe it exits with 1, "the answer is no".
+        with console.capture() as shown:
+            _write(console, table, notes)
+        self.put(shown.get().encode())
+
+
+def check_place(file: Path) -> None:
+    """Raise OSError if a file cannot be written at this place: before the work, not after it."""
+    wrong = errno.EISDIR if file.is_dir() else errno.ENOENT if not file.parent.is_dir() else 0
+    if wrong:
+        raise OSError(wrong, os.strerror(wrong), str(file))
+
+
+def picture_kind(file: Path) -> Literal["svg", "png"]:
+    """Return the kind of picture that a file's suffix asks for.
+
+    Raises:
+        InvalidField: There is no such kind.
+        OSError: The file cannot be written at this place.
+    """
+    check_place(file)
+    match file.suffix.lower():
+        case ".svg":
+            return "svg"
+        case ".png":
+            return "png"
+    raise InvalidField("plot", f"{file.name!r} must end in .svg or .png")
+
+
+def _write(console: Console, table: Table, notes: Sequence[str]) -> None:
+    # Truncated numbers would be wrong: a table keeps its width, and the terminal wraps what does not fit.
+    whole = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
+    console.width = max(console.width, whole)
+    console.print(table)
+    for note in notes:
+        console.print(note, style="dim", markup=False, highlight=False, soft_wrap=True)
+
+
+def _word(cell: Any) -> str:
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if isinstance(cell, float):
+        return f"{cell:.{_DIGITS}g}" if cell and abs(cell) < 1e-4 else f"{cell:.{_DIGITS}f}"
+    # No markup: a robot's name may hold brackets.
+    return ("" if cell is None else str(cell)).replace("[", r"\[")
+
+
+def _csv(rows: AnswerRows) -> bytes:
+    text = StringIO()
+    text.writelines(f"# {comment}\n" for comment in rows.comments)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(rows.columns)
+    writer.writerows(rows.rows)
+    return text.getvalue().encode()
+
+
+def _numbers(rows: AnswerRows) -> "Array":
+    import numpy as np  # noqa: PLC0415 - completion and --help need not wait for it
+
+    if rows.array is not None:
+        return np.array(rows.array, dtype=float)
+    numbers = [i for i in range(len(rows.columns)) if all(isinstance(row[i], float | int) for row in rows.rows)]
+    if len(numbers) < len(rows.columns):
+        words = ", ".join(name for i, name in enumerate(rows.columns) if i not in numbers)
+        raise InvalidField("format", f"npy holds numbers alone, and these columns hold others: {words}")
+    return np.array(rows.rows, dtype=float)

@@ -1,0 +1,23 @@
+"""The service in Python: `Client` waits for its answers, `AsyncClient` awaits them.
+
+- `client`: both clients. `operations`: the operations as their methods; `kept`: those on stored robots and jobs.
+- `arrays`: operations on large batches as arrays; `jobs`: operations as jobs.
+- `call`: a call, and how a description becomes a method; `exchange`: its JSON; `npy`: its arrays.
+- `patience`: when to send a call again; `reading`: turns a reply into an answer or an exception.
+- `refusals`: turns a problem from the service back into the core's own exception.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gelenk.client.client import AsyncClient as AsyncClient
+    from gelenk.client.client import Client as Client
+
+
+def __getattr__(name: str) -> Any:
+    """`Client` and `AsyncClient`, loaded when they are first used: help and completion of the shell need neither."""
+    if name in {"Client", "AsyncClient"}:
+        from gelenk.client import client  # noqa: PLC0415
+
+        return getattr(client, name)
+    raise AttributeError(f"module 'gelenk.client' has no attribute {name!r}")

@@ -1,0 +1,98 @@
+"""Requests and answers as JSON."""
+
+import gc
+import inspect
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any, ParamSpec, TypeVar
+from urllib.parse import quote
+
+import numpy as np
+import orjson
+from pydantic import BaseModel
+
+from gelenk.client.call import Call, Reply, documented
+from gelenk.client.npy import numbers
+from gelenk.contract.common import Answer, as_lists
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+
+P = ParamSpec("P")
+A = TypeVar("A", bound=Answer)
+
+_LARGE = 1_000_000
+"""Size of an answer that counts as large, in bytes."""
+
+
+def posted(path: str, fields: Mapping[str, Any], answer: type[A], **details: Any) -> Call[A]:
+    """Describe a call with JSON in both directions."""
+    return Call("POST", path, reader(answer), body=encoded(fields), **details)
+
+
+def encoded(fields: Mapping[str, Any]) -> bytes:
+    """Encode the fields of a request as JSON; arrays and models are sent as their content.
+
+    Raises:
+        InvalidArray: A field is an array of something other than numbers.
+        InvalidField: A number of an array is not finite, which JSON cannot express.
+    """
+    plain = {name: _finite(name, value) if isinstance(value, np.ndarray) else value for name, value in fields.items()}
+    return orjson.dumps(plain, option=orjson.OPT_SERIALIZE_NUMPY, default=_plain)
+
+
+def _finite(field: str, array: Array) -> Array:
+    array = numbers(array)
+    if not np.isfinite(array).all():
+        where = np.argwhere(~np.isfinite(array))[0].tolist()
+        raise InvalidField(field, f"the number at {where} of the array is not finite")
+    return array
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, BaseModel):
+        return value.model_dump(exclude_unset=True)
+    plain = as_lists(value)  # for arrays that are not contiguous, ranges, deques
+    if plain is value:
+        raise TypeError(f"a {type(value).__name__} cannot be sent as JSON")
+    return plain
+
+
+def reader(answer: type[A]) -> Callable[[Reply], A]:
+    """Return a function that reads an answer; further fields of a newer service are left out."""
+
+    def read(reply: Reply) -> A:
+        with _collector_at_rest(len(reply.body) > _LARGE):
+            return answer.model_validate_json(reply.body, extra="ignore")
+
+    return read
+
+
+@contextmanager
+def _collector_at_rest(rests: bool) -> Iterator[None]:
+    """Pause the garbage collector if `rests`: of a hundred thousand new poses none is garbage.
+
+    It would scan them repeatedly, for a good part of the time that a large answer takes to read.
+    """
+    rests = rests and gc.isenabled()
+    if rests:
+        gc.disable()
+    try:
+        yield
+    finally:
+        if rests:
+            gc.enable()
+
+
+def segment(name: str) -> str:
+    """Quote a name as a segment of a path."""
+    if not isinstance(name, str):
+        raise TypeError(f"a robot or a job is given by its name, a string, not by {name!r:.80}")
+    return quote(name, safe="")
+
+
+def described_by(
+    describe: Callable[P, Call[A]], request: Callable[..., BaseModel], answer: type[A], *before: inspect.Parameter
+) -> Callable[P, Call[A]]:
+    """Give a description the docstrings of its models."""
+    sentences = f"{inspect.getdoc(request)}\n\nReturns:\n    {answer.__name__}: {inspect.getdoc(answer)}"
+    return documented(describe, request, sentences, *before)

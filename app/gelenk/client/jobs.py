@@ -1,0 +1,240 @@
+"""Jobs, which the service runs in the background, as objects with their progress and results."""
+
+import functools
+import inspect
+from collections.abc import AsyncGenerator, Callable, Coroutine, Iterator
+from contextlib import aclosing, suppress
+from types import TracebackType
+from typing import Any, Generic, ParamSpec, Protocol, Self, TypeVar, overload
+
+from gelenk.client.arrays import ArrayOperations
+from gelenk.client.call import Awaited, Blocking, Call, method_of
+from gelenk.client.exchange import reader
+from gelenk.client.operations import Operations
+from gelenk.contract.jobs import Finished, JobInfo
+from gelenk.errors import KinematicsError
+from gelenk.robot.arrays import Array
+
+P = ParamSpec("P")
+A = TypeVar("A")
+
+Progress = Callable[[JobInfo], None]
+"""Called with a job whenever it has progressed."""
+_cancel = Operations.cancel_job.describe
+_array = ArrayOperations.job_result.describe
+
+
+class Watching(Blocking, Protocol):
+    """A client that waits, and can watch a job."""
+
+    def watch(self, job: str) -> Iterator[JobInfo]:
+        """Yield a job whenever it has progressed."""
+        ...
+
+
+class AwaitedWatching(Awaited, Protocol):
+    """A client that is awaited, and can watch a job."""
+
+    def watch(self, job: str) -> AsyncGenerator[JobInfo, None]:
+        """Yield a job whenever it has progressed."""
+        ...
+
+
+class _Told:
+    """The part that both kinds of job share: the latest information from the service."""
+
+    info: JobInfo
+
+    @property
+    def id(self) -> str:
+        """Id of the job at the service."""
+        return self.info.id
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.id!r}, {self.info.kind}, {self.info.state}, {self.info.progress:.0%})"
+
+
+class Job(_Told, Generic[A]):
+    """A job of the service. Iterate over it to see its progress; `result` waits for its result.
+
+    Leaving it as a context manager cancels the job if it is unfinished, and removes its result.
+
+    Attributes:
+        info: Latest known progress.
+    """
+
+    def __init__(self, client: Watching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    def __iter__(self) -> Iterator[JobInfo]:
+        for info in self._client.watch(self.id):
+            self.info = info
+            yield info
+
+    def wait(self, progress: Progress | None = None) -> JobInfo:
+        """Wait until the job has finished, whatever the outcome, and return it."""
+        for info in self:
+            if progress is not None:
+                progress(info)
+        return self.info
+
+    def result(self, progress: Progress | None = None) -> A:
+        """Wait until the job has finished, and return its result.
+
+        Raises:
+            Refused: The job failed (raised as the core's own exception), or was cancelled.
+        """
+        self.wait(progress)
+        return self._client.send(self._result(self.id))
+
+    def array(self, progress: Progress | None = None) -> Array:
+        """Wait until the job has finished, and return its array; see `arrays` of the client for the content."""
+        self.wait(progress)
+        return self._client.send(_array(self.id))
+
+    def cancel(self, finished: Finished = "keep") -> JobInfo:
+        """Cancel the job, or with `finished="remove"` remove the result of a finished one.
+
+        Raises:
+            JobFinished: The job has finished, and `finished` is "keep".
+        """
+        self.info = self._client.send(_cancel(self.id, finished))
+        return self.info
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        with suppress(KinematicsError):  # someone else has removed it, or the service is away
+            self.cancel("remove")
+
+
+class AsyncJob(_Told, Generic[A]):
+    """A job of the service, awaited; see `Job`."""
+
+    def __init__(self, client: AwaitedWatching, info: JobInfo, result: Callable[[str], Call[A]]) -> None:
+        self._client, self.info, self._result = client, info, result
+
+    async def __aiter__(self) -> AsyncGenerator[JobInfo, None]:
+        async with aclosing(self._client.watch(self.id)) as told:
+            async for info in told:
+                self.info = info
+                yield info
+
+    async def wait(self, progress: Progress | None = None) -> JobInfo:
+        """Await the end of the job; see `Job.wait`."""
+        async with aclosing(aiter(self)) as told:
+            async for info in told:
+                if progress is not None:
+                    progress(info)
+        return self.info
+
+    async def result(self, progress: Progress | None = None) -> A:
+        """Await the result of the job; see `Job.result`."""
+        await self.wait(progress)
+        return await self._client.send(self._result(self.id))
+
+    async def array(self, progress: Progress | None = None) -> Array:
+        """Await the array of the job; see `Job.array`."""
+        await self.wait(progress)
+        return await self._client.send(_array(self.id))
+
+    async def cancel(self, finished: Finished = "keep") -> JobInfo:
+        """Cancel or remove the job; see `Job.cancel`."""
+        self.info = await self._client.send(_cancel(self.id, finished))
+        return self.info
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
+    ) -> None:
+        with suppress(KinematicsError):
+            await self.cancel("remove")
+
+
+class Begins(Protocol):
+    """Starts the jobs of a client that waits."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """Start the job of a call."""
+        ...
+
+
+class BeginsAwaited(Protocol):
+    """Starts the jobs of a client that is awaited."""
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Coroutine[object, None, AsyncJob[A]]:
+        """Start the job of a call; it is awaited."""
+        ...
+
+
+class Begun(Generic[P, A]):
+    """A method of both clients that starts a job whose result answers a call."""
+
+    def __init__(self, describe: Callable[P, Call[JobInfo]], result: Callable[[str], Call[A]]) -> None:
+        self.describe, self._result = describe, result
+        self.__doc__ = describe.__doc__
+
+    def __set_name__(self, _: type, name: str) -> None:
+        self.name = name
+
+    @overload
+    def __get__(self, jobs: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, jobs: Begins, owner: type) -> Callable[P, Job[A]]: ...
+    @overload
+    def __get__(self, jobs: BeginsAwaited, owner: type) -> Callable[P, Coroutine[object, None, AsyncJob[A]]]: ...
+
+    def __get__(self, jobs: Any, owner: type) -> Any:
+        """Return the descriptor itself for the class, or the method of a client's jobs."""
+        if jobs is None:
+            return self
+
+        return method_of(self.name, self.describe, lambda call: jobs.begin(call, self._result))
+
+
+def _later(describe: Callable[P, Call[Any]]) -> Callable[P, Call[JobInfo]]:
+    """Return the call that a job answers; not repeatable, since sending it twice would start two jobs."""
+
+    @functools.wraps(describe)
+    def described(*args: P.args, **kwargs: P.kwargs) -> Call[JobInfo]:
+        call = describe(*args, **kwargs)
+        read = reader(JobInfo)
+        return Call(
+            *(call.method, call.path, read, call.query, call.body, call.media_type), is_later=True, is_repeatable=False
+        )
+
+    described.__signature__ = inspect.signature(describe)  # type: ignore[attr-defined]
+    return described
+
+
+class JobOperations:
+    """Operations that may take long, as jobs; a job may be larger than a call that is answered at once."""
+
+    ik = Begun(_later(Operations.ik.describe), Operations.ik_result.describe)
+    trajectory = Begun(_later(Operations.trajectory.describe), Operations.trajectory_result.describe)
+    workspace = Begun(Operations.workspace.describe, Operations.workspace_result.describe)
+
+
+class Jobs(JobOperations):
+    """Jobs of a client that waits."""
+
+    def __init__(self, client: Watching) -> None:
+        self._client = client
+
+    def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> Job[A]:
+        """Start the job of a call."""
+        return Job(self._client, self._client.send(call), result)
+
+
+class AsyncJobs(JobOperations):
+    """Jobs of a client that is awaited."""
+
+    def __init__(self, client: AwaitedWatching) -> None:
+        self._client = client
+
+    async def begin(self, call: Call[JobInfo], result: Callable[[str], Call[A]]) -> AsyncJob[A]:
+        """Start the job of a call."""
+        return AsyncJob(self._client, await self._client.send(call), result)

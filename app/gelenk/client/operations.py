@@ -1,0 +1,140 @@
+"""The operations of the service, each described once for both clients.
+
+The fields of a call are those of the request in the API's reference, by name; types come from the same models.
+"""
+
+from typing import Any, Concatenate, ParamSpec, TypeVar
+
+import numpy as np
+
+from gelenk.client import kept
+from gelenk.client.call import NPY, ROBOT, Call, Sent
+from gelenk.client.exchange import described_by, posted, reader, segment
+from gelenk.client.npy import fits_query, packed, query_of
+from gelenk.contract import (
+    compare_dh,
+    convert_dh,
+    dc_motor,
+    derive,
+    dh_from_urdf,
+    dh_to_urdf,
+    dynamics,
+    encoder,
+    fk,
+    fly_over,
+    gear,
+    ik,
+    jacobian,
+    manipulability,
+    mobility,
+    orientation,
+    planar_workspace,
+    pulse_width_modulation,
+    singularities,
+    spline,
+    statics,
+    time_law,
+    time_scaling,
+    trajectory,
+    velocity,
+)
+from gelenk.contract.common import Answer
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import ENDPOINTS
+from gelenk.contract.ik import InverseAnswer
+from gelenk.contract.pose import pose_fields
+from gelenk.contract.robots import NewRobot, RobotReplacement
+from gelenk.contract.trajectory_answer import TrajectoryAnswer
+from gelenk.contract.workspace import WorkspaceAnswer, WorkspaceRequest
+
+P = ParamSpec("P")
+A = TypeVar("A", bound=Answer)
+
+
+def _operation(endpoint: RobotEndpoint[P, A]) -> Sent[Concatenate[str, P], A]:
+    """Define an operation on a robot; an array batch is sent as npy if all other fields fit into the query."""
+
+    def describe(robot: str, /, *_: P.args, **fields: P.kwargs) -> Call[A]:
+        path, batch = endpoint.path.format(robot=segment(robot)), endpoint.batch
+        array, rest = fields.get(batch), {field: value for field, value in fields.items() if field != batch}
+        if isinstance(array, np.ndarray) and not endpoint.npy_holds_more and fits_query(rest):
+            return Call("POST", path, reader(endpoint.answer), query_of(rest), packed(array), NPY)
+        if isinstance(array, np.ndarray) and batch == "targets":
+            return posted(path, {**rest, batch: pose_fields(array)}, endpoint.answer)
+        return posted(path, fields, endpoint.answer)
+
+    return Sent(described_by(describe, endpoint.request, endpoint.answer, ROBOT))
+
+
+def _calculator(endpoint: Endpoint[P, A]) -> Sent[P, A]:
+    """Define an operation whose path names no robot."""
+
+    def describe(*_: P.args, **fields: P.kwargs) -> Call[A]:
+        return posted(endpoint.path, fields, endpoint.answer)
+
+    return Sent(described_by(describe, endpoint.request, endpoint.answer))
+
+
+class Operations:
+    """The calls of the service as methods."""
+
+    robots = Sent(kept.robots)
+    robot = Sent(kept.robot)
+    urdf = Sent(kept.urdf)
+    dh_table = Sent(kept.table)
+    mesh = Sent(kept.mesh)
+    add_robot = Sent(kept.adding(NewRobot))
+    add_archive = Sent(kept.add_archive)
+    replace_robot = Sent(kept.replacing(RobotReplacement))
+    replace_archive = Sent(kept.replace_archive)
+    remove_robot = Sent(kept.remove)
+
+    fk = _operation(fk.ENDPOINT)
+    jacobian = _operation(jacobian.ENDPOINT)
+    ik = _operation(ik.ENDPOINT)
+    velocity = _operation(velocity.ENDPOINT)
+    statics = _operation(statics.ENDPOINT)
+    dynamics = _operation(dynamics.ENDPOINT)
+    manipulability = _operation(manipulability.ENDPOINT)
+    singularities = _operation(singularities.ENDPOINT)
+    trajectory = _operation(trajectory.ENDPOINT)
+
+    workspace = Sent(kept.beginning(WorkspaceRequest))
+    workspace_result = Sent(kept.result(WorkspaceAnswer))
+    ik_result = Sent(kept.result(InverseAnswer))
+    trajectory_result = Sent(kept.result(TrajectoryAnswer))
+    job = Sent(kept.job)
+    cancel_job = Sent(kept.cancel)
+    picture = Sent(kept.picture)
+
+    health = Sent(kept.health)
+    readiness = Sent(kept.readiness)
+    metrics = Sent(kept.metrics)
+
+    dh_to_urdf = _calculator(dh_to_urdf.ENDPOINT)
+    dh_from_urdf = _calculator(dh_from_urdf.ENDPOINT)
+    convert_dh = _calculator(convert_dh.ENDPOINT)
+    compare_dh = _calculator(compare_dh.ENDPOINT)
+    derive_dh = _calculator(derive.ENDPOINT)
+
+    dc_motor = _calculator(dc_motor.ENDPOINT)
+    gear = _calculator(gear.ENDPOINT)
+    pulse_width_modulation = _calculator(pulse_width_modulation.ENDPOINT)
+    encoder = _calculator(encoder.ENDPOINT)
+    planar_workspace = _calculator(planar_workspace.ENDPOINT)
+    fly_over = _calculator(fly_over.ENDPOINT)
+    mobility = _calculator(mobility.ENDPOINT)
+    orientation = _calculator(orientation.ENDPOINT)
+    time_law = _calculator(time_law.ENDPOINT)
+    spline = _calculator(spline.ENDPOINT)
+    time_scaling = _calculator(time_scaling.ENDPOINT)
+
+
+# The lines above only give methods their types: an operation without one becomes a method all the same.
+for _endpoint in ENDPOINTS:
+    if not hasattr(Operations, _endpoint.name):
+        _sent: Sent[Any, Any] = (
+            _operation(_endpoint) if isinstance(_endpoint, RobotEndpoint) else _calculator(_endpoint)
+        )
+        _sent.__set_name__(Operations, _endpoint.name)
+        setattr(Operations, _endpoint.name, _sent)

@@ -1,0 +1,190 @@
+"""A gear between motor and load: speeds, torques and inertias, seen from either side.
+
+The ratio N is ω_motor / ω_load. Losses are friction between the teeth: a fraction of the transmitted torque, always
+against the motion. So a gear of efficiency η, driven from the motor, has efficiency 2 - 1/η when the load drives; where
+that is zero or less, at η ≤ 1/2, the gear is self-locking.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from gelenk.course.steps import Step, tex, tex_factor
+
+PowerFlow: TypeAlias = Literal["motor_to_load", "load_to_motor", "none"]
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """A gear between motor and load.
+
+    Attributes:
+        ratio: N = ω_motor / ω_load > 0.
+        efficiency: η in (0, 1], when driven from the motor.
+    """
+
+    ratio: float
+    efficiency: float
+
+    @property
+    def back_driving_efficiency(self) -> float:
+        """Efficiency when the load drives, 2 - 1/η; at or below zero the load cannot turn the motor."""
+        return 2.0 - 1.0 / self.efficiency
+
+    @property
+    def is_self_locking(self) -> bool:
+        """Whether no load, however large, can turn the motor."""
+        return self.back_driving_efficiency <= 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """Speed, [rad/s], torque, [N m], and power, [W], at the motor and at the load; None if unknown.
+
+    Torques are those of the motor on the gear and of the gear on the load.
+    """
+
+    motor_velocity: float | None
+    load_velocity: float | None
+    motor_torque: float | None
+    load_torque: float | None
+    motor_power: float | None
+    load_power: float | None
+    power_flow: PowerFlow
+
+
+def sides(
+    gear: Gear,
+    motor_velocity: float | None,
+    load_velocity: float | None,
+    motor_torque: float | None,
+    load_torque: float | None,
+) -> Sides:
+    """Compute both sides from one speed and one torque, each given at the motor or at the load, or omitted.
+
+    The load torque is None where the motor brakes a self-locking gear, which holds any load.
+    """
+    if motor_velocity is None and load_velocity is not None:
+        motor_velocity = gear.ratio * load_velocity
+    elif motor_velocity is not None:
+        load_velocity = motor_velocity / gear.ratio
+    given = motor_torque if motor_torque is not None else load_torque
+    flow = _power_flow(motor_velocity, given)
+    factor = gear.ratio * gear.efficiency
+    if flow == "load_to_motor":
+        back = gear.back_driving_efficiency
+        if motor_torque is not None:
+            load_torque = None if gear.is_self_locking else gear.ratio * motor_torque / back
+        elif load_torque is not None:
+            motor_torque = back * load_torque / gear.ratio
+    elif motor_torque is not None:
+        load_torque = factor * motor_torque
+    elif load_torque is not None:
+        motor_torque = load_torque / factor
+    return Sides(
+        motor_velocity,
+        load_velocity,
+        motor_torque,
+        load_torque,
+        _product(motor_velocity, motor_torque),
+        _product(load_velocity, load_torque),
+        flow,
+    )
+
+
+def _power_flow(velocity: float | None, torque: float | None) -> PowerFlow:
+    """Return the driving side by the sign of the power: the motor at unknown or zero speed, none without torque."""
+    if not torque:
+        return "none"
+    return "load_to_motor" if velocity and (velocity < 0.0) != (torque < 0.0) else "motor_to_load"
+
+
+def _product(velocity: float | None, torque: float | None) -> float | None:
+    return None if velocity is None or torque is None else velocity * torque
+
+
+@dataclass(frozen=True, slots=True)
+class Inertias:
+    """Rotor and load as one inertia on either side, [kg m²].
+
+    Attributes:
+        at_motor: J_m + J_L / N².
+        at_load: N² J_m + J_L.
+        reflected_load: J_L / N², the load alone seen from the motor.
+        reflected_motor: N² J_m, the rotor alone seen from the load.
+        optimal_ratio: √(J_L / J_m), with which a given motor torque accelerates the load most.
+        acceleration_share: Acceleration relative to that with the optimal ratio, at equal torque without losses.
+    """
+
+    at_motor: float
+    at_load: float
+    reflected_load: float
+    reflected_motor: float
+    optimal_ratio: float
+    acceleration_share: float
+
+
+def inertias(ratio: float, motor_inertia: float, load_inertia: float) -> Inertias:
+    """Compute the inertias of rotor and load, [kg m²], across a ratio.
+
+    The load's acceleration N τ / (N² J_m + J_L) is largest at N* = √(J_L / J_m), where both contribute equally.
+    """
+    load, motor = load_inertia / ratio**2, motor_inertia * ratio**2
+    optimal = math.sqrt(load_inertia / motor_inertia)
+    share = 2.0 / (ratio / optimal + optimal / ratio)
+    return Inertias(motor_inertia + load, motor + load_inertia, load, motor, optimal, share)
+
+
+def back_driving_note(gear: Gear) -> str:
+    """Describe what happens when the load drives the gear."""
+    if gear.is_self_locking:
+        return (
+            "the gear locks itself: driven from the load its friction is more than what is transmitted, so the load "
+            "cannot turn the motor, and lowering a load takes motor torque in the direction of motion"
+        )
+    if gear.efficiency == 1.0:
+        return "without losses the load drives the motor as well as the motor the load"
+    return (
+        f"the load can drive the motor: its efficiency is then {gear.back_driving_efficiency:.4g}, if the losses "
+        "are friction in proportion to what is transmitted"
+    )
+
+
+def gear_steps(gear: Gear, found: Sides, inertia: Inertias | None) -> tuple[Step, ...]:
+    """Return the worked solution of speeds, torques and inertias."""
+    N, eta = tex(gear.ratio), tex(gear.efficiency)
+    steps = []
+    if found.motor_velocity is not None and found.load_velocity is not None:
+        formula = (
+            rf"\omega_L = \frac{{\omega_m}}{{N}} = \frac{{{tex(found.motor_velocity)}}}{{{N}}} = "
+            rf"{tex(found.load_velocity)}\,\mathrm{{rad/s}}"
+        )
+        steps.append(Step("Speeds", "The gear divides the speed by its ratio.", (formula,)))
+    if found.motor_torque is not None and found.load_torque is not None:
+        symbol, value = r"\eta", eta
+        text = "The gear multiplies the torque by its ratio, less what friction takes."
+        if found.power_flow == "load_to_motor":
+            symbol, value = r"\left(2 - \tfrac{1}{\eta}\right)^{-1}", f"({tex(gear.back_driving_efficiency)})^{{-1}}"
+            text = "The load drives: now friction helps the motor to hold it."
+        formula = (
+            rf"\tau_L = {symbol}\,N\,\tau_m = {value} \cdot {N} \cdot {tex_factor(found.motor_torque)} = "
+            rf"{tex(found.load_torque)}\,\mathrm{{N\,m}}"
+        )
+        steps.append(Step("Torques", text, (formula,)))
+    if inertia is not None:
+        steps.append(_inertia_step(inertia))
+    return tuple(steps)
+
+
+def _inertia_step(inertia: Inertias) -> Step:
+    unit = r"\,\mathrm{kg\,m^2}"
+    return Step(
+        "Inertias",
+        "Kinetic energy is the same from both sides, so an inertia crosses the gear with the ratio squared. A given "
+        "motor torque accelerates the load most where rotor and reflected load are equal.",
+        (
+            rf"J_{{\mathrm{{motor}}}} = J_m + \frac{{J_L}}{{N^2}} = {tex(inertia.at_motor)}{unit}",
+            rf"J_{{\mathrm{{load}}}} = N^2 J_m + J_L = {tex(inertia.at_load)}{unit}",
+            rf"N^* = \sqrt{{\frac{{J_L}}{{J_m}}}} = {tex(inertia.optimal_ratio)}",
+        ),
+    )

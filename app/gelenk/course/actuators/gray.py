@@ -1,0 +1,100 @@
+"""Gray code of an absolute encoder: neighbours, including the last and the first, differ in a single track.
+
+A sensor that reads between two positions then shows one of the two, never a third. Encoding is g = b ⊕ (b ≫ 1); to
+decode, each binary digit is the exclusive or of all Gray digits from the left up to it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from gelenk.course.actuators.encoders import TURN
+from gelenk.course.steps import Step
+from gelenk.errors import InvalidField, counted
+
+Code: TypeAlias = Literal["gray", "binary"]
+
+MOST_TABLE_BITS = 8
+
+
+def gray(value: int) -> int:
+    """Return the Gray code of a number ≥ 0."""
+    return value ^ (value >> 1)
+
+
+def binary(code: int) -> int:
+    """Return the number ≥ 0 that a Gray code stands for."""
+    value, shift = code, 1
+    while code >> shift:
+        value ^= code >> shift
+        shift += 1
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """A position of the encoder's disc.
+
+    Attributes:
+        value: Number of the position, from 0.
+        binary: The number in binary digits.
+        gray: The number in Gray code.
+        angle: Angle of the motor, [rad] in [0, 2π).
+    """
+
+    value: int
+    binary: str
+    gray: str
+    angle: float
+
+
+def position(value: int, bits: int) -> Position:
+    """Return the position of a number below 2^bits."""
+    return Position(value, f"{value:0{bits}b}", f"{gray(value):0{bits}b}", TURN * value / (1 << bits))
+
+
+def table(bits: int) -> tuple[Position, ...]:
+    """Return all positions of a disc with at most `MOST_TABLE_BITS` tracks."""
+    return tuple(position(value, bits) for value in range(1 << bits))
+
+
+def read_codes(codes: Sequence[str], code: Code, bits: int, field: str) -> tuple[Position, ...]:
+    """Decode readings, most significant digit first, into positions.
+
+    Raises:
+        InvalidField: A reading has characters other than 0 and 1, or not `bits` of them.
+    """
+    found = []
+    for number, text in enumerate(codes):
+        if len(text) != bits or not set(text) <= {"0", "1"}:
+            raise InvalidField(
+                f"{field}/{number}", f"a reading is {counted(bits, 'digit')}, each 0 or 1, one per track"
+            )
+        digits = int(text, 2)
+        found.append(position(binary(digits) if code == "gray" else digits, bits))
+    return tuple(found)
+
+
+def unwrapped(values: Sequence[int], bits: int) -> list[int]:
+    """Continue numbers across the end of a turn, taking each step as the shorter of the two rotations.
+
+    A step of exactly half a turn counts as backward.
+    """
+    turn, half = 1 << bits, 1 << (bits - 1)
+    result: list[int] = []
+    for value in values:
+        last = result[-1] if result else value
+        result.append(last + (value - last + half) % turn - half)
+    return result
+
+
+def code_step(example: Position) -> Step:
+    """Return the worked code of one position."""
+    return Step(
+        "Gray code",
+        "Each digit is compared with its left neighbour: equal gives 0, different gives 1.",
+        (
+            r"g = b \oplus (b \gg 1)",
+            rf"b = {example.binary}_2 = {example.value},\quad g = {example.gray}",
+        ),
+    )

@@ -1,0 +1,247 @@
+"""Mobility of a mechanism by the formula of Grübler and Kutzbach: M = λ(n - 1) - Σ c_i.
+
+λ is 3 in the plane and 6 in space, n counts the links including the ground, and the sum is over the j kinematic
+*pairs*, not the joints: a joint where k links meet is k - 1 pairs. c_i is the i-th pair's (c_j once in the notes).
+
+The formula ignores geometry. It is too low where constraints are redundant (a planar linkage counted in space,
+Bennett's, Sarrus'), which the counts cannot show, so M ≤ 0 comes with a warning. It also counts freedoms that only spin
+a bar about itself; the graph shows these, so they are named and subtracted.
+
+Every result is checked by a second count over loops: M = Σ f_i - λ L + λ (components - 1).
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from gelenk.course.mobility.mechanism import FLOATING, Mechanism, Pair, Split, check_kind
+from gelenk.course.mobility.pairs import FREEDOMS, KINDS, Order, Space
+from gelenk.course.mobility.screws import Posture
+from gelenk.errors import CertificationFailed, InvalidField, counted, listed, quoted
+
+Verdict: TypeAlias = Literal["mechanism", "structure", "overconstrained"]
+
+
+@dataclass(frozen=True, slots=True)
+class KindCount:
+    """Number of pairs of one kind, and the c of each."""
+
+    kind: str
+    order: Order | None
+    count: int
+    constraints: int
+
+
+@dataclass(frozen=True, slots=True)
+class NodeCount:
+    """A joint where a number of links meet, in a mechanism given by counts alone."""
+
+    joint: str
+    links: int
+    kind: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """The numbers in the formula.
+
+    Attributes:
+        space: Planar or spatial, which gives λ.
+        links: n, including the ground.
+        kinds: Pairs by kind.
+        splits: Joints of more than two links.
+        couplings: Number of joints that follow another one, each a constraint.
+    """
+
+    space: Space
+    links: int
+    kinds: tuple[KindCount, ...]
+    splits: tuple[Split, ...] = ()
+    couplings: int = 0
+
+    @property
+    def pairs(self) -> int:
+        """Number of pairs, j."""
+        return sum(kind.count for kind in self.kinds)
+
+    @property
+    def constraints(self) -> int:
+        """Constraints of all pairs, Σ c_i."""
+        return sum(kind.count * kind.constraints for kind in self.kinds)
+
+    @property
+    def mobility(self) -> int:
+        """M = λ(n - 1) - Σ c_i, minus the couplings."""
+        return FREEDOMS[self.space] * (self.links - 1) - self.constraints - self.couplings
+
+    @property
+    def mobility_without_split(self) -> int | None:
+        """Mobility without the pairs that were added at joints of many links; None if none was added."""
+        if not any(split.added for split in self.splits):
+            return None
+        return self.mobility + sum(split.added * split.constraints for split in self.splits)
+
+
+def tally(found: Mechanism) -> Tally:
+    """Return the numbers of a mechanism."""
+    return Tally(found.space, len(found.links), _by_kind(found.pairs), found.splits, found.couplings)
+
+
+def tally_of_counts(space: Space, links: int, counts: Mapping[str, int], nodes: Sequence[NodeCount]) -> Tally:
+    """Return the numbers of a mechanism that is given only by how many pairs of each kind it has.
+
+    Args:
+        space: Planar or spatial, which gives λ.
+        links: n, including the ground.
+        counts: Joints by the kind of their pairs; each joint counts once, however many links meet there.
+        nodes: Those of the joints where more than two links meet; each adds k - 2 pairs.
+
+    Raises:
+        InvalidField: A kind that the space does not have, or more joints of many links than joints.
+    """
+    for kind in counts:
+        check_kind(space, kind, f"pairs/{kind}")
+    totals, joints = Counter(counts), Counter[str]()
+    common = next((kind for kind, count in counts.items() if count), "revolute") if len(counts) == 1 else "revolute"
+    for i, node in enumerate(nodes):
+        kind = node.kind or common
+        check_kind(space, kind, f"coincident/{i}/type")
+        joints[kind] += 1
+        if joints[kind] > counts.get(kind, 0):
+            reason = f"`pairs` counts {counted(counts.get(kind, 0), f'{kind} joint')}, which must include this joint"
+            raise InvalidField(f"coincident/{i}", reason)
+        if node.links > links:
+            raise InvalidField(f"coincident/{i}/links", f"{node.links} links meet where there are {links}")
+        totals[kind] += node.links - 2
+    splits = tuple(_counted_split(space, node, node.kind or common) for node in nodes if node.links > 2)
+    return Tally(space, links, tuple(_count(space, kind, count) for kind, count in totals.items() if count), splits)
+
+
+def _counted_split(space: Space, node: NodeCount, kind: str) -> Split:
+    return Split(node.joint, node.links, node.links - 1, node.links - 2, KINDS[kind].constraints(space) or 0)
+
+
+def verdict(mobility: int) -> Verdict:
+    """Classify a linkage by its mobility without idle freedoms."""
+    if mobility > 0:
+        return "mechanism"
+    return "structure" if mobility == 0 else "overconstrained"
+
+
+def certify_mobility(found: Mechanism) -> int:
+    """Count M by loops: each independent loop removes λ of the pairs' freedoms.
+
+    Raises:
+        CertificationFailed: The result differs from the formula's.
+    """
+    freedoms, graph = FREEDOMS[found.space], found.topology
+    by_pairs = sum(pair.freedoms for pair in found.pairs) - found.couplings
+    by_loops = by_pairs - freedoms * graph.loops + freedoms * (len(graph.components) - 1)
+    error = abs(by_loops - tally(found).mobility)
+    if error:
+        raise CertificationFailed("mobility", float(error), 0.0)
+    return by_loops
+
+
+def warnings(counted: Tally, found: Mechanism | None, stands: Posture | None = None) -> list[str]:
+    """Return what the number alone does not show, one sentence each.
+
+    Args:
+        counted: The numbers in the formula.
+        found: The mechanism, if more than its numbers is known.
+        stands: Its mobility at the given posture, if known.
+    """
+    sentences = [_split_sentence(split) for split in counted.splits if split.added and found is not None]
+    idle = 0 if found is None else len(found.idle_spins())
+    if found is not None:
+        sentences += _graph_sentences(found)
+    elif any(kind.kind == "spherical" and kind.count > 1 for kind in counted.kinds):
+        sentences.append(
+            "Counts alone do not show whether a bar between two spherical joints spins idly about itself: give the "
+            "links of each pair to have such freedoms found."
+        )
+    if idle:
+        sentences.append(
+            f"Of the mobility {counted.mobility}, {idle} is idle: a part that two spherical joints hold spins about "
+            "the line through their centres and moves nothing else."
+        )
+    is_open = found is not None and found.topology.loops == 0
+    if stands is not None and stands.redundant:
+        sentences.append(
+            f"The formula ignores geometry: as the linkage stands, {stands.redundant} of its {counted.constraints} "
+            f"constraints {'is' if stands.redundant == 1 else 'are'} redundant, and its mobility is "
+            f"{stands.mobility}, not {counted.mobility}."
+        )
+    elif stands is None and counted.mobility - idle <= 0 and counted.pairs and not is_open:
+        sentences.append(_GEOMETRY[counted.space])
+    return sentences
+
+
+_GEOMETRY: dict[Space, str] = {
+    "planar": (
+        "The formula ignores geometry: with special dimensions, such as equal, parallel cranks, constraints are "
+        "redundant and the linkage may move nonetheless."
+    ),
+    "spatial": (
+        "The formula ignores geometry: where axes are parallel or meet in a point, or with special dimensions, "
+        "constraints are redundant and the linkage may move nonetheless, as a planar linkage counted with λ = 6, "
+        "Bennett's and Sarrus' do, each with mobility 1. A planar linkage is to be counted with λ = 3."
+    ),
+}
+
+
+def _split_sentence(split: Split) -> str:
+    return (
+        f"{split.links} links meet at joint {quoted(split.joint)}: that is {split.pairs} pairs, of which {split.added} "
+        f"{'was' if split.added == 1 else 'were'} missing and {'has' if split.added == 1 else 'have'} been added."
+    )
+
+
+def _graph_sentences(found: Mechanism) -> list[str]:
+    graph, names = found.topology, found.links
+    sentences = []
+    if len(graph.components) > 1:
+        lost = [part for part in graph.components if found.ground not in part]
+        loose = listed(tuple(names[part[0]] for part in lost))
+        which = f"a part, that with {loose}, is" if len(lost) == 1 else f"{len(lost)} parts, those with {loose}, are"
+        sentences.append(
+            f"The links are not all connected: {which} not joined to the ground, and each such part counts with the "
+            f"{FREEDOMS[found.space]} freedoms of a free body."
+        )
+    if graph.loops:
+        hanging = tuple(names[link] for link in graph.pendants)
+        if hanging:
+            sentences.append(
+                f"A single pair holds {listed(hanging)}, while other links form loops. Should such a link meet others "
+                "at a joint as well, that joint has more than two links and must be split: name it in `coincident`."
+            )
+        if rollers := _rollers(found):
+            sentences.append(f"If {listed(rollers)} is a round roller, its spin about its own pin is idle.")
+    if any(pair.kind == FLOATING for pair in found.pairs):
+        sentences.append("A floating joint removes no freedom: the links below it are unconstrained.")
+    return sentences
+
+
+def _rollers(found: Mechanism) -> tuple[str, ...]:
+    """Return links pinned to a moving link and touching another one, as a roller on a cam does."""
+    at: dict[int, list[Pair]] = {}
+    for pair in found.pairs:
+        for link in pair.links:
+            at.setdefault(link, []).append(pair)
+    rollers = []
+    for link, pairs in at.items():
+        pins = [pair for pair in pairs if pair.kind == "revolute"]
+        kinds = sorted(pair.kind for pair in pairs)
+        if kinds == ["cam", "revolute"] and link != found.ground and found.ground not in pins[0].links:
+            rollers.append(found.links[link])
+    return tuple(rollers)
+
+
+def _by_kind(pairs: Sequence[Pair]) -> tuple[KindCount, ...]:
+    counts = Counter((pair.kind, pair.order, pair.constraints) for pair in pairs)
+    return tuple(KindCount(kind, order, count, c) for (kind, order, c), count in counts.items())
+
+
+def _count(space: Space, kind: str, count: int) -> KindCount:
+    return KindCount(kind, KINDS[kind].order, count, KINDS[kind].constraints(space) or 0)

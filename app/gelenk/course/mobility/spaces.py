@@ -1,0 +1,43 @@
+"""Joint space and task space: n joints and the m numbers that a task prescribes.
+
+Solutions of the inverse problem need n ≥ m. Two notions that the notes mix are kept apart: a robot with n = m has
+finitely many solutions, its branches; only n > m is redundancy, with infinitely many solutions and an internal motion
+of n - m dimensions (more at a singular posture).
+"""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+TaskName: TypeAlias = Literal["xy", "xy_phi", "xyz", "pose"]
+Solutions: TypeAlias = Literal["none", "finite", "infinite"]
+
+DIMENSIONS: dict[TaskName, int] = {"xy": 2, "xy_phi": 3, "xyz": 3, "pose": 6}
+"""Dimension m of each task: a position in the plane, the same with its angle, a position in space, a pose."""
+
+
+@dataclass(frozen=True, slots=True)
+class TaskKind:
+    """A kind of task for a chain of n joints.
+
+    Attributes:
+        task: Name of the task.
+        dimension: m.
+        redundancy: n - m.
+        solutions: Number of solutions of a generic task, from n and m alone.
+    """
+
+    task: TaskName
+    dimension: int
+    redundancy: int
+    solutions: Solutions
+
+
+def tasks(n: int) -> tuple[TaskKind, ...]:
+    """Return every kind of task, for a chain of n joints."""
+    return tuple(TaskKind(name, m, n - m, _solutions(n - m)) for name, m in DIMENSIONS.items())
+
+
+def _solutions(redundancy: int) -> Solutions:
+    if redundancy == 0:
+        return "finite"
+    return "none" if redundancy < 0 else "infinite"

@@ -1,0 +1,138 @@
+"""Motion from rest at A past the corner B to rest at C: a trapezoid of speed with a blend in its middle."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.course.motion.fly_over import Blend
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+
+PhaseName: TypeAlias = Literal["accelerate", "coast_before", "blend", "coast_after", "decelerate"]
+
+_ROUNDING = 1e-12
+_RESOLVED = 1e-10
+"""Share of the larger speed, and of the path, that the rounding of a time may cost where phases meet."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A part of the motion at constant acceleration: its name and its duration [s]."""
+
+    name: PhaseName
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class BlendedMotion:
+    """The motion over a blended corner, from rest to rest.
+
+    Attributes:
+        blend: The parabola that replaces the corner.
+        phases: All five phases, including those of zero duration.
+        motion: Position over time; k coordinates, [m].
+        duration: [s].
+        stopping_duration: Duration of the same two legs with a stop at B, [s].
+    """
+
+    blend: Blend
+    phases: tuple[Phase, ...]
+    motion: PiecewisePolynomial
+    duration: float
+    stopping_duration: float
+
+
+def rest_to_rest(blend: Blend, acceleration: float) -> BlendedMotion:
+    """Accelerate along AB, coast, blend, coast along BC, and decelerate; at rest at A and C.
+
+    Args:
+        blend: The blend at B, with the speeds of both legs.
+        acceleration: Acceleration when leaving A and approaching C, more than 0, [m/s²]; the blend has its own.
+
+    Raises:
+        InvalidField: A leg is too short to reach its speed before the blend or to brake after it; or a ramp or the
+            blend is too short, compared with the whole motion, to resolve the times of its ends.
+    """
+    corner = blend.corner
+    ramps = corner.speed_before / acceleration, corner.speed_after / acceleration
+    coasts = _coasts(blend, acceleration)
+    durations = ramps[0], coasts[0], blend.time, coasts[1], ramps[1]
+    names: tuple[PhaseName, ...] = ("accelerate", "coast_before", "blend", "coast_after", "decelerate")
+    phases = tuple(Phase(name, duration) for name, duration in zip(names, durations, strict=True))
+    stopping = leg_duration(corner.length_before, corner.speed_before, acceleration) + leg_duration(
+        corner.length_after, corner.speed_after, acceleration
+    )
+    _refuse_unresolved(blend, acceleration, phases)
+    return BlendedMotion(blend, phases, _motion(blend, acceleration, phases), sum(durations), stopping)
+
+
+def leg_duration(length: float, speed: float, acceleration: float) -> float:
+    """Return the duration from rest to rest along a line, [s]: v/a + L/v, or 2 √(L/a) if the speed is not reached.
+
+    Infinite if the speed is 0.
+    """
+    if speed == 0.0:
+        return math.inf
+    if length <= speed * speed / acceleration:
+        return 2.0 * math.sqrt(length / acceleration)
+    return length / speed + speed / acceleration
+
+
+def _coasts(blend: Blend, acceleration: float) -> tuple[float, float]:
+    """Return how long each leg coasts at its speed between ramp and blend, [s]."""
+    corner, coasts = blend.corner, []
+    for speed, length, taken, field, leg in (
+        (corner.speed_before, corner.length_before, blend.distance_before, "speed_before", "AB"),
+        (corner.speed_after, corner.length_after, blend.distance_after, "speed_after", "BC"),
+    ):
+        if speed == 0.0:
+            raise InvalidField(field, f"must be more than 0 in a motion from A to C, which covers all of {leg}")
+        ramp = 0.5 * speed * speed / acceleration
+        left = length - taken - ramp
+        if left < -_ROUNDING * length:
+            raise InvalidField(
+                field,
+                f"{speed:g} m/s takes a ramp of {ramp:g} m at {acceleration:g} m/s², the blend takes {taken:g} m, and "
+                f"{leg} is {length:g} m long: the two overlap; lower the speed or the size of the blend, or raise the "
+                "acceleration",
+            )
+        coasts.append(max(left, 0.0) / speed)
+    return coasts[0], coasts[1]
+
+
+def _refuse_unresolved(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> None:
+    """Refuse phases whose durations differ so much that rounding of their breaks would leave gaps."""
+    corner, duration = blend.corner, sum(phase.duration for phase in phases)
+    lost = 4.0 * float(np.finfo(float).eps) * duration
+    fastest = max(corner.speed_before, corner.speed_after)
+    strongest = max(acceleration, math.hypot(*blend.acceleration))
+    way = min(corner.length_before, corner.length_after)
+    if lost * strongest > _RESOLVED * fastest or lost * fastest > _RESOLVED * way:
+        shortest = min(phase.duration for phase in phases if phase.duration > 0.0)
+        lasts = f"the shortest phase lasts {shortest:g} s in a motion of {duration:g} s"
+        raise InvalidField("rest_acceleration", f"{lasts}: double precision cannot resolve both")
+
+
+def _motion(blend: Blend, acceleration: float, phases: tuple[Phase, ...]) -> PiecewisePolynomial:
+    """Return the phases of nonzero duration, one piece each."""
+    corner = blend.corner
+    first, second = corner.speed_before * corner.direction_before, corner.speed_after * corner.direction_after
+    still = np.zeros_like(first)
+    left = corner.start + 0.5 * phases[0].duration * first
+    reached = corner.end - 0.5 * phases[4].duration * second
+    pieces: tuple[tuple[Array, Array, Array], ...] = (
+        (corner.start, still, acceleration * corner.direction_before),
+        (left, first, still),
+        (blend.entry, first, blend.acceleration),
+        (blend.exit, second, still),
+        (reached, second, -acceleration * corner.direction_after),
+    )
+    breaks, coefficients = [0.0], []
+    for phase, (position, velocity, change) in zip(phases, pieces, strict=True):
+        if breaks[-1] + phase.duration > breaks[-1]:
+            breaks.append(breaks[-1] + phase.duration)
+            coefficients.append((position, velocity, 0.5 * change))
+    return PiecewisePolynomial(np.array(breaks), np.array(coefficients))

@@ -1,0 +1,175 @@
+"""Independent check of what is claimed about a motion: its ends, its knots, its joins and its peaks.
+
+Everything is recomputed from Bézier control points, whose differences are the derivatives at the ends of a piece and
+whose repeated means (de Casteljau) are the values within. Nothing is shared with the code that evaluates, derives or
+searches motions elsewhere.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import comb, factorial
+
+import numpy as np
+
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.extremes import Peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+
+TOLERANCE = 1e-9
+_LOST = 1e-4
+"""Relative rounding that counts as none, 1e-13, over the tolerance."""
+_PARTS = 16
+
+
+@dataclass(frozen=True, slots=True)
+class MotionClaims:
+    """The claims about a motion that are checked.
+
+    Attributes:
+        times: Times of the points, including start and end; shape (K,), [s].
+        points: Positions at these times; shape (K, n), [rad or m].
+        start_rates: Velocity, acceleration, … at the start, as far as they were given; shape (m, n).
+        end_rates: The same at the end.
+        continuity: Order up to which derivatives are continuous at the joins.
+        peaks: Peaks by the order of the derivative.
+    """
+
+    times: Array
+    points: Array
+    start_rates: Array
+    end_rates: Array
+    continuity: int
+    peaks: Mapping[int, Peaks]
+
+
+@dataclass(frozen=True, slots=True)
+class ClaimErrors:
+    """Largest errors of a motion's claims, relative to the largest value of the same kind.
+
+    Attributes:
+        boundary_error: Of the derivatives at both ends.
+        knot_error: Of the positions at the knots, both ends included.
+        continuity_error: Largest jump at the joins.
+        peak_error: Largest difference of a peak from the value at its time, or excess of another value over it.
+        samples: Number of times at which the peaks were compared.
+    """
+
+    boundary_error: float
+    knot_error: float
+    continuity_error: float
+    peak_error: float
+    samples: int
+
+
+def certified(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors:
+    """Compare a motion with the claims about it, and return the errors.
+
+    Raises:
+        CertificationFailed: An error exceeds rounding.
+    """
+    if motion.duration == 0.0:
+        error = float(np.abs(motion.coefficients[0, 0] - promise.points).max(initial=0.0))
+        found = ClaimErrors(0.0, error / max(1.0, float(np.abs(promise.points).max())), 0.0, 0.0, 0)
+    else:
+        found = _compared(motion, promise)
+    for quantity, error in (
+        ("the derivatives at both ends", found.boundary_error),
+        ("the positions at the knots", found.knot_error),
+        ("the derivatives at the joins", found.continuity_error),
+        ("the peaks", found.peak_error),
+    ):
+        if not error <= TOLERANCE:
+            raise CertificationFailed(quantity, error, TOLERANCE)
+    return found
+
+
+def _compared(motion: PiecewisePolynomial, promise: MotionClaims) -> ClaimErrors:
+    starts, control, lengths = motion.coefficients[:, 0], _control_points(motion), np.diff(motion.breaks)
+    orders = max(promise.continuity, len(promise.start_rates), len(promise.end_rates), *promise.peaks, 1)
+    derived = [_derivative(control, lengths, order) for order in range(orders + 1)]
+    derived[0] = derived[0] + starts[:, None]
+    scales = [np.abs(values).max(axis=(0, 1)) + _noise(control, lengths, k) for k, values in enumerate(derived)]
+    boundary = 0.0
+    for end, rates in ((0, promise.start_rates), (-1, promise.end_rates)):
+        for order, wanted in enumerate(rates, start=1):
+            errors = derived[order][end, end] - wanted
+            boundary = max(boundary, _relative(errors, np.maximum(scales[order][end], np.abs(wanted))))
+    joins = 0.0
+    for order in range(promise.continuity + 1):
+        jumps = derived[order][1:, 0] - derived[order][:-1, -1]
+        joins = max(joins, _relative(jumps, np.maximum(scales[order][1:], scales[order][:-1])))
+    errors = _at(starts, control, motion.breaks, promise.times) - promise.points
+    size = np.maximum(scales[0].max(axis=0), np.abs(promise.points).max(axis=0))
+    peak_error = 0.0
+    for order, peak in promise.peaks.items():
+        peak_error = max(peak_error, _peak_error(derived[order], motion.breaks, peak, scales[order].max(axis=0)))
+    return ClaimErrors(boundary, _relative(errors, size), joins, peak_error, len(lengths) * (_PARTS + 1))
+
+
+def _relative(errors: Array, scale: Array) -> float:
+    scale = np.broadcast_to(scale, errors.shape)
+    # Where nothing moves the scale is 0, and the error itself has to vanish.
+    ratios = np.abs(errors) / np.where(scale > 0.0, scale, 1.0)
+    return float(ratios.max(initial=0.0))
+
+
+def _control_points(motion: PiecewisePolynomial) -> Array:
+    """Return the Bézier control points of each piece, relative to its start; shape (M, d + 1, n)."""
+    size = motion.coefficients.shape[1]
+    change = np.zeros((size, size))
+    for i in range(size):
+        for k in range(1, i + 1):
+            change[i, k] = comb(i, k) / comb(size - 1, k)
+    powers = np.diff(motion.breaks)[:, None] ** np.arange(size)
+    points: Array = np.einsum("ik,mkn->min", change, motion.coefficients * powers[:, :, None])
+    return points
+
+
+def _derivative(control: Array, lengths: Array, order: int) -> Array:
+    """Return the control points of a time derivative."""
+    degree = control.shape[1] - 1
+    if order > degree:
+        return np.zeros((len(control), 1, control.shape[2]))
+    factor = factorial(degree) / factorial(degree - order)
+    found: Array = np.diff(control, order, axis=1) * factor / (lengths**order)[:, None, None]
+    return found
+
+
+def _noise(control: Array, lengths: Array, order: int) -> Array:
+    """Bound the rounding, over the tolerance, of a derivative where large numbers cancel; shape (M, n)."""
+    degree = control.shape[1] - 1
+    factor = _LOST * (2.0**order) * factorial(degree) / factorial(max(degree - order, 0))
+    found: Array = np.abs(control).max(axis=1) * factor / (lengths**order)[:, None]
+    return found
+
+
+def _casteljau(control: Array, u: Array) -> Array:
+    """Evaluate at u in [0, 1] by repeated means; control (…, d + 1, n), u (…, 1, 1)."""
+    while control.shape[-2] > 1:
+        control = control[..., :-1, :] * (1.0 - u) + control[..., 1:, :] * u
+    found: Array = control[..., 0, :]
+    return found
+
+
+def _at(starts: Array, control: Array, breaks: Array, times: Array) -> Array:
+    i = np.clip(np.searchsorted(breaks, times, side="right") - 1, 0, len(breaks) - 2)
+    u = (times - breaks[i]) / (breaks[i + 1] - breaks[i])
+    return starts[i] + _casteljau(control[i], u[:, None, None])
+
+
+def _peak_error(control: Array, breaks: Array, peak: Peaks, scale: Array) -> float:
+    """Return how far a value on a grid exceeds a peak, or the value at the peak's time differs from it."""
+    u = np.linspace(0.0, 1.0, _PARTS + 1)[:, None, None, None]
+    largest = np.abs(_casteljau(control, u)).reshape(-1, control.shape[2]).max(axis=0)
+    beyond = np.maximum(largest - np.abs(peak.values), 0.0)
+    # At a join the value may jump: the peak may be on either side.
+    j = np.arange(len(peak.times))
+    inner = np.searchsorted(breaks, peak.times, side="left")
+    sides = []
+    for i in (inner - 1, np.searchsorted(breaks, peak.times, side="right") - 1):
+        piece = np.clip(i, 0, len(breaks) - 2)
+        u = (peak.times - breaks[piece]) / (breaks[piece + 1] - breaks[piece])
+        sides.append(np.abs(_casteljau(control[piece], u[:, None, None])[j, j] - peak.values))
+    missed = np.minimum(*sides)
+    return _relative(np.maximum(beyond, missed), scale)

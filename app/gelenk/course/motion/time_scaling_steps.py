@@ -1,0 +1,60 @@
+"""Worked solution of a uniform time scaling."""
+
+from gelenk.course.steps import Step, tex
+from gelenk.trajectory.laws.time_scaling import Bound, Quantity, Scaling
+
+_SYMBOLS: dict[Quantity, tuple[str, str, str]] = {
+    "velocity": (r"\dot q", "v", r"k_{\mathrm{vel}}"),
+    "acceleration": (r"\ddot q", "a", r"k_{\mathrm{acc}}"),
+    "jerk": (r"\dddot q", "j", r"k_{\mathrm{jerk}}"),
+}
+_ROOTS: dict[Quantity, str] = {"velocity": "{}", "acceleration": r"\sqrt{{{}}}", "jerk": r"\sqrt[3]{{{}}}"}
+
+
+def scaling_steps(scaling: Scaling, duration: float) -> tuple[Step, ...]:
+    """Return the worked steps: ratios, the course's k, and k without the 1; `duration` in [s]."""
+    roots = ", ".join(_ROOTS[bound.quantity].format(_SYMBOLS[bound.quantity][2]) for bound in scaling.bounds)
+    k = scaling.course_factor
+    steps = [
+        Step(
+            "Scaling the time",
+            "The same path in k times the time: each derivative is divided by k once more.",
+            (r"T \to k T:\quad \dot q \to \frac{\dot q}{k},\quad \ddot q \to \frac{\ddot q}{k^2}",),
+        ),
+        *(_ratio_step(bound) for bound in scaling.bounds),
+        Step(
+            "k of the course",
+            "The 1 in the maximum lets it slow down alone.",
+            (rf"k = \max\{{1, {roots}\}} = {tex(k)}", rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}"),
+        ),
+    ]
+    if scaling.factor is not None:
+        k = scaling.factor
+        steps.append(
+            Step(
+                "k without the 1",
+                'It slows down or speeds up, until a limit is just reached. (The notes say "slow down or speed up" '
+                "of the maximum with the 1, which only slows down.)",
+                (
+                    rf"k = \max\{{{roots}\}} = {tex(k)}",
+                    rf"k T = {tex(k)} \cdot {tex(duration)} = {tex(k * duration)}",
+                ),
+            )
+        )
+    return tuple(steps)
+
+
+def _ratio_step(bound: Bound) -> Step:
+    symbol, limit, name = _SYMBOLS[bound.quantity]
+    j = bound.joint + 1
+    return Step(
+        bound.quantity.capitalize(),
+        f"The largest ratio of a peak to its limit: joint {j}, at {bound.time:.10g} s.",
+        (
+            (
+                rf"{name} = \max_j \frac{{\max_t |{symbol}_j|}}{{{limit}_{{\max,j}}}} = "
+                rf"\frac{{|{symbol}_{{{j}}}|}}{{{limit}_{{\max,{j}}}}} = "
+                rf"\frac{{{tex(abs(bound.peak))}}}{{{tex(bound.limit)}}} = {tex(bound.ratio)}"
+            ),
+        ),
+    )

@@ -1,0 +1,6 @@
+"""Orientations and frames.
+
+- `rotations`: about an axis or a coordinate; how far a matrix is from one.
+- `orientation`: an orientation in every notation, both branches, and what degenerates.
+- `composition`: frames composed about moving or fixed axes, inverted, and applied to points.
+"""

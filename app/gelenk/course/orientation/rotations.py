@@ -1,0 +1,87 @@
+"""Rotations of the course, about an axis or a coordinate axis, and how far a matrix is from a rotation."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+
+AxisName: TypeAlias = Literal["x", "y", "z"]
+DEGENERATE = 1e-14
+"""Sine or cosine below which a notation counts as degenerate, at an error of that size; rounding is some 1e-16."""
+
+
+@dataclass(frozen=True, slots=True)
+class Validation:
+    """Deviation of a matrix from a rotation.
+
+    Attributes:
+        orthogonality_error: ‖RᵀR - I‖, Frobenius.
+        determinant: +1 for a rotation, -1 for a reflection.
+        distance: ‖R - nearest rotation‖, Frobenius.
+        is_reflection: Whether the determinant is negative.
+        is_unique: Whether one rotation is nearer than all others.
+        nearest: The nearest rotation; shape (3, 3).
+    """
+
+    orthogonality_error: float
+    determinant: float
+    distance: float
+    is_reflection: bool
+    is_unique: bool
+    nearest: Array
+
+
+def unit_axis(direction: Sequence[float], field: str) -> Array:
+    """Return the unit vector (3,) along a direction of any length.
+
+    Raises:
+        InvalidField: The direction is zero.
+    """
+    given = np.array(direction)
+    largest = float(np.abs(given).max())
+    if largest == 0.0:
+        raise InvalidField(field, "an axis has a direction: not all of its numbers are 0")
+    scaled = given / largest
+    unit: Array = scaled / np.linalg.norm(scaled)
+    return unit
+
+
+def elementary(axis: AxisName, angle: float) -> Array:
+    """Return Rx, Ry or Rz of an angle [rad], counter-clockwise; shape (3, 3). Only Ry has its minus sign below."""
+    c, s = math.cos(angle), math.sin(angle)
+    if axis == "x":
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    if axis == "y":
+        return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def about_axis(axis: Array, angle: float) -> Array:
+    """Return Rodrigues' R = I + sin θ [r]× + (1 - cos θ) [r]×² about a unit axis r (3,), θ in [rad]; shape (3, 3)."""
+    x, y, z = axis.tolist()
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    # 1 - cos θ loses digits near 0, 2 sin²(θ/2) does not.
+    R: Array = np.eye(3) + math.sin(angle) * K + 2.0 * math.sin(0.5 * angle) ** 2 * K @ K
+    return R
+
+
+def validated(matrix: Array) -> Validation:
+    """Measure how far a matrix (3, 3) is from the nearest rotation, U diag(1, 1, det UVᵀ) Vᵀ [Umeyama1991]."""
+    U, sigma, Vt = np.linalg.svd(matrix)
+    sign = round(float(np.linalg.det(U @ Vt)))
+    R = U @ np.diag([1.0, 1.0, float(sign)]) @ Vt
+    # Turning about the axis of the largest σ costs least, in proportion to σ₂ ± σ₃.
+    gap = sigma[1] + sign * sigma[2]
+    return Validation(
+        float(np.linalg.norm(matrix.T @ matrix - np.eye(3))),
+        float(np.prod(sigma)) * sign,
+        math.hypot(*(matrix - R).ravel().tolist()),
+        bool(sign < 0 and sigma[2] > 0.0),
+        bool(gap > DEGENERATE * max(1.0, sigma[0])),
+        np.ascontiguousarray(R),
+    )

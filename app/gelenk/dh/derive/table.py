@@ -1,0 +1,278 @@
+"""A DH table in exact terms: angles that are multiples of π/2 as such, everything else as a symbol with a value."""
+
+import math
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal, TypeAlias
+
+from gelenk.dh.derive.algebra import (
+    CONSTANT,
+    LENGTH,
+    ONE,
+    ROOT,
+    VARIABLE,
+    ZERO,
+    Angle,
+    Atom,
+    Matrix,
+    Polynomial,
+    Vector,
+    number,
+    symbol,
+)
+
+Numbers4: TypeAlias = tuple[tuple[float, ...], ...]
+
+ANGLE_TOLERANCE = 1e-5
+"""An angle this near to a multiple of π/2, π/4 or π/6 is read as that, [rad]: tables write 1.5708."""
+LENGTH_TOLERANCE = 1e-9
+"""A length this near to zero is read as zero, [m]."""
+ROTATION_TOLERANCE = 1e-9
+"""An entry of a base's or tool's rotation this near to 0, ±1/2, ±√2/2, ±√3/2 or ±1 is read as that."""
+
+_HALF = number(Fraction(1, 2))
+_ROOT_2 = symbol(Atom(ROOT, (2,), "sqrt")) * _HALF
+_ROOT_3 = symbol(Atom(ROOT, (3,), "sqrt")) * _HALF
+_EXACT: tuple[tuple[float, Polynomial], ...] = (
+    (0.0, ZERO),
+    (0.5, _HALF),
+    (math.sqrt(2) / 2, _ROOT_2),
+    (math.sqrt(3) / 2, _ROOT_3),
+    (1.0, ONE),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class RowNumbers:
+    """A row of the table as given; lengths [m], angles [rad]."""
+
+    is_revolute: bool
+    a: float
+    alpha: float
+    d: float
+    theta: float
+
+
+@dataclass(frozen=True, slots=True)
+class TableNumbers:
+    """A table as given, fit to be sent to another process and to be a key."""
+
+    convention: Literal["standard", "modified"]
+    rows: tuple[RowNumbers, ...]
+    base: Numbers4
+    tool: Numbers4
+
+
+@dataclass(frozen=True, slots=True)
+class Twist:
+    """A constant turn about x: its cosine and sine, and `quarters` if it is a multiple of π/2."""
+
+    quarters: int | None
+    cosine: Polynomial
+    sine: Polynomial
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row in exact terms; for a prismatic joint `d` contains the variable.
+
+    Attributes:
+        index: Number of the row, from 1.
+        is_revolute: Whether the joint turns.
+        a: Length along x.
+        d: Length along z.
+        twist: Turn about x.
+        angle: ϑ_i; empty if a prismatic joint's angle is a multiple of π/2.
+        quarters: Multiples of π/2 to add to it.
+        offset: Constant part of ϑ_i besides the variable, [rad].
+    """
+
+    index: int
+    is_revolute: bool
+    a: Polynomial
+    d: Polynomial
+    twist: Twist
+    angle: Angle
+    quarters: int
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class ExactPose:
+    """A constant pose in exact terms."""
+
+    rotation: Matrix
+    position: Vector
+    is_identity: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """The table in exact terms.
+
+    Attributes:
+        is_standard: Whether the convention is standard, else modified.
+        rows: The rows.
+        base: T_base_0.
+        tool: T_n_tool.
+        values: Value of each symbol, [m], or the cosine or sine of an angle.
+        groups: The group of parallel axes of each row's angle, by index.
+        remarks: Notes on numbers that were read as something else.
+        as_read: The numbers that the exact terms stand for.
+    """
+
+    is_standard: bool
+    rows: tuple[Row, ...]
+    base: ExactPose
+    tool: ExactPose
+    values: dict[Atom, float]
+    groups: dict[int, int]
+    remarks: tuple[str, ...]
+    as_read: TableNumbers
+
+    def group(self, index: int) -> int:
+        """Return the group of parallel axes that a joint angle belongs to."""
+        return self.groups[index]
+
+    def axis_frame(self, index: int) -> int:
+        """Return the frame whose z is the axis of joint `index` (from 1)."""
+        return index - 1 if self.is_standard else index
+
+    def atom_values(self, q: tuple[float, ...], atoms: set[Atom]) -> dict[Atom, float]:
+        """Return the values of atoms at a configuration, [rad or m]."""
+        angles = {row.index: q[row.index - 1] * row.is_revolute + row.offset for row in self.rows}
+        result = dict(self.values)
+        for atom in atoms - result.keys():
+            if atom.kind == VARIABLE:
+                result[atom] = q[atom.indices[0] - 1]
+            elif atom.kind == ROOT:
+                result[atom] = math.sqrt(atom.indices[0])
+            else:
+                angle = sum(angles[abs(index)] * (1 if index > 0 else -1) for index in atom.indices)
+                result[atom] = math.cos(angle) if atom.name == "c" else math.sin(angle)
+        return result
+
+
+@dataclass(slots=True)
+class _TableReader:
+    """Collects symbols and remarks while a table is read."""
+
+    values: dict[Atom, float] = field(default_factory=dict)
+    remarks: list[str] = field(default_factory=list)
+
+    def length(self, name: str, index: int, value: float, row: int) -> tuple[Polynomial, float]:
+        if abs(value) <= LENGTH_TOLERANCE:
+            if value:
+                self.remarks.append(f"row {row}: {name} = {value:.3g} m is read as 0")
+            return ZERO, 0.0
+        atom = Atom(LENGTH, (index,), name)
+        self.values[atom] = value
+        return symbol(atom), value
+
+    def twist(self, index: int, value: float, row: int) -> tuple[Twist, float]:
+        for divisor in (2, 4, 6):
+            steps = round(value / (math.pi / divisor))
+            exact = steps * math.pi / divisor
+            if abs(value - exact) <= ANGLE_TOLERANCE:
+                self._say_angle("alpha", value, exact, row)
+                cosine, sine = exact_number(math.cos(exact)), exact_number(math.sin(exact))
+                assert cosine is not None  # noqa: S101 - multiples of π/2, π/4, π/6 are all in the list
+                assert sine is not None  # noqa: S101
+                return Twist(steps % 4 if divisor == 2 else None, cosine, sine), exact
+        cosine_atom, sine_atom = Atom(CONSTANT, (index,), "ca"), Atom(CONSTANT, (index,), "sa")
+        self.values[cosine_atom], self.values[sine_atom] = math.cos(value), math.sin(value)
+        return Twist(None, symbol(cosine_atom), symbol(sine_atom)), value
+
+    def angle(self, is_revolute: bool, index: int, value: float) -> tuple[Angle, int, float, float]:
+        """Return ϑ_i, its multiples of π/2, its constant part, and the number that θ_i was read as."""
+        steps = round(value / (math.pi / 2))
+        exact = steps * math.pi / 2
+        if abs(value - exact) > ANGLE_TOLERANCE:
+            return (index,), 0, value, value
+        self._say_angle("theta", value, exact, index)
+        return ((index,) if is_revolute else ()), steps % 4, 0.0, exact
+
+    def pose(self, name: str, place: Numbers4) -> tuple[ExactPose, Numbers4]:
+        entries = [[exact_number(place[i][j]) for j in range(3)] for i in range(3)]
+        rows, numbers = [], []
+        for i in range(3):
+            row = [entries[i][j] or self._entry(name, i, j, place[i][j], entries[i][j]) for j in range(3)]
+            rows.append((row[0], row[1], row[2]))
+            read = (_read_as(exact, x) for exact, x in zip(entries[i], place[i], strict=False))
+            numbers.append((*read, place[i][3] if abs(place[i][3]) > LENGTH_TOLERANCE else 0.0))
+        position = [self._coordinate(name, i, place[i][3]) for i in range(3)]
+        rotation = (rows[0], rows[1], rows[2])
+        identity = rotation == IDENTITY and not any(position)
+        return ExactPose(rotation, (position[0], position[1], position[2]), identity), (*numbers, (0.0, 0.0, 0.0, 1.0))
+
+    def _entry(self, name: str, i: int, j: int, value: float, exact: Polynomial | None) -> Polynomial:
+        if exact is not None:
+            return exact
+        atom = Atom(CONSTANT, (i + 1, j + 1), f"r{name}")
+        self.values[atom] = value
+        return symbol(atom)
+
+    def _coordinate(self, name: str, i: int, value: float) -> Polynomial:
+        if abs(value) <= LENGTH_TOLERANCE:
+            return ZERO
+        atom = Atom(LENGTH, (i + 1,), f"p{name}")
+        self.values[atom] = value
+        return symbol(atom)
+
+    def _say_angle(self, name: str, value: float, exact: float, row: int) -> None:
+        if abs(value - exact) > 1e-12:
+            self.remarks.append(
+                f"row {row}: {name} = {value!r} rad is read as {exact!r}, {abs(value - exact):.2g} rad away"
+            )
+
+
+IDENTITY: Matrix = ((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE))
+
+
+def exact_number(value: float) -> Polynomial | None:
+    """Return 0, ±1/2, ±√2/2, ±√3/2 or ±1 if the value is one of them up to rounding, else None."""
+    for magnitude, polynomial in _EXACT:
+        if abs(abs(value) - magnitude) <= ROTATION_TOLERANCE:
+            return polynomial if value >= 0 else -polynomial
+    return None
+
+
+def _read_as(exact: Polynomial | None, value: float) -> float:
+    """Return the number that an entry of a rotation was read as."""
+    return value if exact is None else exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
+
+
+def read_table(numbers: TableNumbers) -> Table:
+    """Return the table in exact terms.
+
+    Lengths that are zero vanish; equal lengths in different rows stay different symbols. In a modified table a and α
+    carry the index of the link before the joint, as Craig writes them.
+    """
+    reader, standard = _TableReader(), numbers.convention == "standard"
+    rows, read = [], []
+    for index, row in enumerate(numbers.rows, start=1):
+        link = index if standard else index - 1
+        a, a_read = reader.length("a", link, row.a, index)
+        d, d_read = reader.length("d", index, row.d, index)
+        twist, alpha_read = reader.twist(link, row.alpha, index)
+        angle, quarters, offset, theta_read = reader.angle(row.is_revolute, index, row.theta)
+        if not row.is_revolute:
+            d = d + symbol(Atom(VARIABLE, (index,), "q"))
+        rows.append(Row(index, row.is_revolute, a, d, twist, angle, quarters, offset))
+        read.append(RowNumbers(row.is_revolute, a_read, alpha_read, d_read, theta_read))
+    base, base_read = reader.pose("b", numbers.base)
+    tool, tool_read = reader.pose("t", numbers.tool)
+    as_read = TableNumbers(numbers.convention, tuple(read), base_read, tool_read)
+    groups = _groups(rows, standard)
+    return Table(standard, tuple(rows), base, tool, reader.values, groups, tuple(reader.remarks), as_read)
+
+
+def _groups(rows: list[Row], standard: bool) -> dict[int, int]:
+    """Return the group of each row; a row whose axis is parallel to the one before shares its group."""
+    groups, group = {}, 0
+    for before, row in zip([None, *rows], rows, strict=False):
+        twist = before.twist if standard and before else None if standard else row.twist
+        if before is not None and (twist is None or twist.quarters not in {0, 2}):
+            group += 1
+        groups[row.index] = group
+    return groups

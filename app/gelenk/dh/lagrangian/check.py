@@ -1,0 +1,220 @@
+"""Comparison of equations of motion with Pinocchio, whose model is built from the table alone, each link a body.
+
+Pinocchio's recursive algorithms use neither T nor Christoffel symbols. The symbols follow from its torques at chosen
+velocities: with h(v) the torque that velocity v costs, 2 c_ijk = h_i(e_j + e_k) - h_i(e_j) - h_i(e_k).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from gelenk.dh.derive.check import TOLERANCE
+from gelenk.dh.lagrangian.bodies import LinkBody
+from gelenk.dh.lagrangian.numeric import NumericMotion, centers_in_frames
+from gelenk.dh.lagrangian.texts import MotionSample, MotionValues
+from gelenk.errors import CertificationFailed
+from gelenk.robot.arrays import Array
+from gelenk.robot.dh import DhTable
+
+
+@dataclass(frozen=True, slots=True)
+class EquationCertificate:
+    """Differences of equations of motion from Pinocchio's.
+
+    Attributes:
+        samples: Number of states at which they were compared.
+        seed: Random seed of the samples; None if the states were given.
+        mass_matrix: Largest difference of an entry of M, [kg], [kg m] or [kg m²].
+        coriolis: Largest difference of a Christoffel symbol, and so of C per unit of velocity, in the same units.
+        gravity: Largest difference of an entry of g, [N m or N].
+    """
+
+    samples: int
+    seed: int | None
+    mass_matrix: float
+    coriolis: float
+    gravity: float
+
+
+class Judge:
+    """Pinocchio's model of the arm with its bodies.
+
+    Args:
+        table: Standard or modified table.
+        bodies: One per row; a quantity that was left out counts as zero.
+        gravity: Free fall in the base; shape (3,), [m/s²].
+    """
+
+    def __init__(self, table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> None:
+        self.model, self._scales = pin.Model(), _scales(table, bodies, gravity)
+        self._levers: list[Array] = []  # Pinocchio stores none for a body without mass
+        standard, joint, placement = table.convention == "standard", 0, table.base
+        for row, body, center in zip(table.joints, bodies, centers_in_frames(table, bodies), strict=True):
+            A = row.transform(0.0, table.convention)
+            kind = pin.JointModelRZ() if row.type == "revolute" else pin.JointModelPZ()
+            before, behind = (placement, A) if standard else (placement @ A, np.eye(4))
+            joint = self.model.addJoint(joint, kind, pin.SE3(before), row.name)
+            lever = behind[:3, :3] @ center + behind[:3, 3]
+            self._levers.append(lever)
+            inertia = pin.Inertia(body.mass or 0.0, lever, (body.inertia or 0.0) * np.eye(3))
+            self.model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
+            placement = behind
+        self.model.gravity = pin.Motion(gravity, np.zeros(3))
+        self.data = self.model.createData()
+
+    def mass_matrix(self, q: Array) -> Array:
+        """Return M; shape (n, n)."""
+        upper = np.triu(pin.crba(self.model, self.data, q))
+        M: Array = upper + np.triu(upper, 1).T
+        return M
+
+    def gravity_vector(self, q: Array) -> Array:
+        """Return g; shape (n,)."""
+        return np.array(pin.computeGeneralizedGravity(self.model, self.data, q)).reshape(-1)
+
+    def christoffel(self, q: Array) -> Array:
+        """Return the Christoffel symbols c[i, j, k]; shape (n, n, n)."""
+        n = self.model.nv
+        unit, g = np.eye(n), self.gravity_vector(q)
+        alone = [self._costs(q, unit[j], g) for j in range(n)]
+        c = np.zeros((n, n, n))
+        for j in range(n):
+            for k in range(j, n):
+                both = self._costs(q, unit[j] + unit[k], g) if j != k else 4.0 * alone[j]
+                c[:, j, k] = c[:, k, j] = (both - alone[j] - alone[k]) / 2.0
+        return c
+
+    def _costs(self, q: Array, v: Array, g: Array) -> Array:
+        bias = np.array(pin.nonLinearEffects(self.model, self.data, q, v)).reshape(-1)
+        costs: Array = bias - g
+        return costs
+
+    def torques(self, q: Array, v: Array, a: Array) -> Array:
+        """Compute joint torques by inverse dynamics; shape (n,)."""
+        return np.array(pin.rnea(self.model, self.data, q, v, a)).reshape(-1)
+
+    def bodies(self, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
+        """Return centres of mass in the base, their velocities, kinetic and potential energies, one row per body."""
+        pin.forwardKinematics(self.model, self.data, q, v)
+        found = []
+        for joint, lever in enumerate(self._levers, start=1):
+            T, inertia, twist = self.data.oMi[joint], self.model.inertias[joint], self.data.v[joint]
+            center = T.act(lever)
+            velocity = T.rotation @ (twist.linear + np.cross(twist.angular, lever))
+            height = -inertia.mass * float(self.model.gravity.linear @ center)
+            found.append((center, velocity, 0.5 * inertia.vtiv(twist), height))
+        centers, velocities, kinetic, potential = (np.array(column) for column in zip(*found, strict=True))
+        return centers, velocities, kinetic, potential
+
+    def compare(self, name: str, ours: object, judged: Array, scale: float = 1.0) -> float:
+        """Return the largest difference from Pinocchio's value.
+
+        Raises:
+            CertificationFailed: It is more than rounding of numbers of that scale.
+        """
+        error = float(np.abs(np.asarray(ours, dtype=float) - judged).max())
+        tolerance = TOLERANCE * max(1.0, scale, float(np.abs(judged).max()))
+        if not error <= tolerance:
+            raise CertificationFailed(name, error, tolerance)
+        return error
+
+    def errors(self, q: Array, M: object, c: object, g: object) -> tuple[float, float, float]:
+        """Return the largest differences of M, the Christoffel symbols and g from Pinocchio's.
+
+        Raises:
+            CertificationFailed: One is more than rounding.
+        """
+        inertia, weight = self._scales.at(q)
+        return (
+            self.compare("the mass matrix", M, self.mass_matrix(q), inertia),
+            self.compare("a Christoffel symbol", c, self.christoffel(q), inertia),
+            self.compare("the gravity vector", g, self.gravity_vector(q), weight),
+        )
+
+    def energies_error(self, sample: MotionSample, value: MotionValues) -> None:
+        """Compare the quantities that M, C and g are derived from, and those that follow from them.
+
+        Raises:
+            CertificationFailed: One differs by more than rounding.
+        """
+        q, v, a = np.array(sample.q), np.array(sample.v), np.array(sample.a)
+        inertia, weight = self._scales.at(q)
+        centers, velocities, kinetic, potential = self.bodies(q, v)
+        self.compare("a centre of mass", value.centers, centers, self._scales.reach)
+        self.compare("the velocity of a centre of mass", value.velocities, velocities, self._scales.reach)
+        self.compare("a kinetic energy", value.kinetic, kinetic, inertia)
+        self.compare("a potential energy", value.potential, potential, weight)
+        M, C = self.mass_matrix(q), self.christoffel(q) @ v
+        rate = C + C.T  # Ṁ, as the Christoffel symbols give it
+        self.compare("the Coriolis matrix", value.coriolis, C, inertia)
+        self.compare("the Coriolis vector", value.coriolis_vector, C @ v, inertia)
+        self.compare("Ṁ - 2C", value.skew, rate - 2.0 * C, inertia)
+        self.compare("the torques", value.torques, self.torques(q, v, a), inertia + weight + float(np.abs(M).max()))
+
+
+@dataclass(frozen=True, slots=True)
+class _Scales:
+    """Sizes of the terms that add up: rounding grows with them, even if they cancel."""
+
+    reach: float
+    mass: float
+    inertia: float
+    gravity: float
+    slides: tuple[bool, ...]
+
+    def at(self, q: Array) -> tuple[float, float]:
+        """Return the largest sum of inertias, [kg m²], and of weights, [N m], at a configuration."""
+        reach = max(1.0, self.reach + float(np.abs(q[list(self.slides)]).sum()))
+        return self.mass * reach**2 + self.inertia, self.mass * self.gravity * reach
+
+
+def _scales(table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> _Scales:
+    lengths = sum(abs(row.a) + abs(row.d) for row in table.joints) + float(np.abs(table.base[:3, 3]).sum())
+    centers = sum(float(np.abs(center).sum()) for center in centers_in_frames(table, bodies))
+    return _Scales(
+        lengths + centers,
+        sum(body.mass or 0.0 for body in bodies),
+        sum(body.inertia or 0.0 for body in bodies),
+        float(np.linalg.norm(gravity)),
+        tuple(row.type == "prismatic" for row in table.joints),
+    )
+
+
+def certify_formulas(
+    table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[MotionValues], seed: int
+) -> EquationCertificate:
+    """Compare every formula with Pinocchio at the samples.
+
+    Args:
+        table: Table as the formulas read it; the base is left out, since they are written in frame 0.
+        gravity: Free fall in frame 0; shape (3,), [m/s²].
+        samples: States, with a number for every symbol.
+        values: Values of the formulas there.
+        seed: Random seed of the samples.
+
+    Raises:
+        CertificationFailed: One differs by more than rounding.
+    """
+    worst = np.zeros(3)
+    for sample, value in zip(samples, values, strict=True):
+        judge = Judge(table, sample.bodies, gravity)
+        found = judge.errors(np.array(sample.q), value.mass_matrix, value.christoffel, value.gravity_vector)
+        judge.energies_error(sample, value)
+        worst = np.maximum(worst, found)
+    return EquationCertificate(len(samples), seed, *worst.tolist())
+
+
+def certify_numbers(
+    table: DhTable, bodies: Sequence[LinkBody], gravity: Array, found: Sequence[NumericMotion]
+) -> EquationCertificate:
+    """Compare M, C and g at given configurations with Pinocchio's.
+
+    Raises:
+        CertificationFailed: One differs by more than rounding.
+    """
+    judge, worst = Judge(table, bodies, gravity), np.zeros(3)
+    for one in found:
+        worst = np.maximum(worst, judge.errors(one.q, one.mass_matrix, one.christoffel, one.gravity_vector))
+    return EquationCertificate(len(found), None, *worst.tolist())

@@ -1,0 +1,159 @@
+"""The equations of motion of a table: formulas, and numbers at given configurations, each compared with Pinocchio."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gelenk.dh.derive.check import Checks
+from gelenk.dh.derive.steps import DerivationStep
+from gelenk.dh.derive.table import exact_number
+from gelenk.dh.derive.texts import SymbolicRequest
+from gelenk.dh.lagrangian.bodies import Gravity, LinkBody, MassProperties
+from gelenk.dh.lagrangian.check import EquationCertificate, certify_formulas, certify_numbers
+from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
+from gelenk.dh.lagrangian.steps import motion_steps
+from gelenk.dh.lagrangian.texts import MotionQuestion, MotionSample, MotionTexts
+from gelenk.errors import CertificationFailed, InvalidField, counted
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.configuration import configurations
+from gelenk.robot.dh import DhTable
+
+LINKS, VELOCITIES = "dynamics/links", "dynamics/joint_velocities"
+"""Names of these fields of a request in errors."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSolution:
+    """The equations of motion.
+
+    Attributes:
+        texts: The equations in symbols.
+        numeric: M, C and g at each given configuration; empty if a number is missing.
+        steps: The derivation in words.
+        notes: What is left out, and why.
+        certificate: Certificate of the formulas.
+        numeric_certificate: Certificate of the numbers; None without numbers.
+    """
+
+    texts: MotionTexts
+    numeric: list[NumericMotion]
+    steps: list[DerivationStep]
+    notes: list[str]
+    certificate: EquationCertificate
+    numeric_certificate: EquationCertificate | None
+
+
+def checked_dynamics(
+    table: DhTable, chain: Chain, dynamics: MassProperties, count: int
+) -> tuple[MassProperties, Array | None]:
+    """Return the dynamics with a body per row, and velocities in the chain's order; shape (count, n), [rad/s or m/s].
+
+    Raises:
+        InvalidField: There is not one link per row, or not one entry of velocities per configuration.
+        WrongJointCount, MissingJoint, UnknownJoint: An entry of the velocities does not fit the table.
+    """
+    n, given = len(table.joints), len(dynamics.bodies)
+    if given not in {0, n}:
+        raise InvalidField(
+            LINKS,
+            f"has {counted(given, 'entry')} where the table has {counted(n, 'joint')}: one link per joint, or none",
+        )
+    velocities = None
+    if dynamics.velocities is not None:
+        velocities = configurations(chain, dynamics.velocities, VELOCITIES)
+        if len(velocities) != count:
+            reason = f"has {counted(len(velocities), 'entry')} where joint_positions has {count}: one per configuration"
+            raise InvalidField(VELOCITIES, reason)
+    return replace(dynamics, bodies=dynamics.bodies or (LinkBody(),) * n), velocities
+
+
+def motion_question(question: SymbolicRequest, table: DhTable, dynamics: MassProperties, seed: int) -> MotionQuestion:
+    """Return the input of the symbolic part: gravity in frame 0, and samples with a number for every symbol."""
+    direction = tuple(_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
+    gravity = Gravity(dynamics.gravity.size, (direction[0], direction[1], direction[2]))
+    random = np.random.default_rng(seed)
+    samples = []
+    for q in question.samples:
+        v, a = random.uniform(-2.0, 2.0, (2, len(q))).tolist()
+        numbers = random.uniform(0.1, 1.0, (len(q), 3)).tolist()
+        bodies = tuple(_filled(body, *row) for body, row in zip(dynamics.bodies, numbers, strict=True))
+        samples.append(MotionSample(q, tuple(v), tuple(a), bodies))
+    return MotionQuestion(
+        question.table, question.style, question.keeps_symbols, dynamics.bodies, gravity, tuple(samples)
+    )
+
+
+def _snapped(component: float) -> float:
+    """Return a component of a unit vector as the formulas read it."""
+    exact = exact_number(component)
+    if exact is None:
+        return component
+    return exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
+
+
+def _filled(body: LinkBody, mass: float, center: float, inertia: float) -> LinkBody:
+    return LinkBody(
+        mass if body.mass is None else body.mass,
+        center if body.center is None else body.center,
+        inertia if body.inertia is None else body.inertia,
+    )
+
+
+def motion_solution(
+    texts: MotionTexts,
+    question: MotionQuestion,
+    table: DhTable,
+    as_read: DhTable,
+    dynamics: MassProperties,
+    velocities: Array | None,
+    qs: Array,
+    seed: int,
+    checks: Checks,
+) -> MotionSolution | None:
+    """Certify formulas and numbers; return None if a formula differs from Pinocchio.
+
+    Everything after a wrong formula follows from it, so that all formulas are left out then.
+
+    Args:
+        texts: The formulas.
+        question: Input of the symbolic part.
+        table: Table as given.
+        as_read: Table as the formulas read it.
+        dynamics: Dynamics with one body per row.
+        velocities: Joint velocities at the configurations, shape (N, n), [rad/s or m/s]; or None.
+        qs: Configurations at which the numbers are wanted; shape (N, n), [rad or m].
+        seed: Random seed of the samples.
+        checks: Collects a formula that fails.
+
+    Raises:
+        CertificationFailed: Numbers at given configurations differ from Pinocchio's.
+    """
+    in_frame_0 = replace(as_read, base=np.eye(4))
+    fall = np.array(question.gravity.vector)
+    try:
+        certificate = certify_formulas(in_frame_0, fall, question.samples, texts.values, seed)
+    except CertificationFailed as failure:
+        quantity = f"{failure.quantity} of the equations of motion in symbols"
+        checks.left_out(replace(failure, quantity=quantity), "the equations of motion are left out")
+        return None
+    notes, numeric = _notes(texts, question, len(qs)), list[NumericMotion]()
+    gravity = np.array(dynamics.gravity.vector)
+    if not texts.missing:
+        rows = [None] * len(qs) if velocities is None else velocities
+        numeric = [numeric_motion(table, dynamics.bodies, gravity, q, v) for q, v in zip(qs, rows, strict=True)]
+    judged = certify_numbers(table, dynamics.bodies, gravity, numeric) if numeric else None
+    return MotionSolution(texts, numeric, motion_steps(texts), notes, certificate, judged)
+
+
+def _notes(texts: MotionTexts, question: MotionQuestion, count: int) -> list[str]:
+    notes = []
+    if question.gravity.size and all(row == ["0"] for row in texts.gravity_vector.plain):
+        notes.append(
+            "gravity does no work in the plane of motion, so that g(q) = 0; for an arm in a vertical plane turn the "
+            "base, or give another direction of gravity"
+        )
+    if count and texts.missing:
+        notes.append(f"M, C and g in numbers need values of {', '.join(texts.missing)}: give them in `dynamics`")
+    return notes

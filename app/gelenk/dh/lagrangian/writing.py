@@ -1,0 +1,258 @@
+"""Writes equations of motion as textbooks print them: m_1 l_{c1}² + m_2 (a_1² + l_{c2}² + 2 a_1 l_{c2} c_2) + I_1.
+
+A product is written in the order number, masses, gravity, brackets of these and of lengths, sines and cosines, rates:
+each factor where its first kind of atom belongs. A sum is grouped by masses, by sines and cosines, or by rates, in the
+orders that its manner allows; the shortest grouping is taken, and nested brackets count extra. Brackets come from what
+all terms share, from factors without a common kind of atom, from squares of sums and from sums of rates; each is
+exact, nothing is dropped.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import TypeAlias
+
+from gelenk.dh.derive.algebra import (
+    LENGTH,
+    MASS,
+    ONE,
+    RATE,
+    TRIGONOMETRIC,
+    Atom,
+    Monomial,
+    Polynomial,
+    monomial_product,
+    total,
+)
+from gelenk.dh.derive.factors import separated
+from gelenk.dh.derive.typeset import MatrixText, Notation, Text, monomial_quotient, shared_number
+from gelenk.dh.lagrangian.squares import is_rate, place_of, rate_factors, square_within
+
+Key: TypeAlias = Callable[[Atom], bool]
+Factor: TypeAlias = tuple[Polynomial, int]
+"""A bracket and its power."""
+
+_LARGEST_RATIO = 4
+"""A decimal number is taken out of a bracket of rates only if whole numbers up to this are left in it."""
+_NESTING = 12
+"""Number of characters that a nested bracket counts."""
+
+
+def _is_mass(atom: Atom) -> bool:
+    return atom.kind == MASS
+
+
+def _is_wave(atom: Atom) -> bool:
+    return atom.kind == TRIGONOMETRIC
+
+
+def _is_static(atom: Atom) -> bool:
+    return atom.kind not in {MASS, RATE}
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a kind of formula is written.
+
+    Attributes:
+        groupings: Ways to group a sum, each by kinds of atoms in turn.
+        distributes: Whether a factor that several groups share is written in each, or before a bracket; or both tried.
+        keeps_lengths: Whether a length that sines and cosines and constants share stays within the bracket:
+            l² + a l c and not l (l + a c).
+    """
+
+    groupings: tuple[tuple[Key, ...], ...]
+    distributes: tuple[bool, ...] = (False,)
+    keeps_lengths: bool = False
+
+
+BY_MASS = Manner(((_is_mass, _is_wave, is_rate),), keeps_lengths=True)
+"""For M: one bracket per mass."""
+BY_ENERGY = Manner(((_is_mass, _is_wave, is_rate), (_is_mass, is_rate, _is_wave), (_is_mass, _is_static)), (True,))
+"""For T: one sum for the mass, one for the inertia."""
+BY_HEIGHT = Manner(((_is_mass, _is_wave),))
+"""For U."""
+BY_WAVE = Manner(
+    ((_is_wave, is_rate, _is_mass), (is_rate, _is_wave, _is_mass), (_is_mass, _is_wave, is_rate)), (True, False)
+)
+"""For C: one product per sine or cosine."""
+BY_WEIGHT = Manner(((_is_wave, _is_mass),), (True,))
+"""For g: likewise, with gravity in each product."""
+
+
+def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Text:
+    """Write a polynomial in a manner."""
+    plain = notation.numbered(polynomial)
+    if not plain:
+        return Text("0", "0")
+    ways = product(manner.groupings, manner.distributes)
+    options = [_Writer(notation, keys, shared, manner.keeps_lengths).whole(plain) for keys, shared in ways]
+    return min(options, key=_length)
+
+
+def written_matrix(rows: Sequence[Sequence[Polynomial]], notation: Notation, manner: Manner) -> MatrixText:
+    """Write a matrix of polynomials in a manner."""
+    texts = [[written(entry, notation, manner) for entry in row] for row in rows]
+    body = r" \\ ".join(" & ".join(text.latex for text in row) for row in texts)
+    return MatrixText(rf"\begin{{bmatrix}} {body} \end{{bmatrix}}", [[text.plain for text in row] for row in texts])
+
+
+def _length(text: Text) -> int:
+    """Return the length of a formula; nested brackets count extra."""
+    depth, deepest = 0, 0
+    for character in text.plain:
+        depth += {"(": 1, ")": -1}.get(character, 0)
+        deepest = max(deepest, depth)
+    return len(text.plain) + _NESTING * max(0, deepest - 1)
+
+
+def summed(texts: Sequence[Text]) -> Text:
+    """Write a sum of formulas; a minus at the front of one becomes the sum's."""
+    latex, plain = "", ""
+    for text in texts:
+        if text.plain == "0":
+            continue
+        if not plain:
+            latex, plain = text
+        elif text.plain.startswith("-"):
+            latex, plain = f"{latex} - {text.latex[1:].lstrip()}", f"{plain} - {text.plain[1:]}"
+        else:
+            latex, plain = f"{latex} + {text.latex}", f"{plain} + {text.plain}"
+    return Text(latex, plain) if plain else Text("0", "0")
+
+
+@dataclass(frozen=True, slots=True)
+class _Product:
+    """A product: number · powers of atoms · brackets."""
+
+    factor: Fraction
+    atoms: Monomial
+    brackets: tuple[Factor, ...]
+
+    @property
+    def is_a_sum(self) -> bool:
+        """Whether it is only one bracket, perhaps with a number before it."""
+        return not self.atoms and len(self.brackets) == 1 and self.brackets[0][1] == 1
+
+
+@dataclass(frozen=True, slots=True)
+class _Writer:
+    notation: Notation
+    keys: tuple[Key, ...]
+    distributes: bool
+    keeps_lengths: bool
+
+    def whole(self, polynomial: Polynomial) -> Text:
+        """Write a formula that stands alone; if `distributes`, a factor that all groups share stays in each."""
+        whole = self._product(polynomial)
+        if whole.is_a_sum or (self.distributes and len(_groups(polynomial, self.keys[0])) > 1):
+            return self._sum(polynomial)
+        return self._text(whole)
+
+    def _product(self, polynomial: Polynomial) -> _Product:
+        """Factorise by what all terms share, then by kinds of atoms, then into squares and sums of rates."""
+        factor, atoms, rest = self._taken_out(polynomial)
+        if rest == ONE:
+            return _Product(factor, atoms, ())
+        for kind in (is_rate, _is_mass, _is_wave):
+            parts = separated(rest, kind)
+            if parts is not None and self._is_tidy(parts):
+                brackets = list[Factor]()
+                for part in map(self._product, parts):
+                    factor, atoms = factor * part.factor, monomial_product(atoms, part.atoms)
+                    brackets += part.brackets
+                return _Product(factor, atoms, tuple(brackets))
+        root, remainder = square_within(rest)
+        if root and not remainder:
+            return _Product(factor, atoms, ((root, 2),))
+        return _Product(factor, atoms, tuple((part, 1) for part in rate_factors(rest)))
+
+    def _taken_out(self, polynomial: Polynomial) -> tuple[Fraction, Monomial, Polynomial]:
+        powers = [dict(monomial) for monomial in polynomial.terms]
+        shared = {atom: min(power.get(atom, 0) for power in powers) for atom in powers[0]}
+        kept = self.keeps_lengths and len(_groups(polynomial, _is_wave)) > 1
+        common = tuple(sorted((a, power) for a, power in shared.items() if power and not (kept and a.kind == LENGTH)))
+        factor = self._shared_number(polynomial)
+        rest = Polynomial({monomial_quotient(m, common): value / factor for m, value in polynomial})
+        return factor, common, rest
+
+    def _shared_number(self, polynomial: Polynomial) -> Fraction:
+        """Return the number before the bracket; a decimal number only if the bracket gets shorter."""
+        values = list(polynomial.terms.values())
+        if len(values) == 1:
+            return values[0]
+        if not self.notation.numbers:
+            return shared_number(polynomial)
+        least = min(map(abs, values))
+        most = _LARGEST_RATIO if all(any(is_rate(atom) for atom, _ in m) for m in polynomial.terms) else 1
+        return least if all(_is_small(value / least, most) for value in values) else Fraction(1)
+
+    def _is_tidy(self, parts: Sequence[Polynomial]) -> bool:
+        return not self.notation.numbers or all(_is_small(x) for part in parts[1:] for x in part.terms.values())
+
+    def _text(self, whole: _Product) -> Text:
+        factor = whole.factor
+        pieces = [((atom.kind, 0, atom.indices), self._atoms(((atom, power),))) for atom, power in whole.atoms]
+        for bracket, power in whole.brackets:
+            inner = self._sum(bracket)
+            if inner.plain.startswith("-"):
+                factor, inner = (-factor if power % 2 else factor), self._sum(-bracket)
+            raised = Text("" if power == 1 else f"^{{{power}}}", "" if power == 1 else f"**{power}")
+            place = min(bracket.atoms, default=Atom(MASS, (), ""))
+            text = Text(rf"\left({inner.latex}\right){raised.latex}", f"({inner.plain}){raised.plain}")
+            pieces.append(((place.kind, 1, place.indices), text))
+        pieces.sort(key=lambda piece: piece[0])
+        texts = [text for _, text in pieces]
+        sign = "-" if factor < 0 else ""
+        if abs(factor) != 1 or not texts:
+            size = self.notation.number(abs(factor))
+            plain = f"({size.plain})" if "/" in size.plain and texts else size.plain
+            texts.insert(0, Text(size.latex, plain))
+        return Text(sign + " ".join(t.latex for t in texts), sign + "*".join(t.plain for t in texts))
+
+    def _atoms(self, monomial: Monomial) -> Text:
+        return self.notation.monomial(Fraction(1), monomial)
+
+    def _sum(self, polynomial: Polynomial) -> Text:
+        return summed([self._text(self._product(part)) for part in self._summands(polynomial, self.keys)])
+
+    def _summands(self, polynomial: Polynomial, keys: Sequence[Key]) -> list[Polynomial]:
+        """Return groups that are products; a group that is not is divided further."""
+        for i, key in enumerate(keys):
+            groups = _same_rates(polynomial) if key is _is_static else _groups(polynomial, key)
+            if len(groups) > 1:
+                found = list[Polynomial]()
+                for group in groups:
+                    found += self._summands(group, keys[i + 1 :]) if self._product(group).is_a_sum else [group]
+                return found
+        root, rest = square_within(polynomial)
+        if root:
+            return [root * root, *(_groups(rest, _is_anything))]
+        return _groups(polynomial, _is_anything)
+
+
+def _is_anything(atom: Atom) -> bool:  # noqa: ARG001
+    return True
+
+
+def _is_small(value: Fraction, most: int = 1) -> bool:
+    return value.denominator == 1 and abs(value) <= most
+
+
+def _groups(polynomial: Polynomial, key: Key) -> list[Polynomial]:
+    """Group the terms by their atoms of a kind."""
+    groups: dict[Monomial, dict[Monomial, Fraction]] = {}
+    for monomial, value in polynomial:
+        groups.setdefault(tuple(item for item in monomial if key(item[0])), {})[monomial] = value
+    return [Polynomial(groups[part]) for part in sorted(groups, key=place_of)]
+
+
+def _same_rates(polynomial: Polynomial) -> list[Polynomial]:
+    """Group the terms by lengths, sines and cosines; groups whose rates differ only by a number are joined."""
+    alike: dict[Polynomial, list[Polynomial]] = {}
+    for group in _groups(polynomial, _is_static):
+        rates = {tuple(item for item in m if is_rate(item[0])): value for m, value in group}
+        first = rates[min(rates)]
+        alike.setdefault(Polynomial({m: value / first for m, value in rates.items()}), []).append(group)
+    return [total(groups) for groups in alike.values()]

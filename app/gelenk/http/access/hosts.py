@@ -1,0 +1,83 @@
+"""Check of the host that a request names: another name that resolves to this machine is refused.
+
+The address at which a connection arrived is always accepted: DNS rebinding uses a name that resolves to it, never the
+address itself.
+"""
+
+import re
+from collections.abc import Sequence
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from gelenk.errors import quoted
+from gelenk.http.access.request_context import RequestContext
+from gelenk.http.messages.problems import problem
+
+LOCAL = ("localhost", "127.0.0.1", "[::1]")
+ONCE = frozenset(
+    b"authorization content-type origin sec-fetch-site access-control-request-method last-event-id".split()
+)
+"""Header fields that affect handling and hold a single value."""
+_HOST = re.compile(rb"([\w.-]+|\[[0-9a-f:.]+\])(:\d{0,5})?", re.IGNORECASE)
+_MOST_REMEMBERED = 64
+
+
+def repeated(exchange: RequestContext) -> Response | None:
+    """Refuse a request that repeats a single-valued header field: a proxy may have acted on the other value."""
+    names = [name for name, _ in exchange.scope["headers"] if name in ONCE]
+    if len(names) == len(set(names)):
+        return None
+    name = next(name.decode() for name in names if names.count(name) > 1)
+    detail = f"a request has the header field `{name}` once at most"
+    return problem(exchange.request, HTTPStatus.BAD_REQUEST, "repeated-header", detail)
+
+
+class TrustedHosts:
+    """Refuses requests for unknown hosts.
+
+    Args:
+        names: Accepted names, in lower case; `*.` before a name accepts all names below it, `*` every host.
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self._any = "*" in names
+        self._names = {*names, *LOCAL}
+        self._endings = tuple(name[1:] for name in names if name.startswith("*."))
+        self._remembered: set[bytes] = set()
+
+    def __call__(self, exchange: RequestContext) -> Response | None:
+        """Return the refusal, or None to let the request pass."""
+        given = exchange.headers.get(b"host", b"")
+        if given in self._remembered and self._stands_once(exchange):
+            return None
+        if not _HOST.fullmatch(given) or not self._stands_once(exchange):
+            detail = "a request names the host that it is for, once: a name or an address, and a port where it has one"
+            return problem(exchange.request, HTTPStatus.BAD_REQUEST, "invalid-host", detail)
+        name = _without_port(given.decode("latin-1").lower())
+        if self._any or name in self._names or name.endswith(self._endings):
+            if len(self._remembered) < _MOST_REMEMBERED:
+                self._remembered.add(given)
+            return None
+        if name == _bracketed(exchange.scope.get("server")):
+            return None
+        detail = f"the service does not answer for the host {quoted(name)}; GELENK_TRUSTED_HOSTS adds names"
+        return problem(exchange.request, HTTPStatus.MISDIRECTED_REQUEST, "unknown-host", detail)
+
+    @staticmethod
+    def _stands_once(exchange: RequestContext) -> bool:
+        names: list[bytes] = [name for name, _ in exchange.scope["headers"]]
+        return names.count(b"host") == 1
+
+
+def _without_port(host: str) -> str:
+    """Strip the port: `name:8000` → `name`, `[::1]:8000` → `[::1]`."""
+    name, colon, port = host.rpartition(":")
+    return name if colon and port.isdecimal() else host
+
+
+def _bracketed(server: tuple[str, int | None] | None) -> str | None:
+    """Return the address of a socket as written in a `Host` header."""
+    if server is None:
+        return None
+    return f"[{server[0]}]" if ":" in server[0] else server[0]

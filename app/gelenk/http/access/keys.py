@@ -1,0 +1,64 @@
+"""Check that a request has a key with the scope of its operation: `Authorization: Bearer gelenk.…`."""
+
+from concurrent.futures import ThreadPoolExecutor, wait
+from http import HTTPStatus
+
+from starlette.responses import Response
+
+from gelenk.http.access.keyring import Keyring
+from gelenk.http.access.request_context import RequestContext
+from gelenk.http.messages.problems import problem
+from gelenk.http.messages.scopes import Scope
+
+_PATIENCE = 0.5
+"""Longest wait of a request while the key file is checked, [s]."""
+_REALM = 'Bearer realm="gelenk"'
+
+
+class KeyCheck:
+    """Refuses a request whose operation needs a key, unless it carries one with the right scope.
+
+    Args:
+        keyring: Valid keys.
+    """
+
+    def __init__(self, keyring: Keyring) -> None:
+        self._keyring = keyring
+        self._beside = ThreadPoolExecutor(1, thread_name_prefix="keys")
+
+    def __call__(self, exchange: RequestContext) -> Response | None:
+        """Return the refusal, or None to let the request pass."""
+        operation = exchange.operation
+        if operation.is_open:
+            return None
+        is_overdue = self._keyring.is_overdue
+        if self._keyring.is_due:
+            refreshing = self._beside.submit(self._keyring.refresh)
+            if is_overdue:  # first request after a quiet time; the file may be on a slow disk
+                wait((refreshing,), _PATIENCE)
+        scheme, _, token = exchange.headers.get(b"authorization", b"").decode("latin-1").partition(" ")
+        if scheme.lower() != "bearer":
+            return _unauthorised(exchange, "this needs a key: send it as `Authorization: Bearer gelenk.…`", _REALM)
+        key = self._keyring.find(token.strip())
+        if key is None:
+            return _unauthorised(
+                exchange, "the key is unknown to this service or has been revoked", f'{_REALM}, error="invalid_token"'
+            )
+        exchange.key = exchange.scope["gelenk.key"] = key.name
+        if operation.scope is not None and operation.scope not in key.scopes:
+            return _forbidden(exchange, operation.scope, key.scopes)
+        return None
+
+
+def _unauthorised(exchange: RequestContext, detail: str, challenge: str) -> Response:
+    response = problem(exchange.request, HTTPStatus.UNAUTHORIZED, "key-needed", detail)
+    response.headers["WWW-Authenticate"] = challenge
+    return response
+
+
+def _forbidden(exchange: RequestContext, needed: Scope, given: frozenset[Scope]) -> Response:
+    facts = {"missing_scope": needed, "scopes": sorted(given)}
+    detail = f"this needs the scope `{needed}`, which the key lacks"
+    response = problem(exchange.request, HTTPStatus.FORBIDDEN, "missing-scope", detail, facts)
+    response.headers["WWW-Authenticate"] = f'{_REALM}, error="insufficient_scope", scope="{needed}"'
+    return response

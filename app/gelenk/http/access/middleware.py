@@ -1,0 +1,96 @@
+"""Middleware that every request and every response passes through."""
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+from starlette.responses import Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from gelenk.http.access.audit_log import AuditLog, log_request
+from gelenk.http.access.headers import completed
+from gelenk.http.access.metrics import Metrics
+from gelenk.http.access.request_context import RequestContext
+from gelenk.http.access.route_table import RouteTable
+from gelenk.logs import REQUEST_ID
+from gelenk.operations.request_counts import REQUEST_COUNTS
+
+AccessRule: TypeAlias = Callable[[RequestContext], Response | None]
+"""Checks a request; returns the refusal, or None to let the request pass."""
+
+
+class Middleware:
+    """Passes requests through the checks, in order, to the application; completes the headers of responses.
+
+    Args:
+        app: The ASGI application.
+        directory: Table of its operations.
+        root_path: Path prefix under which a proxy serves it.
+        checks: Checks in order; the first refusal counts.
+        metrics: Counts all requests, refused ones included.
+        audit: Log of the writes.
+    """
+
+    def __init__(
+        self,
+        app: ASGIApp,
+        directory: RouteTable,
+        root_path: str,
+        checks: Sequence[AccessRule],
+        metrics: Metrics,
+        audit: AuditLog,
+    ) -> None:
+        self._app, self._directory, self._root_path = app, directory, root_path
+        self._checks, self._metrics, self._audit = tuple(checks), metrics, audit
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request or the lifespan events; refuse a WebSocket."""
+        if scope["type"] == "http":
+            await self._serve(scope, receive, send)
+        elif scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+        else:
+            await send({"type": "websocket.close", "code": 1008})
+
+    async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        path: str = scope["path"].removeprefix(self._root_path)
+        if self._root_path and not path:
+            path = "/"  # the prefix alone is the root
+        exchange = RequestContext.of(scope, *self._directory.find(path, scope["method"]))
+        REQUEST_ID.set(exchange.request_id)
+        REQUEST_COUNTS.set(None)
+
+        async def answer(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                exchange.status = message["status"]
+                own = (b"x-request-id", exchange.request_id.encode())
+                message["headers"] = completed(message.get("headers", ()), [own, *exchange.answer_headers])
+                if exchange.is_audited:
+                    await asyncio.to_thread(self._audit.write, exchange, _location(message["headers"]))
+            await send(message)
+
+        self._metrics.begin()
+        try:
+            refusal = self._refusal(exchange)
+            await (refusal or self._app)(scope, receive, answer)
+        finally:
+            if exchange.is_audited and not exchange.status:
+                # The client has left, or the request failed: what it wrote may remain.
+                await asyncio.shield(asyncio.to_thread(self._audit.write, exchange, None))
+            exchange.seconds = time.perf_counter() - exchange.started
+            exchange.counts = REQUEST_COUNTS.get()
+            self._metrics.end(exchange)
+            log_request(exchange)
+
+    def _refusal(self, exchange: RequestContext) -> Response | None:
+        """Return the first refusal among the checks, or None."""
+        for check in self._checks:
+            if (refusal := check(exchange)) is not None:
+                return refusal
+        exchange.was_let_in = True
+        return None
+
+
+def _location(headers: Sequence[tuple[bytes, bytes]]) -> str | None:
+    return next((value.decode("latin-1") for name, value in headers if name == b"location"), None)

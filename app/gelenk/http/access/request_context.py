@@ -1,0 +1,81 @@
+"""A request and its response so far: input of the checks and of the log."""
+
+import re
+import time
+from dataclasses import dataclass, field, replace
+from random import getrandbits
+
+from starlette.requests import Request
+from starlette.types import Scope as AsgiScope
+
+from gelenk.http.access.route_table import Route
+from gelenk.http.messages.preference import wants_answer_later
+from gelenk.http.messages.scopes import AS_JOBS, Scope
+from gelenk.operations.request_counts import RequestCounts
+
+_WELL_FORMED = re.compile(rb"[A-Za-z0-9_.-]{1,64}")
+
+
+@dataclass(slots=True)
+class RequestContext:
+    """A request and its response so far.
+
+    Attributes:
+        scope: ASGI scope of the request.
+        operation: The requested operation.
+        robot: Name of the robot in the path, if any.
+        headers: Headers of the request; of a repeated one, the last value.
+        request_id: The caller's own if it is valid, else a new one.
+        started: Start time, by `time.perf_counter`, [s].
+        key: Name of the caller's key; "" without a valid one.
+        answer_headers: Headers of the response besides those common to all.
+        status: HTTP status of the response; 0 until it starts.
+        was_let_in: Whether it has passed all checks.
+        seconds: Duration once it is over, [s].
+        counts: Batch size and verdicts for the metrics, if any.
+    """
+
+    scope: AsgiScope
+    operation: Route
+    robot: str | None
+    headers: dict[bytes, bytes]
+    request_id: str
+    started: float
+    key: str = ""
+    answer_headers: list[tuple[bytes, bytes]] = field(default_factory=list)
+    status: int = 0
+    was_let_in: bool = False
+    seconds: float = 0.0
+    counts: RequestCounts | None = None
+
+    @classmethod
+    def of(cls, scope: AsgiScope, operation: Route, robot: str | None) -> "RequestContext":
+        """Build the context of a request that has just arrived; puts the request id in the scope for problems."""
+        headers = dict(scope["headers"])
+        given = headers.get(b"x-request-id", b"")
+        request_id = given.decode("ascii") if _WELL_FORMED.fullmatch(given) else f"{getrandbits(128):032x}"
+        scope["request_id"] = request_id
+        if b"prefer" in headers and operation.name in AS_JOBS and wants_answer_later(scope["headers"]):
+            operation = replace(operation, scope=Scope.WRITE)
+        return cls(scope, operation, robot, headers, request_id, time.perf_counter())
+
+    @property
+    def request(self) -> Request:
+        """The request, for building a problem response."""
+        return Request(self.scope)
+
+    @property
+    def is_audited(self) -> bool:
+        """Whether it belongs in the audit log: it writes, and was allowed or has a valid key."""
+        return self.operation.scope is Scope.WRITE and (self.was_let_in or self.key != "")
+
+    @property
+    def is_safe(self) -> bool:
+        """Whether its method changes nothing."""
+        return self.scope["method"] in {"GET", "HEAD", "OPTIONS"}
+
+    @property
+    def client(self) -> str:
+        """Address of the client."""
+        client = self.scope.get("client")
+        return client[0] if client else ""

@@ -1,0 +1,237 @@
+"""Routes and handlers of all operations, built from the table of endpoints.
+
+The event loop answers fast requests itself; a worker or a job answers the others. A worker receives the endpoint's
+name and the request as it arrived.
+"""
+
+import asyncio
+import pickle
+from collections.abc import Callable
+from typing import Any, cast
+
+from starlette.datastructures import QueryParams
+from starlette.responses import Response
+
+from gelenk.contract.endpoint import Endpoint, RobotEndpoint
+from gelenk.contract.endpoints import BY_NAME
+from gelenk.errors import InvalidArray, InvalidField
+from gelenk.http.jobs.long_work import submitted
+from gelenk.http.jobs.long_works import LONG_WORK
+from gelenk.http.messages.npy import npy_response, read_npy
+from gelenk.http.messages.openapi import (
+    JOB_BEGUN,
+    PreferHeader,
+    RobotPath,
+    csv_content,
+    json_example,
+    npy_body,
+    npy_content,
+    picture_content,
+    problem_responses,
+)
+from gelenk.http.messages.payloads import (
+    CSV,
+    JSON,
+    NO_ARRAY,
+    NPY,
+    PNG,
+    SVG,
+    BoundedRequest,
+    csv_response,
+    json_response,
+    read_json,
+    read_query,
+)
+from gelenk.http.messages.preference import wants_answer_later
+from gelenk.http.messages.problems import UnsupportedMediaType
+from gelenk.http.messages.routes import DocumentedRoute, Handler
+from gelenk.http.workers.context import Context
+from gelenk.http.workers.pool_client import INLINE_BYTES, PoolClient
+from gelenk.http.workers.task import TaskRequest, buffers
+from gelenk.jobs.runner import Runner
+from gelenk.operations.operation import Operation, operation
+from gelenk.operations.outcome import Limits, Outcome, PictureFormat
+from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
+from gelenk.store.library import Library
+from gelenk.store.records import LoadedRobot
+
+_PICTURES: dict[str, PictureFormat] = {SVG: "svg", PNG: "png"}
+
+
+def answer(context: Context, task_request: TaskRequest) -> Response:
+    """Answer any request, in a worker, however long it takes."""
+    found = operation(task_request.endpoint)
+    robot, call = _robot_and_call(context.library, found.endpoint, task_request)
+    return _answered(found.endpoint, call, found.run(robot, call, context.limits), task_request.wanted)
+
+
+def plan_job(context: Context, task_request: TaskRequest) -> Response:
+    """Check the request for a job, and return the files that the job is computed from, packed into one."""
+    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
+    return Response(LONG_WORK[task_request.endpoint].planned(cast(LoadedRobot, robot), call, context.limits))
+
+
+def find(context: Context, task_request: TaskRequest) -> Response:
+    """Find what has to be known about a robot before requests of this kind are fast, and return it pickled."""
+    warm_up = operation(task_request.endpoint).warm_up
+    robot, call = _robot_and_call(context.library, BY_NAME[task_request.endpoint], task_request)
+    return Response(b"" if warm_up is None else pickle.dumps(warm_up.find(cast(LoadedRobot, robot), call)))
+
+
+def handler(endpoint: Endpoint[Any, Any], pool_client: PoolClient, runner: Runner, limits: Limits) -> Handler:
+    """Return the handler of an endpoint's requests.
+
+    Args:
+        endpoint: The endpoint.
+        pool_client: Sends requests to workers.
+        runner: Runs jobs.
+        limits: Limits on the work for an answer.
+    """
+    offered, accepted = _offered(endpoint), (JSON, NPY) if _has_npy_body(endpoint) else (JSON,)
+    can_be_job = isinstance(endpoint, RobotEndpoint) and bool(endpoint.job)
+
+    async def handle(request: BoundedRequest) -> Response:
+        if request.media_type not in accepted:
+            raise UnsupportedMediaType(request.media_type, accepted)
+        wanted, pieces = request.preferred(offered), await request.pieces()
+        query, is_npy = request.scope["query_string"].decode("latin-1"), request.media_type == NPY
+
+        def task_request() -> TaskRequest:
+            robot = request.path_params.get("robot", "")
+            return TaskRequest(buffers(pieces), robot, query, is_npy, wanted, endpoint.name)
+
+        if can_be_job and wants_answer_later(request.scope["headers"]):
+            planned = await pool_client.content(request, plan_job, task_request())
+            return await submitted(runner, endpoint.name, request, planned)
+        if request.length <= INLINE_BYTES and not pool_client.pool.is_starting:
+            call, found = _parsed(endpoint, query, b"".join(pieces), is_npy), operation(endpoint.name)
+            if wanted not in _PICTURES and not found.is_heavy(call):
+                outcome = await _on_the_loop(found, pool_client, request, call, limits, task_request)
+                if outcome is not None:
+                    return _answered(endpoint, call, outcome, wanted)
+        return await pool_client.answer(request, answer, task_request())
+
+    return handle
+
+
+async def _on_the_loop(
+    found: Operation,
+    pool_client: PoolClient,
+    request: BoundedRequest,
+    call: Any,
+    limits: Limits,
+    task_request: Callable[[], TaskRequest],
+) -> Outcome | None:
+    """Compute the outcome here if that is fast, else return None; a worker first finds what this needs of the robot."""
+    if not isinstance(found.endpoint, RobotEndpoint):
+        return found.run(None, call, limits)
+    robot = await pool_client.resident(request, request.path_params["robot"])
+    if found.warm_up is not None and not found.warm_up.is_known(robot, call):
+        content = await pool_client.content(request, find, task_request())
+        known = pickle.loads(content)  # noqa: S301 - from a process of ours
+        await asyncio.to_thread(found.warm_up.keep, robot, call, known)
+    return found.run(robot, call, limits) if found.attempt is None else found.attempt(robot, call, limits)
+
+
+def route(endpoint: Endpoint[Any, Any], handle: Handler, max_body_bytes: int) -> DocumentedRoute:
+    """Return the route of an endpoint: it documents the operation and refuses other methods."""
+
+    def endpoint_of_robot(robot: str, call: Any) -> Any: ...
+
+    def endpoint_or_job(robot: str, call: Any, prefer: str | None = None) -> Any: ...
+
+    def endpoint_alone(call: Any) -> Any: ...
+
+    described: Callable[..., Any] = endpoint_alone
+    types: dict[str, Any] = {"call": endpoint.request, "return": endpoint.answer}
+    statuses, contents = [400, 413, 415, 422], picture_content(endpoint.picture)
+    body, responses, text = json_example(endpoint.example), {}, [endpoint.text]
+    if isinstance(endpoint, RobotEndpoint) or endpoint.robot_field or endpoint.tag == "DH tables":
+        statuses.append(404)
+    if isinstance(endpoint, RobotEndpoint):
+        described, types = endpoint_of_robot, {"robot": RobotPath, **types}
+        contents = {**npy_content(endpoint.npy_answer), **csv_content(endpoint.table), **contents}
+        if endpoint.options is not None:
+            body |= npy_body(endpoint.npy_body, endpoint.options)
+        if endpoint.job:
+            described, types = endpoint_or_job, {**types, "prefer": PreferHeader}
+            responses = {**JOB_BEGUN, **problem_responses(507)}
+            text.append(_job_note(endpoint.job))
+    described.__annotations__ = types
+    return DocumentedRoute(
+        f"/{endpoint.path}",
+        described,
+        handle,
+        max_body_bytes,
+        methods=["POST"],
+        operation_id=endpoint.operation_id or endpoint.name,
+        summary=endpoint.summary,
+        description="\n\n".join(text),
+        tags=[endpoint.tag],
+        responses={
+            **({200: {"content": contents}} if contents else {}),
+            **problem_responses(*statuses),
+            **responses,
+        },
+        openapi_extra={"requestBody": {"content": body}},
+    )
+
+
+def _job_note(more: str) -> str:
+    return (
+        "With `Prefer: respond-async` the call is checked and a job computes the same answer: the reply is 202 with "
+        f"the job's address in `Location`. Then there may be {more}."
+    )
+
+
+def _has_npy_body(endpoint: Endpoint[Any, Any]) -> bool:
+    return isinstance(endpoint, RobotEndpoint) and endpoint.options is not None
+
+
+def _offered(endpoint: Endpoint[Any, Any]) -> tuple[str, ...]:
+    """Return the media types of the answer, the default first."""
+    arrays = (NPY, *((CSV,) if endpoint.table else ())) if isinstance(endpoint, RobotEndpoint) else ()
+    return (JSON, *arrays, *((SVG, PNG) if endpoint.picture else ()))
+
+
+def _robot_and_call(
+    library: Library, endpoint: Endpoint[Any, Any], task_request: TaskRequest
+) -> tuple[LoadedRobot | None, Any]:
+    """Return the robot that the path or the request names, and the parsed request."""
+    robot = library.get(task_request.robot) if task_request.robot else None
+    call = _parsed(endpoint, task_request.query, task_request.body, task_request.npy)
+    if endpoint.robot_field and (name := getattr(call, endpoint.robot_field)) is not None:
+        robot = library.get(name)
+    return robot, call
+
+
+def _parsed(endpoint: Endpoint[Any, Any], query: str, body: bytes, npy: bool) -> Any:
+    model = cast(Any, endpoint.request)
+    if isinstance(endpoint, RobotEndpoint) and endpoint.options is not None and npy:
+        options = read_query(cast(Any, endpoint.options), QueryParams(query))
+        given = options.model_fields_set | {endpoint.batch}
+        return model.model_construct(given, **{**dict(options), endpoint.batch: read_npy(body)})
+    if query:
+        why = "they are for an npy body; a JSON call has them as fields"
+        raise InvalidField(
+            "query", why if _has_npy_body(endpoint) else "this call has its parameters as fields of the body"
+        )
+    return read_json(model, body)
+
+
+def _answered(endpoint: Endpoint[Any, Any], call: Any, outcome: Outcome, wanted: str) -> Response:
+    """Build the response, and set what the metrics count of it."""
+    if isinstance(endpoint, RobotEndpoint):
+        batch = len(getattr(call, endpoint.batch)) if endpoint.batch else 0
+        REQUEST_COUNTS.set(RequestCounts(batch) if outcome.solved is None else outcome.solved(batch))
+    if wanted == JSON:
+        return json_response(outcome.content())
+    if wanted in _PICTURES:
+        if outcome.picture is None:
+            raise InvalidField("Accept", "this answer cannot be drawn: leave the header out for JSON")
+        return Response(outcome.picture(_PICTURES[wanted]), media_type=wanted)
+    if outcome.array is None:
+        raise InvalidArray(NO_ARRAY)
+    if wanted == CSV and outcome.columns is not None:
+        return csv_response(outcome.columns, *outcome.array())
+    return npy_response(*outcome.array())

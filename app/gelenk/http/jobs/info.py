@@ -1,0 +1,45 @@
+"""Jobs as JSON and as responses."""
+
+from datetime import UTC, datetime
+from typing import Any
+
+import orjson
+from fastapi import Response
+
+from gelenk.errors import kind_of
+from gelenk.http.messages.payloads import JSON
+from gelenk.jobs.job import Job
+
+NO_STORE = {"Cache-Control": "no-store"}
+
+
+def job_response(job: Job, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """Return a job as a response."""
+    return Response(orjson.dumps(job_content(job)), status, {**NO_STORE, **(headers or {})}, JSON)
+
+
+def job_content(job: Job) -> dict[str, Any]:
+    """Return a job as JSON content."""
+    failure = job.failure
+    content: dict[str, Any] = {
+        "id": job.id,
+        "kind": job.kind,
+        "state": job.state,
+        "progress": job.progress,
+        "created": _moment(job.created),
+        "started": _moment(job.started),
+        "finished": _moment(job.finished),
+        "attempts": job.attempts,
+        "robot_digest": job.robot_digest,
+        "error": None,
+    }
+    if failure is not None:
+        kind = f"urn:gelenk:{kind_of(type(failure.error_again()))}"
+        content["error"] = {"type": kind, "detail": failure.detail, "facts": failure.facts}
+    return content
+
+
+def _moment(seconds: float | None) -> str | None:
+    if seconds is None:
+        return None
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")

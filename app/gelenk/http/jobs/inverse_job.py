@@ -1,0 +1,182 @@
+"""Inverse kinematics as a job: several targets per part, each solved as if it were the only one."""
+
+from collections.abc import Iterator
+from functools import lru_cache
+from io import BytesIO
+from pathlib import Path
+from typing import IO, TypeAlias
+
+import numpy as np
+import orjson
+
+from gelenk.contract.ik import MAX_JOB_STEPWISE, MAX_JOB_TARGETS, MAX_TRACE, InverseRequest
+from gelenk.errors import InvalidField
+from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
+from gelenk.http.messages.payloads import JSON, NPY, read_json
+from gelenk.ik.solve import inverse_kinematics
+from gelenk.jobs.packing import packed, unpacked
+from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Work
+from gelenk.operations.ik_answer import closed_form_of, table, told, told_results, unsolved_headers
+from gelenk.operations.ik_request import TargetLimits, asked, is_stepwise, options_of
+from gelenk.operations.outcome import Limits
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
+from gelenk.store.folders import read_plain
+from gelenk.store.records import LoadedRobot
+
+_CALL, _TARGETS, _SEEDS = "call.json", "targets.npy", "seeds.npy"
+_BOUNDS = TargetLimits(MAX_JOB_TARGETS, MAX_JOB_STEPWISE, None)
+_PART, _PART_OF_MANY = 4096, 128
+"""Targets per part: of quick calls (one solution each, no objective, not stepwise), and of all others."""
+
+_TRIED, _BYTES_A_NUMBER = 64, 100
+"""Targets solved to estimate the size of all results; done only if this many bytes per number are too many."""
+_STAGE = "targets"
+_SOLVED = 0.95
+"""Progress when only the files are left to write."""
+
+_Part: TypeAlias = tuple[RobotText, bytes, Array, Array]
+"""The robot, the call, the targets (rows of 12: position, rotation matrix), the seeds."""
+
+
+def _request(loaded: LoadedRobot, call: InverseRequest, limits: Limits) -> dict[str, bytes]:
+    """Check a call and return its files; targets and seeds are arrays from here on."""
+    if call.time_limit is not None:
+        raise InvalidField(
+            "time_limit", "a job looks for each target to the end: leave it out, or ask for the answer now"
+        )
+    chain, targets, seeds = asked(loaded.robot, call, _BOUNDS)
+    _check_room(limits.job_bytes, loaded, call, (chain, targets, seeds))
+    ends = {"base_frame": chain.base_frame, "tip_frame": chain.tip_frame}
+    rest = call.model_copy(update={"targets": [], "seeds": None, **ends})
+    rows = np.column_stack((targets.positions, targets.rotations.reshape(-1, 9)))
+    return {_CALL: rest.model_dump_json().encode(), _TARGETS: _npy(rows), _SEEDS: _npy(seeds)}
+
+
+def _check_room(
+    most_bytes: int, loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array]
+) -> None:
+    """Refuse a call whose results would take more than `most_bytes`, as estimated from some of its targets.
+
+    Raises:
+        InvalidField: The results are too large; the message says how many targets there is room for.
+    """
+    chain, targets, _ = question
+    rows = call.max_solutions if call.solutions == "all" else MAX_TRACE if call.trace else 1
+    if len(targets) * rows * (len(chain) + 4) * _BYTES_A_NUMBER <= most_bytes:
+        return
+    whole = _bytes_each(loaded, call, question, len(targets)) * len(targets)
+    if whole <= most_bytes:
+        return
+    room = int(0.9 * len(targets) * most_bytes / whole)
+    # Check each smaller number too: the first targets may have more solutions than the others.
+    while room > 1 and _bytes_each(loaded, call, question, room) * room > most_bytes:
+        room = int(0.9 * room)
+    raise InvalidField(
+        "targets",
+        f"what comes of all {len(targets):,} takes some {whole:.2g} bytes, and the parts of a job may take "
+        f"{most_bytes:,}: ask for at most {max(1, room):,} at a time, or for less of each",
+    )
+
+
+def _bytes_each(loaded: LoadedRobot, call: InverseRequest, question: tuple[Chain, Poses, Array], count: int) -> float:
+    """Return the mean size, in bytes, of the result of one of the first `count` targets, from some of them."""
+    chain, targets, seeds = question
+    some = np.unique(np.linspace(0, count - 1, _TRIED).astype(np.int64))
+    few = Poses(targets.positions[some], targets.rotations[some])
+    part = _solved(loaded.robot, chain, call, few, seeds if len(seeds) == 1 else seeds[some])
+    return len(part) / len(some)
+
+
+def _npy(array: Array) -> bytes:
+    target = BytesIO()
+    np.lib.format.write_array(target, np.ascontiguousarray(array), allow_pickle=False)
+    return target.getvalue()
+
+
+def _work(_: Limits, folder: Path) -> Work:
+    """Return the function that computes the job whose request is in `folder`."""
+    text, content = robot_text(folder), read_plain(folder / _CALL)
+    call = read_json(InverseRequest, content)
+    # Read from disk as they are needed: a million targets are a hundred megabytes.
+    targets, seeds = (np.load(folder / name, mmap_mode="r") for name in (_TARGETS, _SEEDS))
+    quick = call.solutions == "one" and call.objective is None and not is_stepwise(call)
+    size = _PART if quick else _PART_OF_MANY
+    count = max(1, -(-len(targets) // size))
+
+    def part(k: int) -> _Part:
+        rows = slice(k * size, (k + 1) * size)
+        return text, content, np.array(targets[rows]), np.array(seeds if len(seeds) == 1 else seeds[rows])
+
+    def work(run: Run) -> Files:
+        run.map(_STAGE, solved_part, part, count, (0.0, _SOLVED), size)
+        forms, unsolved = set(), []
+        for k, found in enumerate(run.parts.of(_STAGE, count)):
+            values = unpacked(found)
+            forms.add(values["form"].tobytes())
+            unsolved += (k * size + values["unsolved"]).tolist()
+        (form,) = forms
+        chain = robot_of(text).chain(call.base_frame, call.tip_frame)
+        frame = orjson.dumps(told(chain, call, orjson.loads(form), []), option=orjson.OPT_SERIALIZE_NUMPY)
+        files: Files = {RESULTS[JSON]: lambda target: _write_json(target, frame, run.parts.of(_STAGE, count))}
+        if call.solutions == "all" or call.trace:
+            return files
+        shape, headers = (len(targets), len(chain)), headers_file({NPY: unsolved_headers(unsolved)})
+        return {
+            **files,
+            RESULTS[NPY]: lambda target: _write_npy(target, shape, run.parts.of(_STAGE, count)),
+            HEADERS: lambda target: target.write(headers),
+        }
+
+    return work
+
+
+def solved_part(job: _Part) -> bytes:
+    """Solve some targets, in a separate process: results as JSON, rows of a table, and indices of unsolved targets."""
+    text, content, rows, seeds = job
+    robot, call = robot_of(text), _call(content)
+    chain = robot.chain(call.base_frame, call.tip_frame)
+    targets = Poses(np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:]).reshape(-1, 3, 3))
+    return _solved(robot, chain, call, targets, seeds)
+
+
+def _solved(robot: RobotModel, chain: Chain, call: InverseRequest, targets: Poses, seeds: Array) -> bytes:
+    result = inverse_kinematics(robot, chain, targets, seeds, options_of(chain, call, None))
+    results = orjson.dumps(told_results(chain, call.pose_format, result), option=orjson.OPT_SERIALIZE_NUMPY)
+    return packed(
+        form=as_bytes(orjson.dumps(closed_form_of(result))),
+        results=as_bytes(results),
+        unsolved=np.array(list(result.failures), dtype=np.int64),
+        rows=None if call.solutions == "all" or call.trace else table(chain, result),
+    )
+
+
+@lru_cache(maxsize=2)
+def _call(content: bytes) -> InverseRequest:
+    return read_json(InverseRequest, content)
+
+
+def _write_json(target: IO[bytes], frame: bytes, parts: Iterator[bytes]) -> None:
+    """Write the answer; the results, part by part, replace the empty list at its end."""
+    target.write(frame[:-2])
+    separator = b""
+    for part in parts:
+        results = unpacked(part)["results"].tobytes()[1:-1]
+        if results:
+            target.write(separator + results)
+            separator = b","
+    target.write(frame[-2:])
+
+
+def _write_npy(target: IO[bytes], shape: tuple[int, int], parts: Iterator[bytes]) -> None:
+    """Write all rows, part by part."""
+    np.lib.format.write_array_header_1_0(target, {"descr": "<f8", "fortran_order": False, "shape": shape})
+    for part in parts:
+        target.write(np.ascontiguousarray(unpacked(part)["rows"]).tobytes())
+
+
+WORK = LongWork(_request, _work)

@@ -1,0 +1,8 @@
+"""The operations that can run as jobs, by the names of their endpoints."""
+
+from typing import Any
+
+from gelenk.http.jobs import inverse_job, trajectory_job
+from gelenk.http.jobs.long_work import LongWork
+
+LONG_WORK: dict[str, LongWork[Any]] = {"ik": inverse_job.WORK, "trajectory": trajectory_job.WORK}

@@ -1,0 +1,154 @@
+"""Trajectories as a job: planned and audited, then sampled in parts."""
+
+from collections.abc import Iterator
+from functools import lru_cache, partial
+from pathlib import Path
+from typing import IO, TypeAlias
+
+import numpy as np
+import orjson
+
+from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
+from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
+from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG, read_json
+from gelenk.jobs.packing import packed, unpacked
+from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
+from gelenk.jobs.run import Files, Run
+from gelenk.jobs.runner import Work
+from gelenk.operations.outcome import Limits, PictureFormat
+from gelenk.operations.rows import csv_head, csv_rows
+from gelenk.operations.trajectory_planned import SAMPLED, PlannedTrajectory, TrajectorySizeLimits, checked
+from gelenk.operations.trajectory_request import shortest_duration
+from gelenk.store.folders import read_plain
+from gelenk.store.records import LoadedRobot
+from gelenk.trajectory.plan import plan
+
+KIND = "trajectory"
+
+_CALL = "call.json"
+_PART = 8192
+"""Samples per part."""
+_PLAN, _STAGE, _DRAWING = "plan", "samples", "picture"
+_PLANNED, _SAMPLED, _DRAWN = 0.5, 0.9, 0.95
+_PICTURES: tuple[tuple[str, PictureFormat], ...] = ((SVG, "svg"), (PNG, "png"))
+_GAP = b"\0"
+"""Encloses the name of a field whose entries come from the parts; no JSON contains it."""
+
+_Plan: TypeAlias = tuple[RobotText, bytes, int]
+"""The robot, the call, and how many numbers its polynomials may hold."""
+
+
+def _request(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> dict[str, bytes]:
+    bounds = _bounds(limits.answer_numbers)
+    chain, question = checked(loaded.robot, call, bounds)
+    if bounds.may_be_exceeded(call, chain, shortest_duration(question.problem)):
+        bounds.check(call, chain, plan(loaded.robot, chain, question.problem).motion.duration)
+    whole = call.model_copy(update={"base_frame": chain.base_frame, "tip_frame": chain.tip_frame})
+    return {_CALL: whole.model_dump_json(exclude_unset=True).encode()}
+
+
+def _bounds(max_answer_numbers: int) -> TrajectorySizeLimits:
+    # The samples are written part by part: only the disk limits them.
+    return TrajectorySizeLimits(MAX_JOB_SAMPLES, max_answer_numbers)
+
+
+def _work(limits: Limits, folder: Path) -> Work:
+    job = (robot_text(folder), read_plain(folder / _CALL), limits.answer_numbers)
+
+    def work(run: Run) -> Files:
+        run.map(_PLAN, planned_part, lambda _: job, 1, (0.0, _PLANNED))
+        (head,) = run.parts.of(_PLAN, 1)
+        values = unpacked(head)
+        frame, names, told = (values[name].tobytes() for name in ("frame", "columns", "headers"))
+        rows, width = values["shape"].tolist()
+        count, headers = -(-rows // _PART), orjson.loads(told)
+        run.map(_STAGE, sampled_part, lambda k: (job, k), count, (_PLANNED, _SAMPLED), _PART)
+        run.map(_DRAWING, drawn_part, lambda k: (job, _PICTURES[k][1]), len(_PICTURES), (_SAMPLED, _DRAWN))
+        pictures = run.parts.of(_DRAWING, len(_PICTURES))
+        drawn: Files = {
+            RESULTS[media_type]: partial(_write, picture)
+            for (media_type, _), picture in zip(_PICTURES, pictures, strict=True)
+        }
+
+        def column(name: str) -> Iterator[bytes]:
+            return (unpacked(part)[name].tobytes() for part in run.parts.of(_STAGE, count))
+
+        def write_npy(target: IO[bytes]) -> None:
+            np.lib.format.write_array_header_1_0(
+                target, {"descr": "<f8", "fortran_order": False, "shape": (rows, width)}
+            )
+            target.writelines(column("rows"))
+
+        def write_json(target: IO[bytes]) -> None:
+            for i, piece in enumerate(frame.split(_GAP)):
+                if i % 2 == 0:
+                    target.write(piece)
+                else:
+                    _write_list(target, column(piece.decode()))
+
+        def write_csv(target: IO[bytes]) -> None:
+            target.write(names)
+            target.writelines(column("csv"))
+
+        return {
+            RESULTS[JSON]: write_json,
+            RESULTS[NPY]: write_npy,
+            RESULTS[CSV]: write_csv,
+            **drawn,
+            HEADERS: lambda target: target.write(headers_file({NPY: headers, CSV: headers})),
+        }
+
+    return work
+
+
+def _write_list(target: IO[bytes], lists: Iterator[bytes]) -> None:
+    """Write several JSON lists as one."""
+    target.write(b"[")
+    for i, entries in enumerate(lists):
+        target.write((b"," if i else b"") + entries[1:-1])
+    target.write(b"]")
+
+
+def _write(content: bytes, target: IO[bytes]) -> None:
+    target.write(content)
+
+
+@lru_cache(maxsize=1)
+def _planned(job: _Plan) -> PlannedTrajectory:
+    """Plan the motion, once in each process that computes parts of the job; the result is the same in all of them."""
+    text, content, numbers = job
+    return PlannedTrajectory.of(robot_of(text), read_json(TrajectoryRequest, content), _bounds(numbers))
+
+
+def planned_part(job: _Plan) -> bytes:
+    """Compute all but the samples, in a separate process: the answer with gaps for them, and their number."""
+    planned = _planned(job)
+    times = planned.times()
+    named = SAMPLED if planned.call.tip_poses else SAMPLED[:-1]
+    gaps = {name: orjson.Fragment(_GAP + name.encode() + _GAP) for name in named}
+    frame = orjson.dumps(planned.told(gaps, planned.certificate(times)), option=orjson.OPT_SERIALIZE_NUMPY)
+    return packed(
+        frame=as_bytes(frame),
+        columns=as_bytes(csv_head(planned.columns)),
+        headers=as_bytes(orjson.dumps(planned.headers)),
+        shape=(len(times), len(planned.columns)),
+    )
+
+
+def sampled_part(job: tuple[_Plan, int]) -> bytes:
+    """Compute some of the samples, in a separate process, in each format."""
+    plan, k = job
+    planned = _planned(plan)
+    times = planned.times()[k * _PART : (k + 1) * _PART]
+    rows = planned.table(times)
+    told = {name: as_bytes(orjson.dumps(entries)) for name, entries in planned.told_samples(times).items()}
+    return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **told)
+
+
+def drawn_part(job: tuple[_Plan, PictureFormat]) -> bytes:
+    """Draw the motion, in a separate process."""
+    plan, kind = job
+    return _planned(plan).picture(plan[0].name, kind)
+
+
+WORK = LongWork(_request, _work)

@@ -1,0 +1,263 @@
+"""Request bodies and responses: strict JSON, CSV, and the choice of a response's media type."""
+
+import json
+import re
+from collections.abc import AsyncGenerator, Sequence
+from typing import Any, Self, TypeVar
+
+import orjson
+from pydantic import ValidationError
+from starlette.datastructures import QueryParams
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
+
+from gelenk.contract.common import Payload
+from gelenk.errors import TooLarge, quoted
+from gelenk.http.messages.bodies import SMALL, Bodies
+from gelenk.http.messages.problems import InvalidPayload
+from gelenk.operations.rows import csv_head, csv_rows
+from gelenk.robot.arrays import Array
+
+MAX_MEMBERS = 1_000_000
+"""Maximum number of object members in a body: each unknown one would be a validation error of its own."""
+
+NO_ARRAY = "what this call asks for does not fit into one array: leave `Accept` out for JSON"
+
+MAX_PARAMETERS = 1000
+"""Maximum number of query parameters: enough for the frames of the largest robot, one by one."""
+
+JSON = "application/json"
+NPY = "application/x-npy"
+CSV = "text/csv"
+SVG = "image/svg+xml"
+PNG = "image/png"
+
+_STRING = re.compile(rb'"([^"\\]*+(?:\\.[^"\\]*+)*+)(?:"(\s*:)?|\\?\Z)', re.DOTALL)
+"""A JSON string, and the colon after it if it is the name of a member.
+
+A string that is cut ends with the bytes: otherwise each quote in it would be tried as the start of another one.
+"""
+_FIRST = 64 * 1024
+"""Leading bytes of a large body, checked first for repeated names."""
+
+_WEIGHT = re.compile(r"0(\.\d{0,3})?|1(\.0{0,3})?", re.ASCII)
+_ANYTHING = frozenset({b"", b"*/*", b"application/json"})
+
+_Model = TypeVar("_Model", bound=Payload)
+
+
+class BoundedRequest(Request):
+    """A request whose body is never read beyond the limit; leaving its context returns its bytes to `bodies`.
+
+    It reads headers and body itself, more simply than Starlette does, because every call pays for that.
+
+    Args:
+        scope: ASGI scope of the request.
+        receive: Receives the body.
+        send: Sends the response.
+        max_bytes: Maximum size of the body.
+        bodies: Count of the large bodies of this process.
+    """
+
+    def __init__(self, scope: Scope, receive: Receive, send: Send, max_bytes: int, bodies: Bodies) -> None:
+        super().__init__(scope, receive, send)
+        self._max_bytes, self._bodies = max_bytes, bodies
+        self._count = self._held = 0
+        self._fields: dict[bytes, bytes] = dict(scope["headers"])
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bodies.held -= self._held
+        self._held = 0
+
+    @property
+    def media_type(self) -> str:
+        """Media type of the body, in lower case, without parameters; "" if none is given."""
+        return self._fields.get(b"content-type", b"").partition(b";")[0].strip().lower().decode("latin-1")
+
+    def preferred(self, offered: Sequence[str]) -> str:
+        """Return the media type of the response, among those offered; see `preferred_type`."""
+        accept = self._fields.get(b"accept", b"")
+        # What nearly every client sends names no other type than the first.
+        return offered[0] if accept in _ANYTHING else preferred_type(accept.decode("latin-1"), offered)
+
+    @property
+    def length(self) -> int:
+        """Number of bytes of the body received so far."""
+        return self._count
+
+    async def body(self) -> bytes:
+        """Return the whole body; raises as `pieces` does."""
+        return b"".join(await self.pieces())
+
+    async def pieces(self) -> list[bytes]:
+        """Return the whole body in the pieces that it arrives in.
+
+        Raises:
+            TooLarge: The body is larger than allowed, or announces that it is.
+            NoRoomForBody: Other large bodies take all the room.
+            ClientDisconnect: The client has left.
+        """
+        pieces, more = [], True
+        while more:
+            piece, more = await self._receive_chunk()
+            pieces.append(piece)
+        return pieces
+
+    async def stream(self) -> AsyncGenerator[bytes, None]:
+        """Yield the body in pieces; raises as `pieces` does."""
+        more = True
+        while more:
+            chunk, more = await self._receive_chunk()
+            yield chunk
+
+    async def _receive_chunk(self) -> tuple[bytes, bool]:
+        """Receive the next piece of the body, and whether more follow."""
+        if self._count == 0:
+            announced = self._fields.get(b"content-length", b"0")
+            self._check_size(int(announced) if announced.isdigit() else 0)
+        message = await self.receive()
+        if message["type"] == "http.disconnect":
+            raise ClientDisconnect
+        chunk: bytes = message.get("body", b"")
+        self._count += len(chunk)
+        self._check_size(self._count)
+        if self._count > SMALL:
+            self._bodies.held += self._count - self._held
+            self._held = self._count
+        return chunk, message.get("more_body", False)
+
+    def _check_size(self, count: int) -> None:
+        if count > self._max_bytes:
+            raise TooLarge("bytes in the body", count, self._max_bytes)
+        if count > SMALL:
+            self._bodies.check_room(count - self._held)
+
+
+def preferred_type(accept: str, offered: Sequence[str]) -> str:
+    """Return the media type of a response by the caller's `Accept` (RFC 9110, 12.5.1).
+
+    Of equal weights the more specific range wins, then the type offered first. That type is also returned if none is
+    accepted: a response that can be read is better than none.
+
+    Args:
+        accept: Value of the header.
+        offered: Media types, the default one first.
+    """
+    ranges = [_weighted(part) for part in accept.lower().split(",")[:MAX_PARAMETERS]]
+    best, best_rank = offered[0], (0.0, 0)
+    for media_type in offered:
+        group = media_type.partition("/")[0] + "/*"
+        found = [(name.count("*"), weight) for name, weight in ranges if name in {media_type, group, "*/*"}]
+        # A type's own range decides its weight, even zero, whatever wider ranges say.
+        stars, weight = min(found, default=(2, 0.0))
+        if (weight, -stars) > best_rank and weight > 0.0:
+            best, best_rank = media_type, (weight, -stars)
+    return best
+
+
+def _weighted(part: str) -> tuple[str, float]:
+    """Return a media range of `Accept` and its weight, from 0 to 1; 0 if the weight cannot be read."""
+    name, *parameters = (word.strip() for word in part.split(";"))
+    weight = 1.0
+    for parameter in parameters:
+        if parameter.startswith("q="):
+            weight = float(parameter[2:]) if _WEIGHT.fullmatch(parameter[2:]) else 0.0
+    return name, weight
+
+
+def json_response(content: Any, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    """Return Python objects and NumPy arrays as JSON, numbers at full double precision."""
+    body = orjson.dumps(content, option=orjson.OPT_SERIALIZE_NUMPY)
+    return Response(body, status, headers, JSON)
+
+
+def csv_response(columns: Sequence[str], array: Array, headers: dict[str, str]) -> Response:
+    """Return a table as CSV (RFC 4180): a row of names, then numbers that read back exactly.
+
+    Args:
+        columns: Names of the columns; at least one.
+        array: Shape (N, columns).
+        headers: Headers of the response.
+    """
+    body = csv_head(columns) + b"".join(csv_rows(array))
+    return Response(body, headers=headers, media_type=f"{CSV}; header=present")
+
+
+def read_json(model: type[_Model], body: bytes) -> _Model:
+    """Parse and check a payload.
+
+    Raises:
+        InvalidPayload: The body does not match the model.
+    """
+    if body.count(b":") > MAX_MEMBERS:
+        raise TooLarge("members in the body", body.count(b":"), MAX_MEMBERS)
+    try:
+        found = model.model_validate_json(body)
+    except ValidationError as error:
+        raise InvalidPayload.of(error) from None
+    _check_members(body)
+    return found
+
+
+def _check_members(body: bytes) -> None:
+    """Refuse an object with two members of the same name: JSON parsers differ in which of them counts.
+
+    Args:
+        body: JSON that has been parsed already.
+
+    Raises:
+        InvalidPayload: There is such an object.
+    """
+    # If no two names in the whole body are the same, as in most calls, there is no need to parse it again.
+    for part in (body[:_FIRST], body) if len(body) > _FIRST else (body,):
+        names = [name for name, colon in _STRING.findall(part) if colon]
+        if len(set(names)) < len(names) or any(b"\\" in name for name in names):
+            break
+    else:
+        return
+    json.loads(body, object_pairs_hook=_without_doubles, parse_int=float)
+
+
+def _without_doubles(members: list[tuple[str, Any]]) -> None:
+    names = [name for name, _ in members]
+    if len(set(names)) < len(names):
+        double = next(name for i, name in enumerate(names) if name in names[:i])
+        detail = f"an object has two members of the name {quoted(double)}"
+        raise InvalidPayload(True, [{"pointer": "#", "detail": detail}], 1)
+
+
+def _object(text: str) -> Any:
+    """Parse JSON in a query; return invalid JSON as text, which no object field accepts."""
+    try:
+        return orjson.loads(text)
+    except ValueError:
+        return text
+
+
+def read_query(model: type[_Model], query: QueryParams) -> _Model:
+    """Read a payload from the query string, for an array body; the key of a list field may be repeated.
+
+    Raises:
+        InvalidPayload: The query does not match the model.
+        TooLarge: There are more than `MAX_PARAMETERS`.
+    """
+    items = query.multi_items()
+    if len(items) > MAX_PARAMETERS:
+        raise TooLarge("parameters in the query", len(items), MAX_PARAMETERS)
+    values: dict[str, Any] = {}
+    for key, value in items:
+        is_repeated = key in model.vector_fields and len(query.getlist(key)) > 1
+        if is_repeated or (key in model.list_fields and value != "all"):
+            values.setdefault(key, []).append(value)
+        elif key in values:
+            raise InvalidPayload(True, [{"pointer": f"#/{quoted(key)[1:-1]}", "detail": "it is given twice"}], 1)
+        else:
+            values[key] = _object(value) if key in model.object_fields else value
+    try:
+        return model.model_validate(values, strict=False)
+    except ValidationError as error:
+        raise InvalidPayload.of(error) from None

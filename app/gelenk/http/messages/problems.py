@@ -1,0 +1,279 @@
+"""Every error as `application/problem+json` (RFC 9457), with the one table from error class to status.
+
+A problem never repeats the payload: a client's names are shortened and escaped if they are quoted at all.
+"""
+
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from http import HTTPStatus
+from typing import Any
+
+import orjson
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
+from starlette.responses import Response
+from starlette.routing import compile_path
+
+from gelenk import errors
+
+MEDIA_TYPE = "application/problem+json"
+
+STATUS: dict[type[errors.KinematicsError], HTTPStatus] = {
+    errors.InvalidInput: HTTPStatus.UNPROCESSABLE_ENTITY,
+    errors.NotFound: HTTPStatus.NOT_FOUND,
+    errors.TooLarge: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+    # Waiting does not help, so no client should retry by itself: neither 429 nor a 5xx.
+    errors.QuotaExceeded: HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+    errors.RobotExists: HTTPStatus.CONFLICT,
+    errors.ReadOnlyRobot: HTTPStatus.FORBIDDEN,
+    errors.StorageFailed: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.StorageFull: HTTPStatus.INSUFFICIENT_STORAGE,
+    errors.JobExists: HTTPStatus.CONFLICT,
+    errors.JobNotFinished: HTTPStatus.CONFLICT,
+    errors.JobFinished: HTTPStatus.CONFLICT,
+    errors.JobCancelled: HTTPStatus.CONFLICT,
+    errors.JobFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.JobInterrupted: HTTPStatus.CONFLICT,
+    errors.ServiceStopping: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.JobTookTooLong: HTTPStatus.UNPROCESSABLE_ENTITY,
+    errors.TooManyJobs: HTTPStatus.TOO_MANY_REQUESTS,
+    errors.TooManyRequests: HTTPStatus.TOO_MANY_REQUESTS,
+    errors.ServiceBusy: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.NoRoomForBody: HTTPStatus.SERVICE_UNAVAILABLE,
+    errors.DeadlineExceeded: HTTPStatus.GATEWAY_TIMEOUT,
+    errors.WorkerCrashed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.WorkerOutOfMemory: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.CertificationFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+    errors.AuditFailed: HTTPStatus.INTERNAL_SERVER_ERROR,
+}
+"""A class not listed has the status of its nearest ancestor."""
+
+_MOST_ERRORS = 20
+_MOST_NAMES = 512
+"""Enough for the frames of the largest robot."""
+_LONGEST_FACT = 1000
+_MOST_TEXT = 2000
+_MOST_BYTES = 6000
+_LATER = "10"
+"""`Retry-After` if the duration is unknown, [s]."""
+
+logger = logging.getLogger("gelenk")
+
+
+class InvalidPayload(Exception):
+    """A body or query that does not match its model, already summarised: `errors()` of a large one is costly."""
+
+    def __init__(self, is_json: bool, places: list[dict[str, str]], count: int) -> None:
+        self.is_json, self.places, self.count = is_json, places, count
+        super().__init__(places[0]["detail"] if places else "the payload is invalid")
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (self.is_json, self.places, self.count)
+
+    @classmethod
+    def of(cls, error: ValidationError | RequestValidationError) -> "InvalidPayload":
+        """Summarise a validation error by its first few places."""
+        if isinstance(error, ValidationError):
+            found = error.errors(include_input=False, include_url=False)
+        else:
+            found = list(error.errors())
+        if found and found[0]["type"] == "json_invalid":
+            reason = str(found[0].get("ctx", {}).get("error", found[0]["msg"]))
+            return cls(False, [{"pointer": "#", "detail": f"the body is not JSON: {reason}"}], 1)
+        places = [{"pointer": _pointer(item["loc"]), "detail": _sentence(item["msg"])} for item in found[:_MOST_ERRORS]]
+        return cls(True, places, len(found))
+
+
+class UnsupportedMediaType(Exception):
+    """A body of a media type that the operation does not accept."""
+
+    def __init__(self, given: str, allowed: Sequence[str]) -> None:
+        self.given, self.allowed = given, tuple(allowed)
+        super().__init__(f"the content type is {errors.quoted(given)}; allowed: {', '.join(allowed)}")
+
+
+def problem(
+    request: Request, status: HTTPStatus, kind: str, detail: str, facts: Mapping[str, object] | None = None
+) -> Response:
+    """Return a problem as a response.
+
+    Args:
+        request: Request that it answers.
+        status: HTTP status.
+        kind: Words joined by `-`, the same for all problems of that kind.
+        detail: Sentence about this occurrence.
+        facts: Typed data of this kind of problem.
+    """
+    content: dict[str, Any] = {
+        "type": f"urn:gelenk:{kind}",
+        "title": kind.replace("-", " ").capitalize(),
+        "status": int(status),
+        "detail": _printable(detail[:_MOST_TEXT]),
+        "instance": request.url.path[:256],
+        "request_id": request.scope.get("request_id"),
+    }
+    for key, value in (facts or {}).items():
+        content.setdefault(key, _shortened(value))
+    return Response(orjson.dumps(content, default=str), int(status), media_type=MEDIA_TYPE)
+
+
+def status_of(error: type[errors.KinematicsError]) -> HTTPStatus:
+    """Return the status of an error class: its own or its nearest ancestor's."""
+    return next(STATUS[ancestor] for ancestor in error.__mro__ if ancestor in STATUS)
+
+
+def install(app: FastAPI) -> None:
+    """Answer every error of the application with a problem."""
+    for kind, handler in _HANDLERS:
+        app.add_exception_handler(kind, handler)
+
+
+def answer(request: Request, error: Exception) -> Response:
+    """Return the response to any error, without an application to look up its handler."""
+    return next(handler for kind, handler in _HANDLERS if isinstance(error, kind))(request, error)
+
+
+def _kinematics(request: Request, error: Exception) -> Response:
+    assert isinstance(error, errors.KinematicsError)  # noqa: S101 - it is registered for this class
+    facts = error.facts()
+    if (pointer := _place(error)) is not None:
+        facts["pointer"] = pointer
+    response = problem(request, status_of(type(error)), errors.kind_of(type(error)), error.detail, facts)
+    if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy | errors.NoRoomForBody):
+        response.headers["Retry-After"] = str(error.retry_after)
+        if not isinstance(error, errors.TooManyJobs):
+            # The connection is read again after that time: see `connections`.
+            request.scope.setdefault("state", {})["retry_after"] = error.retry_after
+    elif response.status_code == HTTPStatus.SERVICE_UNAVAILABLE:
+        response.headers["Retry-After"] = _LATER
+    return response
+
+
+def _payload(request: Request, error: Exception) -> Response:
+    assert isinstance(error, InvalidPayload)  # noqa: S101
+    if not error.is_json:
+        return problem(request, HTTPStatus.BAD_REQUEST, "malformed-json", str(error))
+    first = f"{error.places[0]['pointer']}: {error.places[0]['detail']}" if error.places else str(error)
+    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
+    facts = {"errors": error.places}
+    return problem(request, HTTPStatus.UNPROCESSABLE_ENTITY, "invalid-payload", first + more, facts)
+
+
+def _validation(request: Request, error: Exception) -> Response:
+    assert isinstance(error, ValidationError | RequestValidationError)  # noqa: S101
+    return _payload(request, InvalidPayload.of(error))
+
+
+def _media_type(request: Request, error: Exception) -> Response:
+    assert isinstance(error, UnsupportedMediaType)  # noqa: S101
+    status = HTTPStatus.UNSUPPORTED_MEDIA_TYPE
+    return problem(request, status, "unsupported-media-type", str(error), {"allowed": error.allowed})
+
+
+def _http(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)  # noqa: S101
+    status = HTTPStatus(error.status_code)
+    details = {
+        HTTPStatus.NOT_FOUND: "there is nothing at this path; /docs lists all paths",
+        HTTPStatus.METHOD_NOT_ALLOWED: f"{request.method} is not allowed here",
+    }
+    detail = details.get(status, str(error.detail))
+    kind = status.phrase.lower().replace(" ", "-").replace("'", "")
+    response = problem(request, status, kind, detail)
+    response.headers.update(error.headers or {})
+    if status == HTTPStatus.METHOD_NOT_ALLOWED:
+        response.headers["Allow"] = ", ".join(_allowed_methods(request))
+    return response
+
+
+def _allowed_methods(request: Request) -> list[str]:
+    """Return the methods that the OpenAPI document has for a path; a single route knows only its own."""
+    path = request.url.path.removeprefix(request.app.root_path)
+    allowed: set[str] = set()
+    for template, operations in request.app.openapi()["paths"].items():
+        if compile_path(template)[0].fullmatch(path):
+            allowed |= {method.upper() for method in operations}
+    return sorted(allowed | ({"HEAD"} if "GET" in allowed else set()))
+
+
+def _unexpected(request: Request, error: Exception) -> Response:
+    logger.error("unexpected error at %s %s", request.method, errors.quoted(request.url.path), exc_info=error)
+    detail = "something went wrong in the service; see its log"
+    return problem(request, HTTPStatus.INTERNAL_SERVER_ERROR, "internal-error", detail)
+
+
+def _sentence(message: str) -> str:
+    return str(message).removeprefix("Value error, ")[:_MOST_TEXT]
+
+
+def _place(error: errors.KinematicsError) -> str | None:
+    """Return the place in the payload where the core found an error, if known."""
+    match error:
+        case errors.InvalidField(field=field):
+            return _of_field(field)
+        case errors.UnknownFrame(field=str(field)):
+            return _of_field(field)
+        case errors.InvalidUrdf():
+            return "#/urdf"
+        case errors.InvalidDhTable(joint=None):
+            return "#/dh"
+        case errors.InvalidPose(field=("base" | "tool") as place, index=None):
+            return f"#/dh/{place}"
+        case errors.InvalidDhTable(joint=joint, parameter=parameter):
+            return f"#/dh/joints/{joint}" + (f"/{parameter}" if parameter else "")
+    index, field = getattr(error, "index", None), getattr(error, "field", "joint_positions")
+    if field is None or not hasattr(error, "index"):
+        return None
+    return _of_field(field) if index is None else f"{_of_field(field)}/{index}"
+
+
+def _of_field(field: str) -> str:
+    """`segments.1.via` → `#/segments/1/via`."""
+    return "#/" + field.replace(".", "/")
+
+
+def _pointer(location: Sequence[int | str]) -> str:
+    """Return a JSON pointer into the payload, without the tags of unions."""
+    parts = [str(part) for part in location if not str(part).startswith("<")]
+    if parts[:1] == ["body"]:
+        parts = parts[1:]
+    escaped = [part.replace("~", "~0").replace("/", "~1")[:80] for part in parts]
+    return "#/" + "/".join(escaped) if escaped else "#"
+
+
+def _printable(text: str) -> str:
+    return text if text.isprintable() else "".join(c if c.isprintable() else "�" for c in text)
+
+
+def _shortened(value: Any) -> Any:
+    """Return facts of bounded size: long lists and texts are cut."""
+    if isinstance(value, str):
+        return _printable(value[:_LONGEST_FACT])
+    if isinstance(value, list | tuple):
+        items = [_shortened(item) for item in value[:_MOST_NAMES]]
+        while len(orjson.dumps(items)) > _MOST_BYTES:
+            items = items[: len(items) // 2]
+        return items
+    if isinstance(value, dict):
+        return {key: _shortened(item) for key, item in value.items()}
+    return value
+
+
+def _left(_: Request, error: Exception) -> Response:
+    assert isinstance(error, ClientDisconnect)  # noqa: S101
+    return Response(status_code=499)  # no client waits for it
+
+
+_HANDLERS: tuple[tuple[type[Exception], Callable[[Request, Exception], Response]], ...] = (
+    (errors.KinematicsError, _kinematics),
+    (InvalidPayload, _payload),
+    (ValidationError, _validation),
+    (RequestValidationError, _validation),
+    (UnsupportedMediaType, _media_type),
+    (HTTPException, _http),
+    (ClientDisconnect, _left),
+    (Exception, _unexpected),
+)

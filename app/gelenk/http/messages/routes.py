@@ -1,0 +1,116 @@
+"""Routes that FastAPI documents but that run without its overhead.
+
+FastAPI writes the OpenAPI document from the signature of an endpoint. Running the endpoint through FastAPI as well
+would cost several times the kinematics: its middleware, resolving dependencies, validating the response against its
+model (the tests do that instead). So a `DocumentedRoute` keeps the documentation and runs a handler; and `Application`
+finds operations on a robot, which are called thousands of times a second, before anything else.
+"""
+
+import asyncio
+import re
+from collections.abc import Awaitable, Callable
+from concurrent.futures import Executor
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.routing import APIRoute
+from starlette.requests import ClientDisconnect
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from gelenk.http.messages import problems
+from gelenk.http.messages.bodies import Bodies
+from gelenk.http.messages.openapi import (
+    BY_THE_CREW,
+    problem_responses,
+)
+from gelenk.http.messages.payloads import (
+    BoundedRequest,
+)
+
+_OPERATION = re.compile(r"/v1/robots/(?P<robot>[^/]+)/(?P<operation>[a-z]+)")
+
+Handler = Callable[[BoundedRequest], Awaitable[Response]]
+
+
+class DocumentedRoute(APIRoute):
+    """A route that FastAPI describes and `handler` answers."""
+
+    def __init__(
+        self, path: str, endpoint: Callable[..., Any], handler: Handler, max_body_bytes: int, **documentation: Any
+    ) -> None:
+        documentation["responses"] = documentation.get("responses", {}) | problem_responses(*BY_THE_CREW)
+        super().__init__(path, endpoint, **documentation)
+        self._handler = handler
+        self._max_body_bytes = max_body_bytes
+
+    async def handle(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request for this path; FastAPI refuses other methods than the route's."""
+        if scope["method"] not in (self.methods or ()):
+            await super().handle(scope, receive, send)
+            return
+        bodies: Bodies = scope["app"].bodies
+        try:
+            with BoundedRequest(scope, receive, send, self._max_body_bytes, bodies) as request:
+                response = await self._handler(request)
+        except ClientDisconnect:
+            return
+        await response(scope, receive, send)
+
+
+class Application(FastAPI):
+    """FastAPI, with the operations on a robot dispatched first.
+
+    `operations` are the handlers of POST /v1/robots/{robot}/{operation}. Any other request, also a wrong method or an
+    unknown operation, goes through FastAPI, and so do all requests if they are traced (`is_traced`). Requests arrive
+    at `entry`, which leads to `answer`.
+    """
+
+    def __init__(self, max_body_bytes: int, bodies: Bodies, is_traced: bool = False, **description: Any) -> None:
+        super().__init__(**description)
+        self._max_body_bytes, self._is_traced = max_body_bytes, is_traced
+        self.bodies = bodies
+        self.operations: dict[str, Handler] = {}
+        self.entry: ASGIApp = self.answer
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request or the lifespan events."""
+        if self.root_path and scope["type"] == "http":
+            scope = prefixed(scope, self.root_path)
+        await self.entry(scope, receive, send)
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request that has passed the checks; HEAD is GET without the body."""
+        if self.root_path and scope.get("path") == self.root_path:  # links are relative to the folder
+            await RedirectResponse(f"{self.root_path}/")(scope, receive, send)
+            return
+        if scope["type"] == "http" and scope["method"] == "HEAD":
+            scope = {**scope, "method": "GET"}
+        if scope["type"] == "http" and scope["method"] == "POST" and not self._is_traced:
+            scope["root_path"] = self.root_path
+            match = _OPERATION.fullmatch(scope["path"].removeprefix(self.root_path))
+            handler = self.operations.get(match["operation"]) if match else None
+            if match and handler:
+                scope["path_params"] = {"robot": match["robot"]}
+                try:
+                    with BoundedRequest(scope, receive, send, self._max_body_bytes, self.bodies) as request:
+                        response = await handler(request)
+                except ClientDisconnect:
+                    return
+                except Exception as error:
+                    response = problems.answer(request, error)
+                await response(scope, receive, send)
+                return
+        await super().__call__(scope, receive, send)
+
+
+def prefixed(scope: Scope, root_path: str) -> Scope:
+    """Return a request with the path prefix, which a proxy may have removed: mounted files are found by it."""
+    path: str = scope["path"]
+    has_it = path == root_path or path.startswith(f"{root_path}/")
+    return scope if has_it else {**scope, "path": root_path + path}
+
+
+async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:
+    """Run work in a thread, so that it does not block the event loop."""
+    return await asyncio.get_running_loop().run_in_executor(executor, work)

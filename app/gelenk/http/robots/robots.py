@@ -1,0 +1,379 @@
+"""Endpoints that list, describe, add, replace and remove robots, and return their URDF and meshes."""
+
+import asyncio
+import time
+from dataclasses import dataclass, replace
+from io import BytesIO
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Request, Response
+from starlette.datastructures import UploadFile
+
+from gelenk.contract.common import ChainEnds
+from gelenk.contract.dh import DhTablePayload, table_content
+from gelenk.contract.pose import Pose
+from gelenk.contract.robots import (
+    EXAMPLE_DH,
+    ArchiveReplacement,
+    JointInfo,
+    LimitsInfo,
+    MeshInfo,
+    MimicInfo,
+    NewArchive,
+    NewRobot,
+    RobotInfo,
+    RobotList,
+    RobotReplacement,
+)
+from gelenk.errors import InvalidArchive
+from gelenk.http.messages.openapi import (
+    BY_THE_CREW,
+    RobotPath,
+    UploadedRobotPath,
+    json_example,
+    problem_responses,
+    without_null,
+)
+from gelenk.http.messages.payloads import JSON, BoundedRequest, json_response, read_json
+from gelenk.http.messages.problems import UnsupportedMediaType
+from gelenk.http.messages.routes import DocumentedRoute
+from gelenk.http.robots.meshes import MEDIA_TYPES, SANDBOXED, mesh_response
+from gelenk.http.robots.skeleton import skeleton_of
+from gelenk.http.workers.context import Context
+from gelenk.http.workers.pool_client import PoolClient
+from gelenk.http.workers.task import TaskRequest, buffers
+from gelenk.robot.chain import Chain
+from gelenk.robot.description import Joint
+from gelenk.store.archive import unpacked
+from gelenk.store.folders import writing
+from gelenk.store.library import Library, RobotUpload
+from gelenk.store.records import LoadedRobot
+
+MULTIPART = "multipart/form-data"
+WITHOUT_KEY = "clients without a key"
+"""Owner of uploads without a key: addresses change, and where no key is needed all clients share one machine."""
+_PIECE = 256 * 1024
+_LIST_SECONDS = 5.0
+"""How long the list of robots is cached if nothing shows that it has changed, [s]."""
+
+
+def robots_router(library: Library, pool_client: PoolClient) -> APIRouter:
+    """Return the router of operations that read or remove robots; workers read the untrusted descriptions."""
+    router = APIRouter(prefix="/v1/robots", tags=["Robots"])
+    listed = Listed(library, pool_client)
+
+    @router.get(
+        "",
+        operation_id="list_robots",
+        summary="All robots",
+        response_model=RobotList,
+        responses=problem_responses(*BY_THE_CREW),
+    )
+    async def list_robots(request: Request) -> Any:
+        """Lists the catalogue's robots, then the uploaded ones, each part sorted by name."""
+        return await listed.answer(request)
+
+    @router.get(
+        "/{robot}",
+        operation_id="get_robot",
+        summary="A robot",
+        response_model=RobotInfo,
+        responses=problem_responses(404, 422, *BY_THE_CREW),
+    )
+    async def get_robot(robot: RobotPath, request: Request) -> Any:
+        """Joints, links, frames, chains, licence, and warnings about the description."""
+        return await pool_client.answer(request, _described, TaskRequest(robot=robot))
+
+    @router.get(
+        "/{robot}/urdf",
+        operation_id="get_robot_urdf",
+        summary="A robot's URDF",
+        response_class=Response,
+        responses={
+            200: {"content": {"application/xml": {}}, "description": "The URDF"},
+            **problem_responses(404, 422, *BY_THE_CREW),
+        },
+    )
+    async def get_urdf(robot: RobotPath, request: Request) -> Response:
+        """The description as uploaded, or as generated from the DH table."""
+        return await pool_client.answer(request, _urdf, TaskRequest(robot=robot))
+
+    @router.get(
+        "/{robot}/meshes/{path:path}",
+        operation_id="get_robot_mesh",
+        summary="A mesh file of a robot",
+        response_class=Response,
+        responses={
+            200: {"content": {kind: {} for kind in MEDIA_TYPES.values()}, "description": "The file"},
+            **problem_responses(404, 422, *BY_THE_CREW),
+        },
+    )
+    async def get_mesh(
+        request: Request,
+        robot: RobotPath,
+        path: Annotated[
+            str,
+            Path(
+                description="Path as listed in the robot's `meshes`.",
+                openapi_examples={
+                    "link0": {"value": "example-robot-data/robots/panda_description/meshes/visual/link0.dae"}
+                },
+            ),
+        ],
+    ) -> Response:
+        """The file exactly as uploaded; the server does not inspect it.
+
+        A file that is stored compressed is sent compressed to clients whose `Accept-Encoding` names `gzip`.
+        """
+        await pool_client.resident(request, robot)
+        accepted = ",".join(request.headers.getlist("Accept-Encoding"))
+        return await asyncio.to_thread(lambda: mesh_response(library.mesh(robot, path), path, accepted))
+
+    @router.delete(
+        "/{robot}",
+        operation_id="remove_robot",
+        summary="Remove an uploaded robot",
+        status_code=204,
+        responses=problem_responses(403, 404, 503, 507),
+    )
+    def remove_robot(robot: UploadedRobotPath) -> Response:
+        """Removes the robot for every worker at once. The catalogue's robots are read-only."""
+        library.remove(robot)
+        return Response(status_code=204)
+
+    return router
+
+
+class Listed:
+    """The list of all robots, cached until any process adds, replaces or removes a robot.
+
+    Manual changes in a robot's folder show once the cached list expires.
+
+    Args:
+        library: All robots.
+        pool_client: Has a worker build the list.
+    """
+
+    def __init__(self, library: Library, pool_client: PoolClient) -> None:
+        self._library, self._pool_client = library, pool_client
+        self._kept: tuple[int, float, bytes] | None = None
+
+    async def answer(self, request: Request) -> Response:
+        """Return the list; raises as `PoolClient.answer` does."""
+        state, now = self._library.state(), time.monotonic()
+        if self._kept is not None and state == self._kept[0] and now < self._kept[1] + _LIST_SECONDS:
+            return Response(self._kept[2], media_type=JSON)
+        content = await self._pool_client.content(request, _listed, TaskRequest())
+        self._kept = None if state is None else (state, now, content)
+        return Response(content, media_type=JSON)
+
+
+def upload_routes(pool_client: PoolClient, max_body_bytes: int) -> list[DocumentedRoute]:
+    """Return the routes that add and replace robots: as JSON, or as a zip in a form."""
+
+    async def add(request: BoundedRequest) -> Response:
+        return await _receive(request, pool_client, None)
+
+    async def replace(request: BoundedRequest) -> Response:
+        return await _receive(request, pool_client, request.path_params["robot"])
+
+    def add_robot(robot: NewRobot) -> RobotInfo:
+        """Adds a URDF (xacro expanded), a DH table, or, as a form, a zip of one URDF and its meshes.
+
+        The answer is sent once the robot is safely on disk; every worker sees it at once. Adding the same robot under
+        the same name again returns 200, a different one 409; a default chain with an unknown frame returns 404.
+        Harmless oddities are accepted and listed in `warnings`.
+        """
+        raise NotImplementedError
+
+    def replace_robot(robot: UploadedRobotPath, content: RobotReplacement) -> RobotInfo:
+        """Replaces an uploaded robot atomically: requests see either the old one or the new one."""
+        raise NotImplementedError
+
+    return [
+        DocumentedRoute(
+            "/v1/robots",
+            add_robot,
+            add,
+            max_body_bytes,
+            methods=["POST"],
+            operation_id="add_robot",
+            summary="Add a robot",
+            tags=["Robots"],
+            status_code=201,
+            responses={
+                200: {"model": RobotInfo, "description": "It was there"},
+                **problem_responses(400, 404, 409, 413, 415, 422, 503, 507),
+            },
+            openapi_extra={"requestBody": {"content": {**json_example(EXAMPLE_DH), **_form(NewArchive)}}},
+        ),
+        DocumentedRoute(
+            "/v1/robots/{robot}",
+            replace_robot,
+            replace,
+            max_body_bytes,
+            methods=["PUT"],
+            operation_id="replace_robot",
+            summary="Replace an uploaded robot",
+            tags=["Robots"],
+            responses=problem_responses(400, 403, 404, 413, 415, 422, 503, 507),
+            openapi_extra={
+                "requestBody": {
+                    "content": {
+                        **json_example({key: EXAMPLE_DH[key] for key in ("description", "dh")}),
+                        **_form(ArchiveReplacement),
+                    }
+                }
+            },
+        ),
+    ]
+
+
+async def _receive(request: BoundedRequest, pool_client: PoolClient, name: str | None) -> Response:
+    """Accept an upload in either form; a worker checks and stores it."""
+    root_path, given = request.scope.get("root_path", ""), request.media_type
+    key = request.scope.get("gelenk.key")
+    owner = WITHOUT_KEY if key is None else f"key {key}"
+    if given == JSON:
+        task_request = TaskRequest(buffers(await request.pieces()))
+        return await pool_client.answer(request, Keep(name, root_path, owner), task_request)
+    if given != MULTIPART:
+        raise UnsupportedMediaType(given, (JSON, MULTIPART))
+    with writing():
+        form = await request.form(max_files=1, max_fields=8, max_part_size=64 * 1024)
+    try:
+        archive = form.get("archive")
+        fields = {key: value for key, value in form.multi_items() if key != "archive"}
+        text = (NewArchive if name is None else ArchiveReplacement).model_validate(fields)
+        if not isinstance(archive, UploadFile):
+            raise InvalidArchive("the form must have a file in the field `archive`")
+        pieces = await asyncio.to_thread(lambda: list(iter(lambda: archive.file.read(_PIECE), b"")))
+    finally:
+        await form.close()
+    return await pool_client.answer(request, Keep(name, root_path, owner, text), TaskRequest(buffers(pieces)))
+
+
+@dataclass(frozen=True, slots=True)
+class Keep:
+    """Checks and stores an upload; replaces the robot `name` if that is given.
+
+    Attributes:
+        name: Robot to replace; None adds one.
+        root_path: Path prefix of its address.
+        owner: Owner of the robot.
+        form: Fields that come with an archive; None if the body is JSON.
+    """
+
+    name: str | None
+    root_path: str
+    owner: str
+    form: ArchiveReplacement | None = None
+
+    def __call__(self, context: Context, task_request: TaskRequest) -> Response:
+        """Store the robot, and return it as it is now."""
+        if self.form is None:
+            return self._kept(context.library, replace(_from_json(task_request.body, self.name), owner=self.owner))
+        with unpacked(BytesIO(task_request.body), root=context.library.uploads) as content:
+            upload = RobotUpload(
+                name=self.form.name if isinstance(self.form, NewArchive) else self.name or "",
+                format="urdf",
+                model=content.urdf,
+                description=self.form.description,
+                default_chain=self.form.ends(),
+                meshes=content.meshes,
+                urdf_folder=content.urdf_folder,
+                strict=self.form.strict,
+                owner=self.owner,
+            )
+            return self._kept(context.library, upload)
+
+    def _kept(self, library: Library, upload: RobotUpload) -> Response:
+        if self.name is not None:
+            library.replace(upload)
+            return json_response(info(library.get(upload.name)).model_dump(mode="json"))
+        created = library.add(upload)
+        location = {"Location": f"{self.root_path}/v1/robots/{upload.name}"}
+        return json_response(info(library.get(upload.name)).model_dump(mode="json"), 201 if created else 200, location)
+
+
+def _from_json(body: bytes, name: str | None) -> RobotUpload:
+    robot = read_json(NewRobot if name is None else RobotReplacement, body)
+    name = robot.name if isinstance(robot, NewRobot) else name or ""
+    if robot.dh is not None:
+        model = robot.dh.model_dump_json(exclude_none=True, indent=2).encode() + b"\n"
+        return RobotUpload(name, "dh", model, robot.description, robot.default_chain)
+    urdf = (robot.urdf or "").encode("utf-8", "surrogatepass")
+    return RobotUpload(name, "urdf", urdf, robot.description, robot.default_chain, strict=robot.strict)
+
+
+def _listed(context: Context, _: TaskRequest) -> Response:
+    return Response(b'{"robots":[%b]}' % b",".join(context.library.summaries()), media_type=JSON)
+
+
+def _described(context: Context, task_request: TaskRequest) -> Response:
+    return json_response(info(context.library.get(task_request.robot)).model_dump(mode="json"))
+
+
+def _urdf(context: Context, task_request: TaskRequest) -> Response:
+    return Response(context.library.get(task_request.robot).urdf, media_type="application/xml", headers=SANDBOXED)
+
+
+def info(loaded: LoadedRobot) -> RobotInfo:
+    """Return everything about a robot except its poses."""
+    record, robot = loaded.record, loaded.robot
+    description = robot.description
+    chain: Chain = robot.chain(None, None)
+    return RobotInfo(
+        name=record.name,
+        description=record.file.description,
+        source=record.source,
+        format=record.file.format,
+        default_chain=ChainEnds(base_frame=chain.base_frame, tip_frame=chain.tip_frame),
+        chains=record.file.chains,
+        root=description.root,
+        joints=[_joint(joint) for joint in description.joints],
+        joint_names=list(chain.joint_names),
+        dh=None if loaded.table is None else DhTablePayload.model_validate(table_content(loaded.table)),
+        degrees_of_freedom=len(description.movable),
+        links=list(description.frames),
+        frames=list(description.frames),
+        leaf_tips=list(description.leaves),
+        meshes=[MeshInfo(reference=reference, path=path) for reference, path in loaded.meshes.items()],
+        skeleton=skeleton_of(loaded),
+        licence=record.file.licence,
+        provenance=record.file.source,
+        warnings=list(loaded.warnings),
+    )
+
+
+def _joint(joint: Joint) -> JointInfo:
+    mimic = joint.mimic
+    return JointInfo(
+        name=joint.name,
+        type=joint.type,
+        parent=joint.parent,
+        child=joint.child,
+        origin=Pose(position=list(joint.origin.xyz), rpy=list(joint.origin.rpy)),
+        axis=None if joint.type in {"fixed", "floating"} else list(joint.axis),
+        limits=LimitsInfo(
+            lower=joint.limits.lower,
+            upper=joint.limits.upper,
+            velocity=joint.limits.velocity,
+            effort=joint.limits.effort,
+        ),
+        mimic=MimicInfo(joint=mimic.joint, multiplier=mimic.multiplier, offset=mimic.offset) if mimic else None,
+    )
+
+
+def _form(fields: type[ArchiveReplacement]) -> dict[str, Any]:
+    """Return a form with these fields and an archive, as a further media type of a request."""
+    schema = fields.model_json_schema()
+    for field in schema["properties"].values():
+        without_null(field)
+    schema["properties"]["archive"] = {
+        "type": "string",
+        "format": "binary",
+        "description": "Zip of one URDF and its meshes.",
+    }
+    schema["required"] = [*schema.get("required", []), "archive"]
+    return {MULTIPART: {"schema": schema}}

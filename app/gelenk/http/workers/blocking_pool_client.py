@@ -1,0 +1,67 @@
+"""Access to the worker pool for code outside coroutines: a thread waits while a worker runs part of its request."""
+
+import asyncio
+import threading
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from typing import Any, TypeVar
+
+from gelenk.errors import DeadlineExceeded, WorkerCrashed, WorkerOutOfMemory
+from gelenk.pool.pool import WorkerPool
+
+_Argument = TypeVar("_Argument")
+_Result = TypeVar("_Result")
+
+
+class BlockingPoolClient:
+    """Runs functions in the worker pool for one request; create it and end it on the event loop.
+
+    Args:
+        pool: Worker pool that runs them.
+        client: Client that sent the request.
+    """
+
+    def __init__(self, pool: WorkerPool, client: str = "") -> None:
+        self._crew, self._client, self._loop = pool, client, asyncio.get_running_loop()
+        self._lock = threading.Lock()
+        self._under_way: Future[Any] | None = None
+        self._is_over = False
+
+    def run(self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float) -> _Result:
+        """Run a function in a worker and return its result. Call it from one thread at a time, not the event loop's.
+
+        Args:
+            function: Function of a module, with an argument and a result that can be sent to another process.
+            argument: Argument of the function.
+            seconds: Longest wait for a worker and the result together, [s].
+
+        Raises:
+            TimeoutError: The result takes longer.
+            ChildProcessError: The worker died, or the result is no longer needed.
+            KinematicsError: The pool accepts no more calls, as for `WorkerPool.run`.
+            Exception: Whatever the function raises.
+        """
+
+        async def call() -> _Result:
+            work = self._crew.run(function, argument, seconds, self._client)
+            return await asyncio.wait_for(work, max(0.0, seconds))
+
+        with self._lock:
+            if self._is_over:
+                raise ChildProcessError("the client no longer waits")
+            self._under_way = under_way = asyncio.run_coroutine_threadsafe(call(), self._loop)
+        try:
+            return under_way.result()
+        except DeadlineExceeded as error:
+            raise TimeoutError("no result within the time allowed") from error
+        except (WorkerCrashed, WorkerOutOfMemory) as error:
+            raise ChildProcessError(error.detail) from error
+        except CancelledError as error:
+            raise ChildProcessError("the client no longer waits") from error
+
+    def end(self) -> None:
+        """Cancel the current call, and refuse later ones."""
+        with self._lock:
+            self._is_over = True
+            if self._under_way is not None:
+                self._under_way.cancel()

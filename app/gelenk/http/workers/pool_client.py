@@ -1,0 +1,154 @@
+"""Sends requests to the worker pool, with a deadline and for as long as the client waits for the response."""
+
+import asyncio
+from collections import Counter
+from collections.abc import Coroutine
+from typing import Any, TypeVar
+
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import Response
+from starlette.types import Receive, Scope, Send
+
+from gelenk.errors import ServiceStopping, TooManyRequests
+from gelenk.http.workers.context import Context, ContextSetup
+from gelenk.http.workers.task import Reply, TaskRequest, WorkerTask, answered
+from gelenk.operations.request_counts import REQUEST_COUNTS
+from gelenk.pool.pool import WorkerPool
+from gelenk.store.library import Library
+from gelenk.store.records import LoadedRobot
+
+INLINE_BYTES = 4096
+"""Larger bodies are parsed by the pool: the event loop does nothing that takes longer than about 2 ms.
+
+So it compiles nothing either: while the pool is starting, every request goes to the pool.
+"""
+
+PARSED_HERE_BYTES = 512 * 1024
+"""Size of the largest body that a thread of this process parses: parsing holds up the event loop."""
+
+_OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
+
+_Result = TypeVar("_Result")
+
+
+class PoolClient:
+    """Sends requests to the worker pool and returns the responses.
+
+    Args:
+        pool: Worker pool.
+        setup: Settings for the contexts of the workers.
+        library: Robots of this process.
+        seconds: Longest wait of a request for its turn, and longest time that it may then take, [s].
+        share: Maximum number of requests of one client that wait or run.
+    """
+
+    def __init__(self, pool: WorkerPool, setup: ContextSetup, library: Library, seconds: float, share: int) -> None:
+        self.pool, self._setup, self._library, self._seconds = pool, setup, library, seconds
+        self._share = share
+        self._requests: Counter[str] = Counter()
+
+    async def answer(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Response:
+        """Run a task in a worker and return its response.
+
+        Raises:
+            ClientDisconnect: The client has left; the task is cancelled.
+            KinematicsError: As for `WorkerPool.run`, and whatever the task raises.
+        """
+        reply = await self._reply(request, task, task_request)
+        REQUEST_COUNTS.set(reply[3])
+        return Passed(reply)
+
+    async def content(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
+        """Run a task in a worker and return the body of its response; raises as `answer` does."""
+        return b"".join((await self._reply(request, task, task_request))[2])
+
+    async def resident(self, request: Request, name: str) -> LoadedRobot:
+        """Load a robot into this process, for quick calls; a worker loads an uploaded one first, in case that crashes.
+
+        Raises:
+            KinematicsError: As for `answer`, and as for `Library.get`.
+        """
+        found = self._library.loaded(name)
+        if found is not None:
+            return found
+        if not self._library.is_ours(name):
+            await self._reply(request, load, TaskRequest(robot=name))
+        return await asyncio.to_thread(self._library.get, name)
+
+    async def _reply(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> Reply:
+        client = client_of(request)
+        if client and self._requests[client] >= self._share:
+            raise TooManyRequests(self._share, self.pool.retry_after)
+        self.pool.check_room(client)
+        work = self.pool.run(answered, (self._setup, task, task_request), self._seconds, client)
+        self._requests[client] += 1
+        try:
+            return await while_wanted(request.receive, work)
+        finally:
+            self._requests[client] -= 1
+            if not self._requests[client]:
+                del self._requests[client]
+
+
+def client_of(request: Request) -> str:
+    """Return the client of a request: its key, else its address.
+
+    All requests without a key from this machine count as one nameless client without a share of its own, because a
+    proxy in front of the service may forward requests of others.
+    """
+    key: str | None = request.scope.get("gelenk.key")
+    if key is not None:
+        return f"key {key}"
+    address = request.client.host if request.client else ""
+    return "" if address in _OWN_ADDRESSES else address
+
+
+def load(context: Context, task_request: TaskRequest) -> Response:
+    """Load a robot, to check that it can be loaded."""
+    context.library.get(task_request.robot)
+    return Response()
+
+
+async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
+    """Return the result of some work, which is cancelled if the client leaves.
+
+    Raises:
+        ClientDisconnect: The client has left.
+        ServiceStopping: The server has cancelled the work because it can delay its shutdown no longer.
+        Exception: Whatever the work raises.
+    """
+    doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
+    try:
+        await asyncio.wait({doing, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if doing.done():
+            return doing.result()
+        raise ClientDisconnect
+    except asyncio.CancelledError:
+        raise ServiceStopping from None
+    finally:
+        doing.cancel()
+        leaving.cancel()
+
+
+async def _left(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
+class Passed(Response):
+    """A response from the pool, sent piece by piece as fast as the client reads; other requests run in between."""
+
+    def __init__(self, reply: Reply) -> None:
+        self.status_code, self.raw_headers, pieces, _ = reply
+        self.body, self.background = b"", None
+        self._pieces = [memoryview(piece) for piece in pieces] or [memoryview(b"")]
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:  # noqa: ARG002
+        """Send the response."""
+        await send({"type": "http.response.start", "status": self.status_code, "headers": self.raw_headers})
+        pieces = self._pieces[::-1]
+        self._pieces.clear()
+        while pieces:
+            await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})
+            if pieces:  # sending does not wait as long as the system accepts data
+                await asyncio.sleep(0)

@@ -1,0 +1,743 @@
+"""Recognition of arms with a closed form by the lines of their joints, and the names of the branches.
+
+The plan of an arm follows from which axes are parallel, intersect or slide. It is then tested: random configurations
+of the arm must be among the branches of their own poses, else the plan is dropped. So an arm that is recognised here
+is also solved, whatever its description says.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+
+from gelenk.ik.closed.branch_kernels import BranchTable, branches, elbow_angles
+from gelenk.ik.closed.elimination import left_sides
+from gelenk.ik.closed.subproblem_chains import (
+    ARM_ROOT,
+    COPLANAR,
+    DECOUPLED,
+    ELBOW,
+    FIRST_ROOT,
+    GENERAL,
+    LAST_ROOT,
+    MOST,
+    OBLIQUE,
+    PARALLEL,
+    RAILS,
+    ROOT_NUMBER,
+    SECOND_ROOT,
+    SKEW,
+    SQUARE,
+    SubproblemPlan,
+)
+from gelenk.ik.search.linearise import linearise
+from gelenk.ik.search.search import limits_of, make_goal, mid_range, target_rows
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses, inverse
+
+GENERAL_NAME = "six revolute joints, by elimination"
+_EXACTLY, _ROUNDED, _NEARLY = 1e-14, 1e-10, 1e-6
+"""Distance [m] at which lines intersect, and sine of the angle at which they are parallel: descriptions round π."""
+_CLEARLY = 1e-4
+"""Distance or sine above which they clearly do not."""
+_SINGULAR = 1e-6
+"""Smallest singular value below which rounding may cost a solution, [m, rad]."""
+_TESTS, _MUST_PASS = 48, 46
+"""Test configurations, and how many must be found again: a few may lie next to a singularity."""
+_NAMING = 64
+"""Number of random configurations used to name the roots."""
+_GENERAL_TESTS, _GENERAL_MUST_PASS = 500, 498
+_FOUND_AGAIN = 1e-6
+_LINES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedForm:
+    """The closed form of a chain.
+
+    Attributes:
+        name: The geometric property that allows it, in words.
+        chain: The chain.
+        task: The pose directions that count.
+        plan: How the chain is solved.
+        choices: Meaning of each root.
+        tolerance: Allowed deviation of the geometry from the plan: sine of an angle, or distance [m].
+    """
+
+    name: str
+    chain: Chain
+    task: Task
+    plan: SubproblemPlan
+    choices: tuple["Choice", ...] = ()
+    tolerance: float = 0.0
+
+    def solve(
+        self,
+        targets: Poses,
+        seeds: Array,
+        *,
+        tolerances: tuple[float, float] = (1e-9, 1e-9),
+        respect_limits: bool = True,
+        elbow_angles: Array | float | None = None,
+        most: int = MOST,
+    ) -> BranchTable:
+        """Compute the branches of each target, nearest to the seed first.
+
+        Args:
+            targets: Desired T_base_tip; N of them.
+            seeds: One configuration for all targets or one each; shape (1 or N, n), [rad or m].
+            tolerances: Of position [m] and orientation [rad].
+            respect_limits: Whether solutions must be within the joint limits.
+            elbow_angles: Angles of a free elbow, one for all targets or one each; by default the seeds', [rad].
+            most: Largest number of solutions of one target.
+        """
+        chain = self.chain
+        goal = make_goal(chain, self.task, *tolerances, respect_limits=False, max_iterations=1, random_seed=0)
+        angles = np.zeros(1) if elbow_angles is None else np.atleast_1d(np.asarray(elbow_angles, dtype=float))
+        if elbow_angles is None and self.has_free_elbow:
+            angles = self.elbow_angles(seeds)
+        rows = _in_reach_of(self, target_rows(targets))
+        limits = _limit_rows(chain, respect_limits)
+        return branches(chain.flat, self.plan, goal, limits, rows, np.ascontiguousarray(seeds), angles, most)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the geometry is what the plan assumes, up to rounding."""
+        return self.tolerance <= _EXACTLY
+
+    @property
+    def doubt(self) -> float:
+        """Smallest singular value [m, rad] below which the arm may have other solutions than those reported.
+
+        Where two solutions meet, a deviation ε of the geometry, or of rounding, moves the joints by √ε.
+        """
+        return max(_SINGULAR, 10.0 * float(np.sqrt(self.tolerance)))
+
+    @property
+    def method(self) -> str:
+        """Name of the method in answers: `elimination` or `analytic`."""
+        return "elimination" if self.plan.kind == GENERAL else "analytic"
+
+    @property
+    def has_double_roots(self) -> bool:
+        """Whether the form uses a quartic, whose double roots are accurate only to half the digits."""
+        return self.plan.form in {SKEW, OBLIQUE}
+
+    @property
+    def has_free_elbow(self) -> bool:
+        """Whether the arm has a seventh joint, so that its elbow can turn about the line from shoulder to wrist."""
+        return self.plan.kind == ELBOW
+
+    def elbow_angles(self, qs: Array) -> Array:
+        """Elbow angle about the line from shoulder to wrist, zero in the plane of that line and axis 1; (N,), [rad].
+
+        Args:
+            qs: Configurations of an arm with a free elbow; shape (N, 7), [rad].
+        """
+        return elbow_angles(self.chain.flat, self.plan, np.ascontiguousarray(qs))
+
+    @lru_cache(maxsize=64)  # noqa: B019
+    def branch(self, code: int) -> dict[str, str | int]:
+        """Return the names of the roots in a branch code, by choice."""
+        named: dict[str, str | int] = {}
+        for choice in self.choices:
+            if choice.bit:
+                bit = bool(code & choice.bit)
+                if choice.turned_by and code & choice.turned_by:
+                    bit = bit != choice.turns
+                named[choice.name] = choice.values[bit]
+            else:
+                named[choice.name] = (code >> ROOT_NUMBER) + 1
+        return named
+
+    def free_joints(self, mask: int) -> list[str]:
+        """Return the names of the joints that a bit mask marks as free."""
+        return [name for j, name in enumerate(self.chain.joint_names) if mask >> j & 1]
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """The meaning of a root in branch codes.
+
+    Attributes:
+        name: `shoulder`, `elbow` or `wrist`; `arm` if roots are numbered.
+        bit: Bit of the root in the code; 0 if roots are numbered.
+        values: Names of the root if the bit is 0, and if it is 1.
+        turned_by: Another bit that may swap the two names.
+        turns: Whether that bit swaps them.
+    """
+
+    name: str
+    bit: int
+    values: tuple[str, str] = ("", "")
+    turned_by: int = 0
+    turns: bool = False
+
+
+_VALUES = {"shoulder": ("front", "back"), "elbow": ("up", "down"), "wrist": ("no_flip", "flip")}
+
+
+def closed_form(chain: Chain, task: Task = FULL_POSE) -> ClosedForm | None:
+    """Return the closed form that gives all solutions of a task, or None if none is known."""
+    holder = _recognised(chain, task)
+    if not holder:
+        holder.append(_recognise(chain, task))
+    return holder[0]
+
+
+def is_looked_at(chain: Chain, task: Task = FULL_POSE) -> bool:
+    """Check whether the result of `closed_form` is cached; if not, it takes some hundredths of a second."""
+    return bool(_recognised(chain, task))
+
+
+def look_at(chain: Chain, task: Task, found: ClosedForm | None) -> None:
+    """Cache a result of `closed_form` from another process for the same chain."""
+    holder = _recognised(chain, task)
+    if not holder:
+        holder.append(None if found is None else replace(found, chain=chain))
+
+
+@lru_cache(maxsize=1024)
+def _recognised(chain: Chain, task: Task) -> list[ClosedForm | None]:  # noqa: ARG001
+    """Cache entry of a closed form; an empty list at first."""
+    return []
+
+
+def _recognise(chain: Chain, task: Task) -> ClosedForm | None:
+    if not _is_simple(chain) or not _is_independent(chain, task):
+        return None
+    for tolerance in (_EXACTLY, _ROUNDED, _NEARLY):
+        for name, plan in _plans(chain, tolerance):
+            form = ClosedForm(name, chain, task, plan)
+            if _fits(form) and _found_again(form, _TESTS) >= _MUST_PASS:
+                return ClosedForm(name, chain, task, plan, _choices(form), tolerance)
+    return None
+
+
+@lru_cache(maxsize=256)
+def elimination(chain: Chain) -> ClosedForm | None:
+    """Return the elimination that solves six revolute joints of any geometry; None if it fails on the chain."""
+    if not _is_simple(chain) or len(chain) != 6 or chain.flat.joints[:, 0].any():
+        return None
+    ahead = _screws(chain, _NEARLY)
+    forms = [ClosedForm(GENERAL_NAME, chain, FULL_POSE, _general_plan(screws)) for screws in (ahead, ahead.reversed())]
+    # If the geometry is special, one of the two is better, or neither works.
+    scores = [_found_again(form, _GENERAL_TESTS) for form in forms]
+    best = int(np.argmax(scores))
+    if scores[best] < _GENERAL_MUST_PASS:
+        return None
+    return ClosedForm(GENERAL_NAME, chain, FULL_POSE, forms[best].plan, (Choice("arm", 0),))
+
+
+def screws_of_six(chain: Chain) -> "JointScrews | None":
+    """Return the joint lines of a chain with six independent variables; None for other chains."""
+    if len(chain) != 6 or not _is_simple(chain) or not _is_independent(chain, FULL_POSE):
+        return None
+    return _screws(chain, _NEARLY)
+
+
+@lru_cache(maxsize=256)
+def _limit_rows(chain: Chain, respect_limits: bool) -> Array:
+    """Lower and upper limits of the variables, infinite if they do not count; shape (2, n), [rad or m]."""
+    return np.stack(limits_of(chain, respect_limits))
+
+
+def _is_simple(chain: Chain) -> bool:
+    """Check for 2 to 7 joints, each with its own variable and a drive ratio of ±1."""
+    flat = chain.flat
+    own = len(flat.joints) == len(chain) and (flat.joints[:, 1] == np.arange(len(chain))).all()
+    return bool(own) and 2 <= len(chain) <= 7 and bool((np.abs(flat.drives[:, 0]) == 1.0).all())
+
+
+def _is_independent(chain: Chain, task: Task) -> bool:
+    """Check that no joint can compensate another in the task, except by the elbow motion of seven joints."""
+    reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
+    qs = np.random.default_rng(1).uniform(-reach, reach, (5, len(chain)))
+    Js = linearise(chain, Poses(*chain_poses(chain.flat, qs)), qs, task)[1]
+    if len(task) < min(len(chain), 6):
+        return False
+    sizes = np.linalg.svd(Js, compute_uv=False)[:, min(len(chain), 6) - 1]
+    return bool(np.median(sizes) > 1e-9)
+
+
+@dataclass(frozen=True, slots=True)
+class JointScrews:
+    """The lines of the joints at the zero configuration, in solving order.
+
+    Attributes:
+        axes: Unit vectors; shape (n, 3).
+        points: A point on each line; shape (n, 3), [m].
+        slides: Which joints are prismatic; shape (n,).
+        tip: Origin of the tip at zero if solving starts at the base, else of the base; shape (3,), [m].
+        zero: T_0⁻¹, rotation row by row, then translation; shape (12,).
+        backwards: Whether solving starts at the tip.
+        tolerance: Distance [m] at which lines count as intersecting, and sine at which they count as parallel.
+    """
+
+    axes: Array
+    points: Array
+    slides: Flags
+    tip: Array
+    zero: Array
+    backwards: bool
+    tolerance: float
+
+    def reversed(self) -> "JointScrews":
+        """Return the same arm from its other end: M⁻¹ = E_n⁻¹ ⋯ E_1⁻¹."""
+        return JointScrews(
+            -self.axes[::-1],
+            self.points[::-1].copy(),
+            self.slides[::-1].copy(),
+            np.zeros(3),
+            self.zero,
+            True,
+            self.tolerance,
+        )
+
+
+def _screws(chain: Chain, tolerance: float) -> JointScrews:
+    T = np.eye(4)
+    axes, points = [], []
+    flat = chain.flat
+    for i, row in enumerate(flat.placements):
+        step = np.eye(4)
+        step[:3, :3], step[:3, 3] = row[:9].reshape(3, 3), row[9:]
+        T = T @ step
+        if i < len(flat.joints):
+            axes.append(T[:3, 2].copy())
+            points.append(T[:3, 3].copy())
+    zero = inverse(T)
+    return JointScrews(
+        np.array(axes),
+        np.array(points),
+        flat.joints[:, 0] == 1,
+        T[:3, 3].copy(),
+        np.append(zero[:3, :3], zero[:3, 3]),
+        False,
+        tolerance,
+    )
+
+
+def _plans(chain: Chain, tolerance: float) -> Iterator[tuple[str, SubproblemPlan]]:
+    """Yield names and plans by which an arm may be solved, the best first."""
+    ahead = _screws(chain, tolerance)
+    n = len(chain)
+    if n == 7:
+        yield from _elbow_plans(ahead)
+        return
+    candidates = []
+    for screws in (ahead, ahead.reversed()):
+        for last in (3, 2, 1, 0):
+            if n - last in {0, 2, 3}:
+                candidates += list(_decoupled_plans(screws, last))
+        if n == 6:
+            candidates += list(_parallel_plans(screws))
+    # Pairs of roots come before quartics; the sort is stable.
+    yield from sorted(candidates, key=lambda candidate: candidate[1].form in {SKEW, OBLIQUE})
+
+
+def _decoupled_plans(screws: JointScrews, last: int) -> Iterator[tuple[str, SubproblemPlan]]:
+    """Yield plans for joints that position the point in which the last axes intersect."""
+    n = len(screws.axes)
+    placed = n - last
+    if screws.slides[placed:].any():
+        return
+    centre = _meeting_point(screws, placed, n)
+    if centre is None or not _is_positioned(screws, placed, centre):
+        return
+    ends = ("base", "shoulder") if screws.backwards else ("tip", "wrist")
+    name = (
+        f"positioning arm of {placed} joints",
+        f"positioning arm of {placed} joints and a revolute joint at its {ends[0]}",
+        f"positioning arm of {placed} joints and two intersecting revolute axes",
+        f"spherical {ends[1]}",
+    )[last]
+    for order in {0: ((0, 1, 2),), 2: ((0, 1), (1, 0)), 3: ((0, 1, 2), (2, 1, 0))}[placed]:
+        elimination = _elimination(screws, order) if placed else (COPLANAR, np.zeros((_LINES, 3)))
+        if elimination is not None:
+            form, lines = elimination
+            lines[13] = centre
+            lines[6] = _square_to(screws.axes[-1])
+            yield name, _plan(screws, DECOUPLED, form, placed, order, lines)
+
+
+def _is_positioned(screws: JointScrews, placed: int, centre: Array) -> bool:
+    """Check that the first joints move a point in independent directions, so that its position determines them."""
+    step, rng = 1e-5, np.random.default_rng(2)
+    ranks = []
+    for _ in range(5):
+        q = rng.uniform(-1.0, 1.0, placed)
+        columns = [
+            (_carried(screws, q + step * unit, centre) - _carried(screws, q - step * unit, centre)) / (2.0 * step)
+            for unit in np.eye(placed)
+        ]
+        ranks.append(int(np.linalg.matrix_rank(np.array(columns), tol=1e-7)) if placed else 0)
+    return int(np.median(ranks)) == placed
+
+
+def _carried(screws: JointScrews, q: Array, point: Array) -> Array:
+    """Move a point by the first joints; shape (3,), [m]."""
+    for i in reversed(range(len(q))):
+        h, o = screws.axes[i], screws.points[i]
+        if screws.slides[i]:
+            point = point + q[i] * h
+        else:
+            arm = point - o
+            c, s = np.cos(q[i]), np.sin(q[i])
+            point = o + c * arm + (1.0 - c) * (h @ arm) * h + s * np.cross(h, arm)
+    return np.asarray(point)
+
+
+def _plan(screws: JointScrews, kind: int, form: int, placed: int, order: Sequence[int], lines: Array) -> SubproblemPlan:
+    reach = 10.0 * float(np.abs(screws.points).sum() + np.abs(screws.tip).sum() + np.abs(screws.zero[9:]).sum()) + 10.0
+    return SubproblemPlan(
+        kind,
+        int(screws.backwards),
+        form,
+        placed,
+        np.ascontiguousarray(screws.axes),
+        np.ascontiguousarray(screws.points),
+        screws.slides.astype(np.int64),
+        np.array([*order, 2][:3], dtype=np.int64),
+        lines,
+        screws.zero,
+        reach,
+        np.empty((0, 0)),
+    )
+
+
+def _meeting_point(screws: JointScrews, first: int, n: int) -> Array | None:
+    """Point in which axes `first` to n - 1 intersect, or None; tip's foot on a single axis, tip without axes; (3,)."""
+    axes, points = screws.axes[first:n], screws.points[first:n]
+    if len(axes) == 0:
+        return screws.tip
+    if len(axes) == 1:
+        return np.asarray(points[0] + axes[0] * (axes[0] @ (screws.tip - points[0])))
+    for a, b in pairwise(axes):
+        if np.linalg.norm(np.cross(a, b)) < _CLEARLY:
+            return None
+    squares = [np.eye(3) - np.outer(a, a) for a in axes]
+    centre = np.linalg.solve(sum(squares), sum(P @ p for P, p in zip(squares, points, strict=True)))
+    apart = max(float(np.linalg.norm(P @ (centre - p))) for P, p in zip(squares, points, strict=True))
+    return np.asarray(centre) if apart <= screws.tolerance else None
+
+
+def _elimination(screws: JointScrews, order: Sequence[int]) -> tuple[int, Array] | None:
+    """Return how to solve the positioning joints in an order of elimination, and the constants for it.
+
+    Rows of the constants: 0-2 axes and 3-5 points in that order, 8 components of the two β along axis 2, 9 and 10
+    directions perpendicular to it, 11 and 12 combinations of the two equations, 14 and 15 β (see `compositions`).
+    """
+    sign = 1.0 if order[0] < order[1] else -1.0
+    axes, points = sign * screws.axes[list(order)], screws.points[list(order)].copy()
+    slides = screws.slides[list(order)]
+    (h1, h2), lines = axes[:2], np.zeros((_LINES, 3))
+    if slides[1]:
+        points[1] = points[0]
+    elif not slides[0]:
+        points[0], points[1] = _feet(points[0], h1, points[1], h2, screws.tolerance)
+    lines[: len(order)], lines[3 : 3 + len(order)] = axes, points
+    if slides[0]:
+        across = np.cross(h1, h2)
+        across = across / np.linalg.norm(across) if np.linalg.norm(across) > screws.tolerance else _square_to(h1)
+        betas = np.array([across, np.cross(h1, across)])
+    else:
+        betas = np.array([h1, 2.0 * (points[1] - points[0])])
+    lines[8, :2] = betas @ h2
+    lines[14:16] = betas
+    if slides[1]:
+        if slides[0]:
+            return (RAILS, lines) if abs(betas[1] @ h2) > screws.tolerance else None
+        return (OBLIQUE if abs(h1 @ h2) > screws.tolerance else SQUARE), lines
+    x = _square_to(h2)
+    return _combination(lines, betas, x, np.cross(h2, x), screws.tolerance)
+
+
+def _combination(lines: Array, betas: Array, x: Array, y: Array, tolerance: float) -> tuple[int, Array] | None:
+    """Choose how to solve B u = b for a plane vector u of known length; the rows of B are β in the axes x, y."""
+    B = np.column_stack((betas @ x, betas @ y))
+    lengths = np.linalg.norm(B, axis=1)
+    if lengths.max() <= tolerance:
+        return None
+    apart = abs(np.linalg.det(B)) / lengths.max()
+    if tolerance < apart <= _CLEARLY and tolerance < _NEARLY:
+        return None
+    if apart > tolerance:
+        lines[9], lines[10] = x, y
+        lines[11:13, :2] = np.linalg.inv(B)
+        return SKEW, lines
+    strongest = int(np.argmax(lengths))
+    e = B[strongest] / lengths[strongest]
+    along = B @ e
+    lines[9], lines[10] = e[0] * x + e[1] * y, e[0] * y - e[1] * x
+    lines[11, :2] = np.array([-along[1], along[0]]) / np.linalg.norm(along)
+    lines[12, :2] = along / (along @ along)
+    return COPLANAR, lines
+
+
+def _parallel_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]:
+    """Yield the plan for six revolute joints whose axes 2, 3 and 4 are parallel."""
+    h = screws.axes[1]
+    if screws.slides.any() or np.linalg.norm(np.cross(screws.axes[2:4], h), axis=1).max() > screws.tolerance:
+        return
+    points = screws.points.copy()
+    feet = _feet(points[4], screws.axes[4], points[5], screws.axes[5], screws.tolerance)
+    points[5] = feet[1]
+    if np.linalg.norm(feet[1] - feet[0]) <= screws.tolerance:
+        points[4] = feet[0]
+    screws = replace(screws, points=points)
+    h5, lines = screws.axes[4], np.zeros((_LINES, 3))
+    for k, (start, arm) in enumerate(((h @ points[4], points[5] - points[4]), (0.0, screws.axes[5]))):
+        axial = (h @ h5) * (h5 @ arm)
+        lines[14 + k] = start + axial, h @ arm - axial, h @ np.cross(h5, arm)
+    # The plane vector u is (cos q_5, sin q_5).
+    combined = _combination(lines, lines[14:16] @ np.eye(3)[:, [1, 2, 0]], np.eye(3)[0], np.eye(3)[1], screws.tolerance)
+    if combined is not None:
+        lines[6] = _square_to(h)
+        yield "three parallel axes", _plan(screws, PARALLEL, combined[0], 3, (0, 1, 2), lines)
+
+
+def _general_plan(screws: JointScrews) -> SubproblemPlan:
+    """Return the plan for six revolute joints of any geometry."""
+    lines = np.zeros((_LINES, 3))
+    points = screws.points.copy()
+    for i in range(5):
+        points[i], points[i + 1] = (
+            points[i],
+            _feet(points[i], screws.axes[i], points[i + 1], screws.axes[i + 1], screws.tolerance)[1],
+        )
+    size = 1.0 / max(float(np.linalg.norm(points - points[2], axis=1).max()), 1e-9)
+    lines[:6] = size * (points - points[2])
+    lines[6], lines[7], lines[8, 0] = _square_to(screws.axes[5]), points[2], size
+    moved = replace(screws, points=points)
+    plan = _plan(moved, GENERAL, SKEW, 3, (0, 1, 2), lines)
+    return plan._replace(terms=left_sides(plan.axes, np.ascontiguousarray(lines[:6])))
+
+
+def _elbow_plans(screws: JointScrews) -> Iterator[tuple[str, SubproblemPlan]]:
+    """Yield the plan for seven revolute joints with a spherical shoulder and wrist."""
+    if screws.slides.any():
+        return
+    shoulder, wrist = _meeting_point(screws, 0, 3), _meeting_point(screws, 4, 7)
+    if shoulder is None or wrist is None:
+        return
+    points, lines = screws.points.copy(), np.zeros((_LINES, 3))
+    h4 = screws.axes[3]
+    points[3] += h4 * (h4 @ (shoulder - points[3]))
+    if np.linalg.norm(points[3] - shoulder) <= screws.tolerance:
+        return
+    lines[3], lines[13] = shoulder, wrist
+    lines[6], lines[7] = _square_to(screws.axes[6]), _square_to(screws.axes[2])
+    moved = replace(screws, points=points)
+    yield "spherical shoulder and wrist", _plan(moved, ELBOW, COPLANAR, 3, (0, 1, 2), lines)
+
+
+def _feet(p: Array, a: Array, q: Array, b: Array, tolerance: float) -> tuple[Array, Array]:
+    """Closest points of two lines; for parallel ones, p and its foot on the second line; shape (3,) each."""
+    normal = np.cross(a, b)
+    square = float(normal @ normal)
+    if square <= tolerance**2:
+        return p, np.asarray(q + b * (b @ (p - q)))
+    between = q - p
+    s, t = np.cross(between, b) @ normal / square, np.cross(between, a) @ normal / square
+    first, second = p + s * a, q + t * b
+    if np.linalg.norm(second - first) <= tolerance:
+        # The lines intersect: use one point for both.
+        first = second = 0.5 * (first + second)
+    return np.asarray(first), np.asarray(second)
+
+
+def _square_to(h: Array) -> Array:
+    """Return a unit vector perpendicular to a unit vector."""
+    x = np.cross(np.eye(3)[int(np.argmin(np.abs(h)))], h)
+    return np.asarray(x / np.linalg.norm(x))
+
+
+def _found_again(form: ClosedForm, count: int) -> int:
+    """Count random configurations that are among the branches of their own poses, with no joint left free.
+
+    The plan does not determine a joint that is always free, so it would not find solutions from other seeds.
+    """
+    qs, table = _trial(form, count)
+    free = np.add.reduceat(np.append(table.free, 0), table.firsts[:-1]) * (np.diff(table.firsts) > 0)
+    return sum(_row_of(form.chain, table, i, q) >= 0 and not free[i] for i, q in enumerate(qs))
+
+
+def _trial(form: ClosedForm, count: int) -> tuple[Array, BranchTable]:
+    """Draw random configurations and solve their poses from other seeds."""
+    chain = form.chain
+    reach = np.where(chain.flat.joints[:, 0] == 1, 0.5, np.pi)
+    draws = np.random.default_rng(0).uniform(-reach, reach, (2, count, len(chain)))
+    qs, seeds = mid_range(chain) + draws
+    poses = Poses(*chain_poses(chain.flat, qs))
+    elbows = form.elbow_angles(qs) if form.has_free_elbow else None
+    return qs, form.solve(poses, seeds, respect_limits=False, elbow_angles=elbows)
+
+
+def _row_of(chain: Chain, table: BranchTable, i: int, q: Array) -> int:
+    """Return the row of configuration q among the branches of target i in the table; -1 if it is missing."""
+    first, last = table.firsts[i], table.firsts[i + 1]
+    differences = table.qs[first:last] - q
+    turning = chain.flat.joints[:, 0] == 0
+    differences -= np.where(turning, 2.0 * np.pi * np.rint(differences / (2.0 * np.pi)), 0.0)
+    near = np.flatnonzero(np.abs(differences).max(axis=1, initial=0.0) <= _FOUND_AGAIN)
+    return int(first + near[0]) if len(near) else -1
+
+
+Roots: TypeAlias = dict[str, int]
+
+
+def _roots(plan: SubproblemPlan) -> Roots:
+    """Return the code bits of the shoulder, elbow and wrist choices that the arm has."""
+    ends = ("wrist", "shoulder") if plan.backwards else ("shoulder", "wrist")
+    if plan.kind == PARALLEL:
+        roots = {"elbow": SECOND_ROOT}
+        return roots if plan.form == SKEW else {ends[0]: FIRST_ROOT, **roots, ends[1]: LAST_ROOT}
+    if plan.kind == ELBOW:
+        return {"shoulder": ARM_ROOT, "elbow": SECOND_ROOT, "wrist": LAST_ROOT}
+    roots = {}
+    if plan.form == COPLANAR and plan.placed:
+        parallel = np.linalg.norm(np.cross(plan.lines[0], plan.lines[1])) <= _NEARLY
+        names = (ends[0], "elbow") if parallel else ("elbow", ends[0])
+        roots = {names[0]: FIRST_ROOT, names[1]: SECOND_ROOT} if plan.placed == 3 else {names[1]: SECOND_ROOT}
+    elif plan.form == SQUARE:
+        roots = {"elbow": FIRST_ROOT, ends[0]: SECOND_ROOT} if plan.placed == 3 else {ends[0]: SECOND_ROOT}
+    elif plan.form == RAILS and plan.placed == 3:
+        roots = {"elbow": FIRST_ROOT}
+    if len(plan.axes) - plan.placed == 3:
+        roots[ends[1]] = LAST_ROOT
+    return roots
+
+
+def _choices(form: ClosedForm) -> tuple[Choice, ...]:
+    """Name the roots by trial.
+
+    The shoulder is `front` in the branch of the mid-range configuration. The elbow is `up` where the joints lie higher
+    along the base's z or, at equal heights, where the sine of the elbow joint is smaller. The wrist is `no_flip` where
+    the sine of its middle joint is positive.
+    """
+    roots = _roots(form.plan)
+    qs, table = _trial(form, _NAMING)
+    rows = np.array([_row_of(form.chain, table, i, q) for i, q in enumerate(qs)])
+    qs, codes, all_codes = qs[rows >= 0], table.codes[rows[rows >= 0]], table.codes
+    choices = []
+    if form.plan.kind != ELBOW and form.plan.form in {SKEW, OBLIQUE} and form.plan.placed == 3:
+        choices.append(Choice("arm", 0))
+    shoulder = roots.get("shoulder", 0)
+    for name, bit in roots.items():
+        if len(np.unique(all_codes & bit)) < 2:
+            continue  # The two roots always coincide.
+        set_ = (codes & bit) != 0
+        if name == "shoulder":
+            choices.append(_named(name, bit, _share(set_, _near_middle(form, qs)) > 0.5))
+        elif name == "wrist":
+            choices.append(_named(name, bit, _share(set_, _middle_of_wrist(form, qs) > 0.0) > 0.5))
+        else:
+            higher = _elbow_heights(form, qs, codes, bit)
+            back = (codes & shoulder) != 0
+            first, second = _share(set_, higher & ~back) > 0.5, _share(set_, higher & back) > 0.5
+            choice = _named(name, bit, first)
+            choices.append(Choice(name, bit, choice.values, shoulder, first != second and bool(shoulder)))
+    return tuple(choices)
+
+
+def _named(name: str, bit: int, first_where_set: bool) -> Choice:
+    values = _VALUES[name]
+    return Choice(name, bit, values[::-1] if first_where_set else values)
+
+
+def _share(flags: Flags, among: Flags) -> float:
+    return float(flags[among].mean()) if among.any() else 0.0
+
+
+def _near_middle(form: ClosedForm, qs: Array) -> Flags:
+    """Flag the tenth of the configurations that is nearest to mid-range; shape (N,)."""
+    distances = np.square(qs - mid_range(form.chain)).sum(axis=1)
+    return np.asarray(distances <= np.quantile(distances, 0.1))
+
+
+def _middle_of_wrist(form: ClosedForm, qs: Array) -> Array:
+    """Sine of the middle wrist joint, or of joint 5 of an arm with three parallel axes; shape (N,)."""
+    n = len(form.chain)
+    if form.plan.kind == PARALLEL:
+        j = 1 if form.plan.backwards else 4
+    elif "wrist" in _roots(form.plan) and _roots(form.plan)["wrist"] == LAST_ROOT:
+        j = n - 2
+    else:
+        j = n - 1 - int(form.plan.order[0])
+    return np.asarray(np.sin(qs[:, j]))
+
+
+def _elbow_heights(form: ClosedForm, qs: Array, codes: Array, bit: int) -> Flags:
+    """Flag configurations whose elbow is higher than in the branch that differs in its bit alone; shape (N,)."""
+    higher = np.zeros(len(qs), dtype=bool)
+    poses = Poses(*chain_poses(form.chain.flat, qs))
+    elbows = form.elbow_angles(qs) if form.has_free_elbow else None
+    table = form.solve(poses, qs, respect_limits=False, elbow_angles=elbows)
+    for i, q in enumerate(qs):
+        part = slice(table.firsts[i], table.firsts[i + 1])
+        other = np.flatnonzero(table.codes[part] == (codes[i] ^ bit))
+        if len(other):
+            difference = _height(form, q) - _height(form, table.qs[part][other[0]])
+            higher[i] = difference > 0.0
+    return higher
+
+
+def _height(form: ClosedForm, q: Array) -> float:
+    """Sum of the joints' heights along the base's z, with the sine of the elbow joint as a tie-breaker."""
+    flat = form.chain.flat
+    total, T = 0.0, np.eye(4)
+    for i, row in enumerate(flat.placements[:-1]):
+        step, move = np.eye(4), np.eye(4)
+        step[:3, :3], step[:3, 3] = row[:9].reshape(3, 3), row[9:]
+        value = flat.drives[i, 0] * q[i] + flat.drives[i, 1]
+        if flat.joints[i, 0]:
+            move[2, 3] = value
+        else:
+            c, s = np.cos(value), np.sin(value)
+            move[:2, :2] = [[c, -s], [s, c]]
+        T = T @ step @ move
+        total += T[2, 3]
+    elbow = int(form.plan.order[1])
+    return total - 1e-6 * float(np.sin(q[len(q) - 1 - elbow if form.plan.backwards else elbow]))
+
+
+def _fits(form: ClosedForm) -> bool:
+    """Check that a plan gives all solutions of the task: a full pose, or one with as many directions as joints."""
+    n, plan, wanted = len(form.chain), form.plan, frozenset(form.task.directions)
+    if len(wanted) == 6:
+        return True
+    # Solving from the tip would use the target's full orientation.
+    if plan.kind != DECOUPLED or n != len(wanted) or plan.backwards:
+        return False
+    if n == 3 and wanted in {frozenset("xyz"), frozenset(("rx", "ry", "rz"))}:
+        return plan.placed == (3 if "x" in wanted else 0)
+    k = _plane_of(form)
+    if k is None:
+        return False
+    whole = frozenset({*"xyz", "r" + "xyz"[k]})
+    return wanted == whole or (not plan.slides.any() and wanted in {whole - {"xyz"[k]}, frozenset("xyz") - {"xyz"[k]}})
+
+
+def _plane_of(form: ClosedForm) -> int | None:
+    """Return the index of the base axis parallel to all joint axes; None if there is none."""
+    k = int(np.argmax(np.abs(form.plan.axes[0])))
+    along = np.abs(form.plan.axes @ np.eye(3)[k])
+    return k if (along >= 1.0 - _NEARLY**2).all() else None
+
+
+def _in_reach_of(form: ClosedForm, rows: Array) -> Array:
+    """Move the targets of a planar task into the plane of the arm; shape (N, 12)."""
+    wanted = form.task.directions
+    if len(wanted) == 6 or {*"xyz"} <= set(wanted) or not {"x", "y"} & set(wanted):
+        return rows
+    k = next(i for i in range(3) if "xyz"[i] not in wanted)
+    rows = rows.copy()
+    rows[:, 9 + k] = chain_poses(form.chain.flat, np.zeros((1, len(form.chain))))[0][0, k]
+    return rows

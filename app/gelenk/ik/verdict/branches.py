@@ -1,0 +1,263 @@
+"""All distinct solutions of a target by search: starts spread over joint space, duplicates removed."""
+
+import math
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from gelenk.ik.search import kernels
+from gelenk.ik.search.null_space import Objective, settle
+from gelenk.ik.search.search import ITERATIONS_PER_START, free_variables, limits_of, make_goal
+from gelenk.ik.search.task import Task
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import compiled
+from gelenk.robot.poses import Poses
+
+STARTS = 2048
+"""Starts of one target; half of them ignore the limits, since their solutions may still be within."""
+
+_TIGHT = 1e-10
+"""Tolerances of the search, [m] and [rad]."""
+_SAME = 1e-4
+"""Distance in every joint up to which two solutions are the same, [rad or m]."""
+SPACING = 0.2
+"""Spacing in some joint of the sample of a continuum of solutions, [rad or m]."""
+_NEIGHBOURS = 0.02
+"""Distance up to which two solutions are the same if the midpoint is a solution too, [rad or m]."""
+_MOST_DISTINCT = 256
+"""Most solutions examined for a continuum."""
+_MOST_ISOLATED = 32
+"""More solutions than this form a continuum: a 6R arm has at most 16 isolated ones [Raghavan1993]."""
+_MOST_WINDINGS = 100_000
+"""Most combinations of solutions and full turns examined."""
+_ROUNDING = 1e-9
+"""Distance beyond a limit that still counts as at it, [rad or m]."""
+_TURN = 2.0 * np.pi
+SEARCHED = "these are the results of a search from many starts; there may be others"
+TRUNCATED = "the requested number of solutions is reached; there are others"
+
+
+@dataclass(frozen=True, slots=True)
+class Branches:
+    """Solutions of one target, nearest to the seed first.
+
+    Attributes:
+        qs: Solutions; shape (k, n), [rad or m].
+        doubt: Why these may not be all; a search never proves that they are.
+    """
+
+    qs: Array
+    doubt: str
+
+
+def all_branches(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    *,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+    most: int,
+    windings: bool,
+) -> Branches:
+    """Search for all distinct solutions, modulo full turns unless `windings` is set.
+
+    A redundant arm, or an arm at a singularity where a joint moves without effect, has infinitely many. The result is
+    then a sample, no two within 0.2 rad or m in every joint, chosen from the nearest to the seed outwards.
+
+    Args:
+        chain: Base and tip.
+        row: The target: rotation row by row, then position; shape (12,).
+        seed: Configuration from which distances are measured; shape (n,), [rad or m].
+        task: Which directions count.
+        tolerances: Of position [m] and orientation [rad].
+        respect_limits: Whether solutions must be within the joint limits.
+        random_seed: Seed of the random starts.
+        most: Largest number of solutions.
+        windings: Whether solutions that differ by full turns count as different, where limits allow them.
+    """
+    candidates = _converged(chain, row, seed, task, tolerances, respect_limits, random_seed)
+    target = Poses(row[None, 9:].copy(), row[:9].reshape(1, 3, 3).copy())
+    free = free_variables(chain)
+    if len(chain) <= len(task):
+        distinct = sorted_by_distance(candidates[thin_out(candidates, free, _SAME, _MOST_DISTINCT)], seed)
+        isolated = _without_doubles(chain, target, distinct, task, tolerances)
+        continuum = len(isolated) > _MOST_ISOLATED
+    else:
+        continuum = True
+    if continuum:
+        candidates = sorted_by_distance(candidates, seed)
+        # Of infinitely many solutions the nearest is not among those found, but close to the first.
+        objective = Objective("posture", seed)
+        nearest = settle(chain, target, candidates[:1], objective, task=task, respect_limits=respect_limits)
+        candidates = np.concatenate((nearest, candidates))
+        isolated = candidates[thin_out(candidates, free, SPACING, most)]
+    qs = isolated[:most]
+    if windings and len(qs):
+        qs, _, _ = wound(chain, qs, seed, most, False, respect_limits)
+    return Branches(qs, "infinitely many solutions, of which these are a sample" if continuum else SEARCHED)
+
+
+def _without_doubles(chain: Chain, target: Poses, qs: Array, task: Task, tolerances: tuple[float, float]) -> Array:
+    """Drop solutions whose midpoint to an earlier one is a solution too, as at a singularity; shape (k, n)."""
+    kept: list[int] = []
+    free = free_variables(chain)
+    for i in range(len(qs)):
+        differences = qs[kept] - qs[i]
+        differences -= np.where(free, _TURN * np.rint(differences / _TURN), 0.0)
+        near = differences[np.abs(differences).max(axis=1, initial=0.0) <= _NEIGHBOURS]
+        middles = Poses(*chain_poses(chain.flat, qs[i] + 0.5 * near))
+        targets = Poses(np.repeat(target.positions, len(near), axis=0), np.repeat(target.rotations, len(near), axis=0))
+        errors = task.errors(targets, middles)
+        if not ((errors[0] <= tolerances[0]) & (errors[1] <= tolerances[1])).any():
+            kept.append(i)
+    return qs[kept]
+
+
+def _converged(
+    chain: Chain,
+    row: Array,
+    seed: Array,
+    task: Task,
+    tolerances: tuple[float, float],
+    respect_limits: bool,
+    random_seed: int,
+) -> Array:
+    """Converged starts, within the limits and as near to the seed as full turns allow; shape (k, n)."""
+    found = []
+    ways = (True, False) if respect_limits else (False,)
+    for limited in ways:
+        # Search to rounding, so that a double solution is found once; if that fails, to the given tolerances.
+        for tolerance in ((_TIGHT, _TIGHT), tolerances):
+            goal = make_goal(
+                chain,
+                task,
+                min(tolerance[0], tolerances[0]),
+                min(tolerance[1], tolerances[1]),
+                limited,
+                STARTS // len(ways) * ITERATIONS_PER_START,
+                random_seed + limited,
+            )
+            qs = kernels.gather(chain.flat, goal, row, seed)
+            if len(qs):
+                found.append(qs)
+                break
+    if not found:
+        return np.empty((0, len(chain)))
+    qs = np.concatenate(found)
+    lower, upper = limits_of(chain, respect_limits)
+    qs = wound_near(chain, qs, seed, lower, upper)
+    # A solution at a limit may miss it by rounding.
+    within = ((qs >= lower - _ROUNDING) & (qs <= upper + _ROUNDING)).all(axis=1)
+    return np.clip(qs[within], lower, upper)
+
+
+def wound_near(chain: Chain, qs: Array, seed: Array, lower: Array, upper: Array) -> Array:
+    """Turn free variables by full turns into the limits, as near to the seed as possible; shape (N, n).
+
+    A variable that fits nowhere within its limits ends as near to them as full turns bring it; one that rounding has
+    carried over a limit is put back on it.
+    """
+    wound = qs.copy()
+    for j in np.flatnonzero(free_variables(chain)):
+        # Count full turns first and add them once: adding and subtracting would round.
+        turns = np.rint((seed[j] - qs[:, j]) / _TURN)
+        if np.isfinite(upper[j]):
+            turns -= np.maximum(0.0, np.ceil((qs[:, j] + _TURN * turns - upper[j] - _ROUNDING) / _TURN))
+        if np.isfinite(lower[j]):
+            raised = turns + np.maximum(0.0, np.ceil((lower[j] - qs[:, j] - _TURN * turns - _ROUNDING) / _TURN))
+            # If neither is within, take the nearer of the two.
+            above, below = qs[:, j] + _TURN * raised - upper[j], lower[j] - qs[:, j] - _TURN * turns
+            turns = np.where((above > _ROUNDING) & (above > below), turns, raised)
+        wound[:, j] = np.where(turns == 0.0, qs[:, j], qs[:, j] + _TURN * turns)
+    inside = np.clip(wound, lower, upper)
+    return np.where(np.abs(wound - inside) <= _ROUNDING, inside, wound)
+
+
+def sorted_by_distance(qs: Array, seed: Array) -> Array:
+    """Sort configurations by their distance to the seed, the nearest first; shape (N, n)."""
+    return qs[np.argsort(np.square(qs - seed).sum(axis=1), kind="stable")]
+
+
+@compiled
+def thin_out(qs: Array, free: Flags, spacing: float, most: int) -> Indices:
+    """Select rows in order that differ from all selected before by more than `spacing` in some variable.
+
+    Args:
+        qs: Configurations; shape (N, n).
+        free: Which variables count modulo full turns; shape (n,).
+        spacing: Least difference, [rad or m].
+        most: Largest number of rows.
+
+    Returns:
+        Indices of the selected rows; shape (k,).
+    """
+    chosen = np.empty(min(most, len(qs)), np.int64)
+    count = 0
+    for i in range(len(qs)):
+        if count == most:
+            break
+        distinct = True
+        for c in range(count):
+            largest = 0.0
+            for j in range(qs.shape[1]):
+                difference = qs[i, j] - qs[chosen[c], j]
+                if free[j]:
+                    difference -= 2.0 * np.pi * np.rint(difference / (2.0 * np.pi))
+                largest = max(largest, abs(difference))
+            if largest <= spacing:
+                distinct = False
+                break
+        if distinct:
+            chosen[count] = i
+            count += 1
+    return chosen[:count]
+
+
+def wound(
+    chain: Chain, qs: Array, seed: Array, most: int, complete: bool, respect_limits: bool
+) -> tuple[Array, Indices, bool]:
+    """Expand each solution to all combinations of full turns that the limits allow, nearest to the seed first.
+
+    A joint without limits keeps its value.
+
+    Args:
+        chain: The chain.
+        qs: Solutions; shape (k, n), [rad or m].
+        seed: Configuration from which distances are measured; shape (n,), [rad or m].
+        most: Largest number of configurations returned.
+        complete: Whether `qs` contains all solutions modulo full turns.
+        respect_limits: Whether the limits count; without them nothing is turned.
+
+    Returns:
+        Configurations, shape (m, n); the index in `qs` of each, shape (m,); and whether these are all solutions.
+    """
+    free = free_variables(chain)
+    results: list[tuple[float, ...]] = []
+    owners: list[int] = []
+    for k, q in enumerate(qs):
+        ranges = [_turns(chain, j, value, respect_limits and bool(free[j])) for j, value in enumerate(q)]
+        count = math.prod(len(turns) for turns in ranges)
+        if len(results) + count > _MOST_WINDINGS:
+            ranges = [range(1)] * len(q)
+            count, complete = 1, False
+        results.extend(product(*([value + _TURN * t for t in turns] for value, turns in zip(q, ranges, strict=True))))
+        owners.extend([k] * count)
+    table = np.array(results)
+    if respect_limits:
+        table = np.clip(table, chain.lower, chain.upper)
+    order = np.argsort(np.square(table - seed).sum(axis=1), kind="stable")[:most]
+    return table[order], np.array(owners, dtype=np.int64)[order], complete and len(table) <= most
+
+
+def _turns(chain: Chain, j: int, value: float, turning: bool) -> range:
+    """Range of the full turns by which a variable can move within its limits."""
+    lower, upper = chain.lower[j], chain.upper[j]
+    if not (turning and np.isfinite(lower) and np.isfinite(upper)):
+        return range(1)
+    return range(math.ceil((lower - value) / _TURN - 1e-10), math.floor((upper - value) / _TURN + 1e-10) + 1)

@@ -1,0 +1,5 @@
+"""Equations of motion, computed twice.
+
+- `dynamics`: M, C, g and torques. `mechanism`: Pinocchio's algorithms, for the variables of a chain.
+- `lagrangian`: the check, on `bodies`: sums over bodies from our own Jacobians.
+"""

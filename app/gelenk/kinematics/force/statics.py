@@ -1,0 +1,231 @@
+"""Statics: joint torques, the wrench that the tip exerts, and the four subspaces of the Jacobian between them.
+
+By the principle of virtual work τᵀq̇ = γᵀJq̇ for every q̇, so τ = Jᵀγ: J maps joint to tip velocities, and Jᵀ maps
+wrenches to torques. The motors of a robot with mass also hold its weight, τ = Jᵀγ + g(q).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.dynamics.bodies import Load, motions
+from gelenk.kinematics.dynamics.mechanism import PinocchioDynamics, mechanism
+from gelenk.kinematics.force.wrenches import WrenchFrame, frame_jacobians, in_base_axes
+from gelenk.kinematics.judge.judge import agreed, pinocchio_poses, sampled_rows
+from gelenk.kinematics.velocity.subspaces import Subspaces, subspaces
+from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
+
+ALL_ROWS: Indices = np.arange(6)
+AT_TIP = WrenchFrame()
+_NUMBERS_AT_ONCE = 1_000_000
+"""Largest number of entries of the bodies' Jacobians held in memory at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class StaticsCertificate:
+    """Agreement of torques with Pinocchio's.
+
+    Attributes:
+        samples: Number of configurations recomputed through Pinocchio.
+        max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
+            external force), [N m or N].
+        max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
+        seed: Seed of the sample selection, of q̇ and of a random wrench that tests the whole Jacobian.
+    """
+
+    samples: int
+    max_torque_error: float
+    max_virtual_work_error: float
+    seed: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Statics:
+    """A robot at rest at N configurations.
+
+    Attributes:
+        robot: The robot.
+        chain: Base and tip.
+        qs: Configurations; shape (N, n), [rad or m].
+        frame: Axes and point of twists and wrenches.
+        rows: Indices of their components that count; shape (m,).
+        places: Poses of this frame in the base.
+        Js: The rows of the Jacobian in this frame that count; shape (N, m, n).
+        terms: All rows, and the terms of the linear ones: values within their rounding are zero; shape (N, 9, n).
+        gravity: Gravity in the root's axes, [m/s²]; None if weight is ignored.
+        load: A payload on the tip.
+        gravity_torques: g(q), zero if weight is ignored; shape (N, n), [N m or N].
+        gravity_scale: Largest term in the sums for g, [N m or N].
+    """
+
+    robot: RobotModel
+    chain: Chain
+    qs: Array
+    frame: WrenchFrame
+    rows: Indices
+    places: Poses
+    Js: Array
+    terms: Array
+    gravity: Array | None
+    load: Load | None
+    gravity_torques: Array
+    gravity_scale: float
+
+    def wrench_torques(self, wrenches: Array) -> Array:
+        """Compute Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
+        torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
+        return torques
+
+    def subspaces(self, tolerance: float) -> list[Subspaces]:
+        """Compute the four subspaces at each configuration."""
+        return [subspaces(J, tolerance, terms) for J, terms in zip(self.Js, self.terms, strict=True)]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NearestWrench:
+    """The least-squares wrenches of minimum norm for given joint torques.
+
+    Attributes:
+        wrenches: γ; shape (N, m), [N] and [N m].
+        residuals: τ - g - Jᵀγ, which no wrench balances and which accelerates the robot; shape (N, n), [N m or N].
+        splits: The four subspaces at each configuration; any vector of ker(Jᵀ) may be added to γ.
+    """
+
+    wrenches: Array
+    residuals: Array
+    splits: list[Subspaces]
+
+
+def statics(
+    robot: RobotModel,
+    chain: Chain,
+    qs: Array,
+    frame: WrenchFrame = AT_TIP,
+    *,
+    rows: Indices = ALL_ROWS,
+    gravity: Array | None = None,
+    load: Load | None = None,
+) -> Statics:
+    """Compute the Jacobians of a robot at rest where the wrench acts, and the torques that hold its weight.
+
+    Args:
+        robot: The robot; joints off the chain are at zero, and their links have weight too.
+        chain: Base and tip.
+        qs: Configurations; shape (N, n), [rad or m].
+        frame: Axes and point of the wrench.
+        rows: Indices of the wrench components that count; shape (m,).
+        gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²]. None to ignore weight.
+        load: A payload on the tip; ignored without gravity.
+
+    Raises:
+        UnknownFrame: The robot has no such frame.
+        InvalidField: The fields of the frame are contradictory.
+    """
+    places, Js, sums = frame_jacobians(robot, chain, qs, frame)
+    torques, scale = np.zeros_like(qs), 0.0
+    if gravity is not None and len(chain):
+        carried = mechanism(robot, chain).carried(load)
+        size = max(1, _NUMBERS_AT_ONCE // (6 * len(carried) * len(chain)))
+        for first in range(0, len(qs), size):
+            moving = motions(carried, qs[first : first + size])
+            torques[first : first + size] = moving.gravity_torques(gravity)
+            scale = max(scale, moving.gravity_scale(gravity))
+    terms = np.concatenate((Js, sums), axis=1)
+    return Statics(robot, chain, qs, frame, rows, places, Js[:, rows], terms, gravity, load, torques, scale)
+
+
+def balance(still: Statics, torques: Array, tolerance: float) -> NearestWrench:
+    """Compute the wrench for given joint torques: γ = (Jᵀ)#(τ - g), which is J⁻ᵀ(τ - g) if J is square and regular.
+
+    Args:
+        still: The robot at rest.
+        torques: Torques of the motors; shape (N, n), [N m or N].
+        tolerance: A singular value counts if it exceeds this times the largest.
+    """
+    splits = still.subspaces(tolerance)
+    wanted = torques - still.gravity_torques
+    wrenches = np.zeros((len(torques), len(still.rows)))
+    for k, split in enumerate(splits):
+        wrenches[k] = split.range @ ((split.row_space.T @ wanted[k]) / split.sigmas[: split.rank])
+    return NearestWrench(wrenches, wanted - still.wrench_torques(wrenches), splits)
+
+
+def components(
+    inside: Array, outside: Array, vector: Array, tolerance: float
+) -> tuple[Array, Array, tuple[bool, bool]]:
+    """Split a vector into its components in two complementary orthogonal subspaces.
+
+    Args:
+        inside: Orthonormal basis of the first subspace as columns.
+        outside: Orthonormal basis of the second subspace as columns.
+        vector: The vector to split.
+        tolerance: The vector lies in one subspace if its other component is at most this times its length.
+
+    Returns:
+        Both components, and whether the vector lies in the first and in the second: a zero vector lies in both.
+    """
+    first, second = inside @ (inside.T @ vector), outside @ (outside.T @ vector)
+    most = tolerance * float(np.linalg.norm(vector))
+    return first, second, (float(np.linalg.norm(second)) <= most, float(np.linalg.norm(first)) <= most)
+
+
+def overloaded_joints(robot: RobotModel, chain: Chain, torques: Array) -> list[list[str]]:
+    """List the joints whose torque exceeds the effort limit, per configuration; a limit of zero means no limit.
+
+    Args:
+        robot: The robot.
+        chain: The chain.
+        torques: Joint torques; shape (N, n), [N m or N].
+    """
+    given = (robot.description.joint[name].limits.effort for name in chain.joint_names)
+    limits = np.array([limit or np.inf for limit in given])
+    beyond = np.abs(torques) > limits
+    found: list[list[str]] = [[] for _ in torques]
+    for row, column in np.argwhere(beyond).tolist():
+        found[row].append(chain.joint_names[column])
+    return found
+
+
+def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int = 0) -> StaticsCertificate:
+    """Compare torques that hold the robot while its tip exerts a wrench with Pinocchio's.
+
+    Args:
+        still: The robot at rest.
+        wrenches: Wrenches at the tip; shape (N, m), [N] and [N m].
+        torques: Joint torques, including weight; shape (N, n), [N m or N].
+        seed: Seed of the sample selection, the joint velocities and a random wrench that tests the whole Jacobian.
+
+    Raises:
+        CertificationFailed: The two differ by more than rounding.
+    """
+    robot, chain, qs = still.robot, still.chain, still.qs
+    rows = sampled_rows(len(qs) if len(chain) else 0, seed)
+    if not rows:
+        return StaticsCertificate(0, 0.0, 0.0, seed)
+    rng = np.random.default_rng(seed)
+    found = mechanism(robot, chain)
+    places = still.frame.poses(chain, lambda name: pinocchio_poses(found.robot, found.chain, name, qs, rows))
+    gravity = np.zeros(3) if still.gravity is None else still.gravity
+    judge = PinocchioDynamics(found, gravity, still.load)
+    others = rng.uniform(-1.0, 1.0, (len(rows), len(still.rows)))
+    by_others = np.einsum("kij,ki->kj", still.Js[rows], others) + still.gravity_torques[rows]
+    worst, worst_work = 0.0, 0.0
+    for given, held in ((wrenches[rows], torques[rows]), (others, by_others)):
+        in_base = in_base_axes(places, still.rows, given)
+        for k, row in enumerate(rows):
+            q_dot = rng.uniform(-1.0, 1.0, len(chain))
+            expected, power = judge.static_torques(qs[row], q_dot, places.positions[k], in_base[k])
+            scale = max(_largest_term(still.Js[row], given[k], places.positions[k]), still.gravity_scale)
+            worst = max(worst, agreed("a torque", held[k] - expected, scale))
+            work = (held[k] - still.gravity_torques[row]) @ q_dot - power
+            worst_work = max(worst_work, agreed("the virtual work", np.array([work]), scale * len(chain)))
+    return StaticsCertificate(len(rows), worst, worst_work, seed)
+
+
+def _largest_term(J: Array, wrench: Array, point: Array) -> float:
+    """Largest term in computing torques from a wrench, here or through its moment about the base origin."""
+    force = float(np.abs(wrench).max(initial=0.0))
+    return max(float((np.abs(J.T) @ np.abs(wrench)).max()), force * (1.0 + float(np.abs(point).max())))

@@ -1,0 +1,4 @@
+"""Poses of tips and frames.
+
+- `forward`: forward kinematics of a batch.
+"""

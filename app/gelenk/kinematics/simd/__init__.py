@@ -1,0 +1,5 @@
+"""Compiled batches of poses, Jacobians and Hessians on flat arrays.
+
+- `lanes`: a numba type that holds eight numbers in one vector register.
+- `kernels`: the batches. `vectors`: products of small vectors for compiled code.
+"""

@@ -1,0 +1,6 @@
+"""Configurations in which the tip loses a direction.
+
+- `report`: lost directions, and the joints that cause the loss; `kinds` names the singularity.
+- `distance` finds the nearest one, `path` those along a path of configurations.
+- `judge` checks the reports with Pinocchio's Jacobian.
+"""

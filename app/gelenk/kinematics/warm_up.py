@@ -1,0 +1,109 @@
+"""Warm-up: compile every kernel, or load it from the cache, before the first request needs it."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from gelenk.dh.tables.convert import describe_dh
+from gelenk.ik.count.continuation import continuation
+from gelenk.ik.search.search import mid_range, search, start_of, target_rows
+from gelenk.ik.search.task import FULL_POSE
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.ik.verdict.branches import all_branches
+from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.kinematics.simd.kernels import chain_measures
+from gelenk.kinematics.velocity.jacobian import jacobians
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.compilation import note_stored
+from gelenk.robot.configuration import configurations
+from gelenk.robot.dh import DhJoint, DhTable
+from gelenk.robot.notations import (
+    quaternions_xyzw_from_rotations,
+    rotations_from_quaternions_xyzw,
+    rotations_from_vectors,
+    rotations_from_zyz,
+    vectors_from_rotations,
+)
+from gelenk.robot.robot import RobotModel
+
+
+def warm_up() -> None:
+    """Run every kernel once, so that all are compiled or loaded."""
+    basics()
+    for part in PARTS:
+        part()
+    _answers()
+    note_stored()
+
+
+def basics() -> None:
+    """Run the kernels that most requests and all `PARTS` need: poses, Jacobians, notations, iterative methods."""
+    robot, chain, qs = _small_arm()
+    poses = forward_kinematics(robot, chain, qs).poses
+    jacobians(robot, chain, qs)
+    inverse_kinematics(robot, chain, poses, qs, Options(method="damped_least_squares"))
+    Rs = poses.rotations
+    rotations_from_quaternions_xyzw(quaternions_xyzw_from_rotations(Rs))
+    rotations_from_vectors(vectors_from_rotations(Rs))
+    rotations_from_zyz(np.zeros((1, 3)))
+    chain_measures(chain.flat, qs, np.arange(3))
+
+
+def _small_arm() -> tuple[RobotModel, Chain, Array]:
+    """Example robot with three joints, its chain, and a configuration; shape (1, 3), [rad]."""
+    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0, 0.1, 0.5) for i in (1, 2, 3)]
+    robot = RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    chain = robot.chain(None, None)
+    return robot, chain, configurations(chain, [[0.1, 0.2, 0.3]])
+
+
+def _searches() -> None:
+    """Run iterative and continuation solvers, and derivatives of Jacobians; no closed form."""
+    robot, chain, qs = _small_arm()
+    for representation in ("zyz", "rpy"):
+        poses = jacobians(robot, chain, qs, representation=representation, derivatives=True).poses
+    goal: dict[str, Any] = {"task": FULL_POSE, "respect_limits": True, "random_seed": 0}
+    search(chain, poses, qs, position_tolerance=1e-6, orientation_tolerance=1e-6, max_iterations=100, **goal)
+    row = target_rows(poses)[0]
+    all_branches(chain, row, qs[0], tolerances=(1e-6, 1e-6), most=1, windings=False, **goal)
+    start_of(chain, mid_range(chain), True, 0, 1)
+    continuation(_six_joints().chain(None, None))
+
+
+def _six_joints() -> RobotModel:
+    """Example arm that needs continuation: three parallel axes, the others skew."""
+    rows = [DhJoint(f"joint_{i}", "revolute", 0.3, 1.0 if i > 2 else 0.0, 0.1, 0.5) for i in range(1, 7)]
+    return RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+
+
+def _closed_forms() -> None:
+    """Solve an arm with a free elbow, which uses the kernels of every closed form."""
+    alphas = (-0.5, 0.5, 0.5, -0.5, -0.5, 0.5, 0.0)
+    lengths = (0.3, 0.0, 0.3, 0.0, 0.3, 0.0, 0.3)
+    rows = [
+        DhJoint(f"joint_{i}", "revolute", 0.0, math.pi * alpha, d, 0.0)
+        for i, (alpha, d) in enumerate(zip(alphas, lengths, strict=True))
+    ]
+    robot = RobotModel(describe_dh("warm-up", DhTable("standard", tuple(rows))))
+    chain = robot.chain(None, None)
+    qs = np.full((1, 7), 0.4)
+    poses = forward_kinematics(robot, chain, qs).poses
+    for every in (False, True):
+        inverse_kinematics(robot, chain, poses, qs, Options(every=every, method="analytic"))
+
+
+def _answers() -> None:
+    """Solve inverse kinematics with the options that requests use."""
+    robot, chain, qs = _small_arm()
+    poses, start = forward_kinematics(robot, chain, qs).poses, mid_range(chain)[None]
+    for options in (Options(), Options(every=True), Options(trace=True, max_iterations=1)):
+        inverse_kinematics(robot, chain, poses, start, options)
+    robot = _six_joints()
+    chain, qs = robot.chain(None, None), np.full((1, 6), 0.4)
+    inverse_kinematics(robot, chain, forward_kinematics(robot, chain, qs).poses, qs, Options(every=True))
+
+
+PARTS = (_closed_forms, _searches)
+"""Parts that separate processes can compile after `basics`; the rest takes seconds."""

@@ -1,0 +1,224 @@
+"""Assembly of a workspace from the parts of its samples, and its certification."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.kinematics.judge.judge import PoseCertificate, agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
+from gelenk.kinematics.workspace.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
+from gelenk.kinematics.workspace.workspace import SampledPart, SamplingPlan
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
+from gelenk.robot.robot import RobotModel
+
+POINT_COLUMNS = ("x", "y", "z", "measure")
+VOXEL_COLUMNS = ("x", "y", "z", "samples", "best_measure")
+
+_PENDING = 500_000
+"""Number of table rows that are collected before they are merged."""
+_RARE = 0.02
+"""Largest share of samples alone in their cell at which nearly all cells count as found [Good1953]."""
+_LATE = 0.1
+"""Share of the samples, the last ones, that shows whether more samples would find more cells."""
+
+
+@dataclass(frozen=True, slots=True)
+class Measures:
+    """Yoshikawa's measure over the samples that count.
+
+    Attributes:
+        least: The smallest measure.
+        mean: The mean measure.
+        most: The largest measure.
+        position: Position of the tip at the largest measure; shape (3,), [m]. None if all measures are zero.
+        joint_positions: Configuration at the largest measure; shape (n,), [rad or m]. None if all measures are zero.
+    """
+
+    least: float
+    mean: float
+    most: float
+    position: Array | None
+    joint_positions: Array | None
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyCertificate:
+    """Agreement of workspace samples with Pinocchio's results.
+
+    Attributes:
+        poses: Differences of positions and orientations.
+        max_jacobian_error: Largest difference in an entry of the Jacobian, [m, rad per rad or m].
+        max_measure_error: Largest difference of a measure from the product of the Jacobian's singular values.
+    """
+
+    poses: PoseCertificate
+    max_jacobian_error: float
+    max_measure_error: float
+
+
+@dataclass(frozen=True, slots=True)
+class Workspace:
+    """The workspace of a chain as found by samples; bounds, reach, measures and late are None if no sample counts.
+
+    Attributes:
+        count: Number of samples that count.
+        bounds: Smallest and largest coordinates; shape (2, 3), [m].
+        reach: Smallest and largest distance of the tip from the base's origin, [m].
+        measures: Measures of the samples that count.
+        voxels: The cells that contain these samples.
+        inner: Number of cells with neighbours on every side, including edges and corners.
+        volume: Lower and upper bound of the volume of the reachable region, [m³, m² or m].
+        late: Share of the cells that only the last tenth of the samples found.
+        points: Position and measure of each sample; shape (count, 4). None if not requested.
+        certificate: Errors of the samples.
+    """
+
+    count: int
+    bounds: Array | None
+    reach: tuple[float, float] | None
+    measures: Measures | None
+    voxels: VoxelTable
+    inner: int
+    volume: tuple[float, float]
+    late: float | None
+    points: Array | None
+    certificate: SurveyCertificate
+
+    def voxel_rows(self, plan: SamplingPlan) -> Array:
+        """Return one row per cell with the columns `VOXEL_COLUMNS`; shape (M, 5)."""
+        table = self.voxels
+        return np.column_stack((plan.grid.centres(table.keys), table.counts, table.best))
+
+
+class Survey:
+    """A workspace under construction: collects the parts of a plan one by one, in the order of the samples."""
+
+    def __init__(self, plan: SamplingPlan) -> None:
+        self._plan = plan
+        self._points = np.empty((plan.sampling.count, 4)) if plan.keeps_points else None
+        self._count = 0
+        self._voxels = NO_VOXELS
+        self._waiting: list[VoxelTable] = []
+        self._lower, self._upper = np.full(3, np.inf), np.full(3, -np.inf)
+        self._distances = (np.inf, -np.inf)
+        self._measures = (np.inf, -np.inf, 0.0)
+        self._best = -1
+
+    def add(self, part: SampledPart) -> None:
+        """Add the next part.
+
+        Raises:
+            TooLarge: The samples fall into too many cells.
+        """
+        if self._points is not None and part.points is not None:
+            self._points[self._count : self._count + part.count] = part.points
+        self._count += part.count
+        self._lower, self._upper = np.minimum(self._lower, part.lower), np.maximum(self._upper, part.upper)
+        (near, far), (least, most, total) = self._distances, self._measures
+        self._distances = min(near, part.distances[0]), max(far, part.distances[1])
+        if part.measures[1] > most:
+            self._best = part.best
+        self._measures = min(least, part.measures[0]), max(most, part.measures[1]), total + part.measures[2]
+        self._waiting.append(part.voxels)
+        if sum(map(len, self._waiting)) > max(_PENDING, len(self._voxels)):
+            self.merge()
+
+    def merge(self) -> VoxelTable:
+        """Merge and return the cells of all parts so far."""
+        self._voxels, self._waiting = merged([self._voxels, *self._waiting]), []
+        return self._voxels
+
+    def result(self, robot: RobotModel, chain: Chain) -> Workspace:
+        """Return the workspace from all parts, certified.
+
+        Raises:
+            CertificationFailed: Poses or Jacobians differ from Pinocchio's, or measures from their recomputation.
+        """
+        voxels, count, plan = self.merge(), self._count, self._plan
+        points = None if self._points is None else self._points[:count]
+        late = voxels.first >= round((1.0 - _LATE) * plan.sampling.count)
+        return Workspace(
+            count,
+            np.stack((self._lower, self._upper)) if count else None,
+            self._distances if count else None,
+            self._statistics() if count else None,
+            voxels,
+            len(plan.grid.inner(voxels.keys)),
+            volume_bounds(plan.grid, voxels, plan.extent),
+            float(late.mean()) if count else None,
+            points,
+            self._certificate(robot, chain),
+        )
+
+    def _statistics(self) -> Measures:
+        least, most, total = self._measures
+        if most == 0.0:
+            return Measures(0.0, 0.0, 0.0, None, None)
+        q = self._plan.sampling.configurations(self._best, 1)
+        position = self._plan.measured(q)[0][0]
+        return Measures(least, total / self._count, most, position, q[0])
+
+    def _certificate(self, robot: RobotModel, chain: Chain) -> SurveyCertificate:
+        """Recompute some evenly spaced samples, and compare them with the stored ones and with Pinocchio's."""
+        plan, total = self._plan, self._plan.sampling.count
+        numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
+        qs = plan.sampling.chosen(numbers)
+        positions, measures = plan.measured(qs)
+        poses = Poses(*chain_poses(chain.flat, qs))
+        agreed("a position", poses.positions - positions, plan.extent)
+        Js = chain_jacobians(chain.flat, qs)[2]
+        products, scale = _products(plan, Js)
+        error = agreed("the manipulability measure", measures - products, scale)
+        if self._points is not None and self._count == total:
+            agreed("a sample's position", self._points[numbers, :3] - positions, plan.extent)
+            agreed("a sample's measure", self._points[numbers, 3] - measures, scale)
+        return SurveyCertificate(
+            certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
+            certify_jacobians(robot, chain, qs, Js).max_error,
+            error,
+        )
+
+
+def volume_bounds(grid: Grid, table: VoxelTable, farthest: float) -> tuple[float, float]:
+    """Return a lower and an upper bound of the volume of the region that the samples come from, [m³, m² or m].
+
+    The region contains the inner cells, and lies within the cells it meets. If the samples are too few to find nearly
+    all of these, cells of twice the size are used. The number of cells still missing is estimated from those with one
+    or two samples [Chao1984]. Without samples the only bound is the ball that the tip cannot leave.
+
+    Args:
+        grid: The grid of cells.
+        table: The cells that contain samples.
+        farthest: Upper bound of the tip's distance from the base's origin, [m].
+    """
+    d = grid.dimensions
+    if d == 0:
+        return 0.0, 0.0
+    lower, upper = 0.0, math.pi ** (d / 2) / math.gamma(d / 2 + 1) * farthest**d
+    while len(table):
+        once, twice = (int(np.sum(table.counts == count)) for count in (1, 2))
+        lower = max(lower, len(grid.inner(table.keys)) * grid.cell)
+        if once <= _RARE * table.counts.sum():
+            return lower, min(upper, (len(table) + 0.5 * once * max(0, once - 1) / (twice + 1)) * grid.cell)
+        if len(table) <= 1 << d:
+            break
+        grid, table = coarser(grid, table)
+    return lower, upper
+
+
+def _products(plan: SamplingPlan, Js: Array) -> tuple[Array, float]:
+    """Products of the singular values of the rows that count, and their scale, from Jacobians in the base frame.
+
+    Returns:
+        Shape (N,), and the largest singular value to the power of their number, to which rounding is relative.
+    """
+    if len(plan.rows) == 0 or Js.shape[2] == 0:
+        return np.zeros(len(Js)), 0.0
+    if plan.turn is not None:
+        Js = np.concatenate((plan.turn.T @ Js[:, :3], plan.turn.T @ Js[:, 3:]), axis=1)
+    sigmas = np.linalg.svd(Js[:, plan.rows], compute_uv=False)
+    products: Array = np.prod(sigmas, axis=1)
+    return products, float(sigmas.max()) ** sigmas.shape[1]

@@ -1,0 +1,193 @@
+"""Decorators for compiled functions, and the cache of their code. Importing Numba takes a third of a second."""
+
+import contextlib
+import hashlib
+import logging
+import re
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Any, TypeVar, cast
+
+import llvmlite.binding
+import numba
+from numba.core import event
+from platformdirs import user_cache_path
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_KERNEL = re.compile(rb"^@(compiled|unmanaged|inlined)$", re.MULTILINE)
+_IMPORT = re.compile(rb"^\s*from gelenk\.([\w.]+) import", re.MULTILINE)
+
+
+def _kernel_digest() -> str:
+    """Return a digest of the sources that define kernels and of all modules that these import.
+
+    `errors` is excluded: kernels raise none of them, and a new error is no reason to recompile.
+    """
+    package = Path(__file__).parents[1]
+    texts = {path: path.read_bytes() for path in package.glob("[mk]*/**/*.py")}
+    waiting = [path for path, text in texts.items() if _KERNEL.search(text)]
+    sources: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        if path in texts and path not in sources and path.stem != "errors":
+            sources.add(path)
+            imported = (name.decode().replace(".", "/") for name in _IMPORT.findall(texts[path]))
+            waiting += [package / f"{name}.py" for name in imported]
+    digest = hashlib.sha256()
+    for path in sorted(sources):
+        digest.update(str(path.relative_to(package)).encode() + texts[path])
+    return digest.hexdigest()[:16]
+
+
+def _processor_digest() -> str:
+    """Return a digest of the processor type, because code compiled for one type need not run on another."""
+    features = sorted(llvmlite.binding.get_host_cpu_features().items())
+    words = (llvmlite.binding.get_host_cpu_name(), features, _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES)
+    return hashlib.sha256(repr(words).encode()).hexdigest()[:8]
+
+
+def _store() -> Path | None:
+    """Return the first writable folder: the configured one, else one in the source tree or the user's cache; or None.
+
+    Numba refreshes its cache of a function when the function's own file changes, but not when the file of an inlined
+    function changes. So each version of the sources has its own folder.
+    """
+    given, state = _SETTINGS.CACHE_DIR, f"{_kernel_digest()}-{_processor_digest()}"
+    own = (Path(__file__).parents[1] / "__pycache__" / "kernels", user_cache_path("gelenk") / "kernels")
+    folders = (Path(given),) if given else own
+    for store in (folder / state for folder in folders):
+        with contextlib.suppress(OSError):
+            store.mkdir(parents=True, exist_ok=True)
+            TemporaryFile(dir=store).close()
+            return store
+    logging.getLogger("gelenk").warning(
+        "the kernels are recompiled at each start, which takes about a minute, because nothing can be written to %s: "
+        "set NUMBA_CACHE_DIR to a writable folder",
+        " or ".join(map(str, folders)),
+    )
+    return None
+
+
+_SETTINGS: Any = numba.config
+STORE = _store()
+"""Folder of the compiled kernels; None if no folder is writable."""
+_SETTINGS.CACHE_DIR = str(STORE or "")
+_OPTIONS: dict[str, Any] = {
+    "cache": STORE is not None,
+    "nogil": True,
+    "error_model": "numpy",
+    "fastmath": {"contract"},
+}
+_UNMANAGED: dict[str, Any] = {**_OPTIONS, "_nrt": False}
+
+
+def is_stored() -> bool:
+    """Return whether all kernels have already been compiled for this processor type and only need to be loaded."""
+    return STORE is not None and (STORE / "all").exists()
+
+
+def note_stored() -> None:
+    """Record that all kernels have been compiled and stored."""
+    if STORE is not None:
+        with contextlib.suppress(OSError):
+            (STORE / "all").touch()
+
+
+_expects_others = False
+
+
+def expect_others(does: bool) -> None:
+    """Set whether another process compiles kernels that this process and its forks may need."""
+    global _expects_others  # noqa: PLW0603
+    _expects_others = does
+
+
+def is_awaited() -> bool:
+    """Return whether another process is still compiling the kernels; to compile them here too would waste a minute."""
+    return _expects_others and not is_stored()
+
+
+def wait_for_others() -> None:
+    """Wait until no other process is still compiling the kernels."""
+    while is_awaited():
+        time.sleep(0.05)
+
+
+class _Clock(event.Listener):
+    """A clock that stops while any thread compiles, loads compiled code, or waits for another thread to do so."""
+
+    def __init__(self) -> None:
+        self._lock, self._depth = threading.Lock(), 0
+        self._since = self._seconds = 0.0
+
+    def on_start(self, _: Any) -> None:
+        with self._lock:
+            if not self._depth:
+                self._since = time.monotonic()
+            self._depth += 1
+
+    def on_end(self, _: Any) -> None:
+        with self._lock:
+            self._depth -= 1
+            if not self._depth:
+                self._seconds += time.monotonic() - self._since
+
+    def now(self) -> float:
+        with self._lock:
+            return (self._since if self._depth else time.monotonic()) - self._seconds
+
+
+class _Teller(event.Listener):
+    """Calls a function once, when something is compiled and not only loaded."""
+
+    def __init__(self, tell: Callable[[], None]) -> None:
+        self._tell, self._has_told = tell, False
+
+    def on_start(self, _: Any) -> None:
+        if not self._has_told:
+            self._has_told = True
+            self._tell()
+
+    def on_end(self, _: Any) -> None:
+        pass
+
+
+_CLOCK = _Clock()
+event.register("numba:compiler_lock", _CLOCK)  # type: ignore[no-untyped-call]
+
+
+def clock() -> float:
+    """Return the time [s] like `time.monotonic`, but without time spent compiling; time limits are measured with it."""
+    return _CLOCK.now()
+
+
+@contextlib.contextmanager
+def when_compiling(tell: Callable[[], None]) -> Iterator[None]:
+    """Call a function when the first kernel is compiled within this context; never if all of them are stored."""
+    with event.install_listener("numba:compile", _Teller(tell)):
+        yield
+
+
+def compiled(function: _Function) -> _Function:
+    """Compile for this machine at the first call, without the GIL, and cache the code on disk.
+
+    Division follows IEEE 754 as in NumPy, so functions must guard their own denominators. A product and a sum may be
+    contracted into one operation with a single rounding; nothing else is reordered.
+    """
+    return cast(_Function, numba.njit(**_OPTIONS)(function))
+
+
+def unmanaged(function: _Function) -> _Function:
+    """Compile a function that neither creates nor returns arrays, without reference counting of its arguments.
+
+    In a loop over many small functions, the counting costs more than the arithmetic.
+    """
+    return cast(_Function, numba.njit(**_UNMANAGED)(function))
+
+
+def inlined(function: _Function) -> _Function:
+    """Compile like `unmanaged`, but inline the function into its callers, so that numbers stay in registers."""
+    return cast(_Function, numba.njit(**_UNMANAGED, forceinline=True)(function))

@@ -1,0 +1,97 @@
+"""SO(3) and SE(3) as matrices: checks of rotations, and transforms; `notations` has the other notations."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.errors import InvalidPose
+from gelenk.robot.arrays import Array
+
+ROTATION_TOLERANCE = 1e-6
+"""Largest deviation from SO(3) accepted in an orientation from outside, which is then projected."""
+
+_ROTATION_ROUNDING = 5e-15
+"""Largest distance from SO(3) of a product of a few rotations; such a matrix is used unchanged."""
+
+
+@dataclass(frozen=True, slots=True)
+class Poses:
+    """A batch of poses T_a_b.
+
+    Attributes:
+        positions: Origins of b in a; shape (N, 3), [m].
+        rotations: Axes of b in a, as columns; shape (N, 3, 3).
+    """
+
+    positions: Array
+    rotations: Array
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def matrices(self) -> Array:
+        """Return the poses as homogeneous transforms; shape (N, 4, 4)."""
+        Ts = np.zeros((len(self), 4, 4))
+        Ts[:, :3, :3] = self.rotations
+        Ts[:, :3, 3] = self.positions
+        Ts[:, 3, 3] = 1.0
+        return Ts
+
+
+def nearest_rotation(matrix: Array) -> Array:
+    """Return the rotation nearest to a matrix that is nearly a rotation; shape (3, 3) → (3, 3).
+
+    A matrix that differs from a rotation by rounding alone is returned unchanged, so a client gets back what it sent.
+
+    Raises:
+        InvalidPose: The matrix is further than `ROTATION_TOLERANCE` (Frobenius norm) from every rotation.
+    """
+    U, stretches, Vt = np.linalg.svd(matrix)
+    handedness = np.linalg.det(U @ Vt)
+    R = U @ np.diag([1.0, 1.0, handedness]) @ Vt
+    distance = math.hypot(*(matrix - R).ravel())
+    if distance > ROTATION_TOLERANCE:
+        kind = (
+            "a reflection (determinant -1), not a rotation"
+            if handedness < 0.0 and np.abs(stretches - 1.0).max() < ROTATION_TOLERANCE
+            else "not a rotation (RᵀR ≠ I)"
+        )
+        raise InvalidPose(
+            f"the matrix is {kind}; the limit is a distance of {ROTATION_TOLERANCE:g} from SO(3)", _finite(distance)
+        )
+    return np.ascontiguousarray(R if distance > _ROTATION_ROUNDING else matrix)
+
+
+def unit_quaternion(quaternion: Array) -> Array:
+    """Normalise a quaternion whose length is nearly 1; shape (4,) → (4,), any order.
+
+    Raises:
+        InvalidPose: The length differs from 1 by more than `ROTATION_TOLERANCE`.
+    """
+    length = math.hypot(*quaternion.tolist())
+    if abs(length - 1.0) > ROTATION_TOLERANCE:
+        raise InvalidPose(
+            f"the quaternion has length {length:.9g}; allowed: 1 ± {ROTATION_TOLERANCE:g}",
+            _finite(abs(length - 1.0)),
+        )
+    return quaternion / length
+
+
+def _finite(distance: float) -> float | None:
+    """Return the distance if it is finite, else None."""
+    return distance if math.isfinite(distance) else None
+
+
+def transform(position: Array, rotation: Array) -> Array:
+    """Return the homogeneous transform (4, 4) of a position (3,) and a rotation (3, 3)."""
+    T = np.eye(4)
+    T[:3, :3] = rotation
+    T[:3, 3] = position
+    return T
+
+
+def inverse(T_a_b: Array) -> Array:
+    """Return T_b_a of T_a_b; shape (4, 4)."""
+    R = T_a_b[:3, :3]
+    return transform(-R.T @ T_a_b[:3, 3], R.T)

@@ -1,0 +1,124 @@
+"""Demands on a motion: limits of joints and tip, its ends, its path, and its smoothness."""
+
+import math
+from dataclasses import dataclass, field
+
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.tip import PathOfTime
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimits:
+    """Limits of each joint, of shape (n,) each; infinite for a joint without a limit, None if no joint has one.
+
+    Attributes:
+        velocity: [rad/s or m/s].
+        acceleration: [rad/s² or m/s²].
+        jerk: [rad/s³ or m/s³].
+        lower: Position, [rad or m]; the chain's limit if None.
+        upper: Likewise.
+    """
+
+    velocity: Array | None = None
+    acceleration: Array | None = None
+    jerk: Array | None = None
+    lower: Array | None = None
+    upper: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TipLimits:
+    """Limits of the tip, [m/s, rad/s, m/s², rad/s²]; infinite if unlimited."""
+
+    speed: float = math.inf
+    angular_speed: float = math.inf
+    acceleration: float = math.inf
+    angular_acceleration: float = math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """State that a motion must have at its start and end; None leaves a quantity open, but a velocity is then 0.
+
+    Attributes:
+        start: Configuration; shape (n,), [rad or m].
+        end: Likewise.
+        start_velocity: Zero if None; shape (n,), [rad/s or m/s].
+        end_velocity: Likewise.
+        start_acceleration: Open if None; shape (n,), [rad/s² or m/s²].
+        end_acceleration: Likewise.
+    """
+
+    start: Array | None = None
+    end: Array | None = None
+    start_velocity: Array | None = None
+    end_velocity: Array | None = None
+    start_acceleration: Array | None = None
+    end_acceleration: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LimitedInterval:
+    """A time interval in which the tip has its own limits, in addition to those of the whole motion.
+
+    Attributes:
+        begin: [s].
+        end: [s].
+        tip: The limits.
+    """
+
+    begin: float
+    end: float
+    tip: TipLimits
+
+
+@dataclass(frozen=True, slots=True)
+class PathError:
+    """Bounds on how much ratios to limits differ from those of the exact path at the same time law.
+
+    Attributes:
+        velocity: Of the joints; ∞ if unknown.
+        acceleration: Likewise.
+        jerk: Likewise.
+    """
+
+    velocity: float
+    acceleration: float
+    jerk: float
+
+
+@dataclass(frozen=True, slots=True)
+class Demands:
+    """The limits that a motion must keep, and the path it must follow.
+
+    Attributes:
+        joints: Limits of the joints.
+        tip: Limits of the tip.
+        ends: State at the start and the end.
+        path: Demanded pose at each time; None if the tip is free.
+        task: Directions that count for the path and for the smallest singular value.
+        path_tolerance: Allowed distance from the path, [m].
+        orientation_tolerance: Allowed angle from the path's orientation, [rad].
+        continuous: Order up to which derivatives must not jump; 1 means C¹.
+        stretches: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
+        keeps_jerk: Whether exceeding a jerk limit fails the audit; otherwise jerk is only compared.
+        stated_jerk: Jerk limits enforced within pieces even if `keeps_jerk` is False; shape (n,), [rad/s³ or m/s³].
+        way_error: How far the planned motion is from the exact path; None if it follows no path.
+        tolerance: Allowed relative excess over a limit, and allowed error at the ends, relative to the derivative's
+            peak or to 1; also the allowed jump of position, ten times as much for velocity, and so on.
+    """
+
+    joints: JointLimits = field(default_factory=JointLimits)
+    tip: TipLimits = field(default_factory=TipLimits)
+    ends: Ends = field(default_factory=Ends)
+    path: PathOfTime | None = None
+    task: Task = FULL_POSE
+    path_tolerance: float = 1e-4
+    orientation_tolerance: float = 1e-3
+    continuous: int = 1
+    stretches: tuple[LimitedInterval, ...] = ()
+    keeps_jerk: bool = True
+    stated_jerk: Array | None = None
+    way_error: PathError | None = None
+    tolerance: float = 1e-9

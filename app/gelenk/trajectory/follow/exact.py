@@ -1,0 +1,146 @@
+"""Refinement of a joint path until q'' is as accurate as q, so that peaks and durations are those of the exact path.
+
+Quintics within a tolerance of the position are far less accurate in q'', and so in peaks of acceleration. Such pieces
+get more knots, many at once: the exact path is a few Newton steps away from a quintic; for redundant arms the nearest
+exact configuration is taken.
+"""
+
+import numpy as np
+
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.trajectory.audit.demands import PathError
+from gelenk.trajectory.follow.bounds import SLACK
+from gelenk.trajectory.follow.rate_field import Course
+from gelenk.trajectory.follow.rows import row_derivatives, task_rows
+from gelenk.trajectory.motion.composition import RATES_KNOWN, derivatives
+from gelenk.trajectory.motion.intervals import bernstein, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.timing import Timed
+
+TOLERANCE = 1e-6
+"""Largest error of q'', in fractions of the largest q'' of its piece, or of q' over the length of the path."""
+_PROBES = np.array([0.14, 0.5, 0.86])
+"""Places in a piece where that error is largest: it varies as the second derivative of τ³(1 - τ)³."""
+_ROUNDS, _MOST_PARTS = 4, 16
+_SHORTEST = 1e-2
+"""Least length of a new piece, in fractions of the path."""
+_ROUNDING = 1e-13
+"""Rounding of q, in fractions of 1 plus its magnitude, [rad or m]."""
+_FIRST, _THIRD = 0.144, 16.0
+"""Largest errors of q' and q''': these factors times that of q'', times or over the length of the piece."""
+_UNSEEN = 1.5
+"""Safety factor for errors larger than at the probes."""
+_STEPS, _SETTLED, _RANK = 4, 1e-11, 1e-13
+
+
+def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePolynomial, Array]:
+    """Add knots to a path where its q'' differs from the exact one, and return the remaining error.
+
+    Args:
+        course: The course being followed.
+        positions: q(s), quintics; pieces too near to singularities or joint limits stay unchanged.
+
+    Returns:
+        The path in M pieces, and the largest error of q'' for each piece and joint, ∞ where unknown; (M, n).
+    """
+    for left in reversed(range(_ROUNDS)):
+        off, parts = _errors(course, positions)
+        if left == 0 or (parts == 1).all():
+            break
+        positions = _divided(course, positions, parts)
+    return positions, off
+
+
+def path_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: SegmentLimits) -> PathError:
+    """Bound how much a motion's ratios to limits differ from those of the exact path.
+
+    Args:
+        joints: q(s), in M pieces.
+        off: Largest error of q'' in each piece; shape (M, n).
+        timing: Its motion in time.
+        limits: Of the joints.
+    """
+    breaks, law = timing.motion.breaks, timing.law
+    times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
+    s, v, a, j = (np.abs(law.derivative(order).at(times)) for order in range(4))
+    piece = np.clip(np.searchsorted(joints.breaks, s[:, 0], side="right") - 1, 0, len(off) - 1)
+    second, widths = _UNSEEN * off[piece], np.diff(joints.breaks)[piece, None]
+    first, third = _FIRST * second * widths, _THIRD * second / widths
+    with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
+        errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
+    bounds = (limits.velocity, limits.acceleration, limits.jerk)
+    return PathError(
+        *(
+            float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
+            for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
+        )
+    )
+
+
+def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:
+    """Return the largest error of q'' in each piece, (M, n), and the number of parts to divide it into, (M,)."""
+    widths, extent = np.diff(positions.breaks), course.path.extent
+    places = (positions.breaks[:-1] + _PROBES[:, None] * widths).ravel()
+    rates = positions.rates_at(places)
+    exact, near = _exact(course, places, *rates)
+    errors = np.where(near[:, None], np.abs(exact[2] - rates[2]), np.inf)
+    q, first, second, off = (
+        np.abs(values).reshape(len(_PROBES), len(widths), -1).max(axis=0) for values in (*rates, errors)
+    )
+    bend = np.maximum(second.max(axis=1), first.max(axis=1) / extent)
+    allowed = TOLERANCE * bend + _ROUNDING * (1.0 + q.max(axis=1)) / widths**2
+    ratios = off.max(axis=1) / np.maximum(allowed, np.finfo(float).tiny)
+    # The error is of fourth order in the piece's length.
+    wanted = np.where((ratios > 1.0) & np.isfinite(ratios), np.ceil(1.05 * ratios**0.25), 1.0)
+    most = np.clip(widths / (_SHORTEST * extent), 1.0, _MOST_PARTS)
+    return off, np.minimum(wanted, most).astype(np.int64)
+
+
+def _divided(course: Course, positions: PiecewisePolynomial, parts: Indices) -> PiecewisePolynomial:
+    """Divide pieces at exact knots; a piece that would then leave the joint limits keeps its own quintic."""
+    piece = np.repeat(np.arange(len(parts)), parts)
+    share = (np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)) / parts[piece]
+    widths = np.diff(positions.breaks)
+    breaks = np.append(positions.breaks[piece] + share * widths[piece], positions.breaks[-1])
+    own = cut(positions, breaks)
+    starts = np.stack((own[:, 0], own[:, 1], 2.0 * own[:, 2]))
+    new = share > 0.0
+    starts[:, new] = _exact(course, breaks[:-1][new], *starts[:, new])[0]
+    ends = np.roll(starts, -1, axis=1)
+    ends[:, np.append(~new[1:], True)] = np.stack(derivatives(positions.coefficients, widths[:, None])[:3])
+    lengths = np.diff(breaks)
+    coefficients = hermite_pieces(starts, ends, lengths)
+    hull = bernstein(coefficients * lengths[:, None, None] ** np.arange(coefficients.shape[1])[:, None])
+    beyond = (hull < course.chain.lower - SLACK) | (hull > course.chain.upper + SLACK)
+    kept = np.isin(piece, piece[beyond.any(axis=(1, 2))])
+    coefficients[kept] = own[kept]
+    return PiecewisePolynomial(breaks, coefficients)
+
+
+def _exact(course: Course, s: Array, q: Array, first: Array, second: Array) -> tuple[Array, Flags]:
+    """Return q, q', q'' of the exact path next to given ones, (3, N, n), and whether found; if not, the given ones."""
+    chain, task, at = course.chain, course.task, course.path.at(s)
+    rows, exact, step = task_rows(chain, task, at, q), q, np.zeros_like(q)
+    inverses = _inverses(rows.jacobians)
+    for _ in range(_STEPS):
+        step = _times(inverses, rows.errors)
+        exact = exact + step
+        rows = task_rows(chain, task, at, exact)
+    inverses = _inverses(rows.jacobians)
+    rates = first + _times(inverses, rows.rates - _times(rows.jacobians, first))
+    changes, bends = row_derivatives(chain, task, at, exact, rates)
+    bend = second + _times(inverses, bends - _times(changes, rates) - _times(rows.jacobians, second))
+    near = np.abs(step).max(axis=1) <= _SETTLED * (1.0 + np.abs(q).max(axis=1))
+    return np.where(near[:, None], (exact, rates, bend), (q, first, second)), near
+
+
+def _inverses(matrices: Array) -> Array:
+    inverses: Array = np.asarray(np.linalg.pinv(matrices, rcond=_RANK), dtype=np.float64)
+    return inverses
+
+
+def _times(matrices: Array, vectors: Array) -> Array:
+    products: Array = (matrices @ vectors[:, :, None])[:, :, 0]
+    return products

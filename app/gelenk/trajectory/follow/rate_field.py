@@ -1,0 +1,231 @@
+"""Field of joint rates along a path of the tip, and the exact knots of the joint path in it.
+
+q' = J⁺ξ; with more joints than directions that count it is the shortest q'. With at least as many joints its
+derivative is q'' = J̇ᵀλ + J⁺(ξ' - J̇q' - J J̇ᵀλ) with λ = (JJᵀ)⁻¹ξ. For a redundant arm the field may also have a part
+along the self-motion, which keeps joints away from their limits.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from gelenk.ik.search.task import Task
+from gelenk.robot.arrays import Array
+from gelenk.robot.chain import Chain
+from gelenk.robot.notations import rotations_from_vectors
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.follow.rows import CountedRows, row_derivatives, task_rows
+from gelenk.trajectory.paths.paths import Path, PathSamples
+
+STENCIL = np.array([1.0, -8.0, 8.0, -1.0]) / 12.0
+PLACES = np.array([-2.0, -1.0, 1.0, 2.0])
+"""Places of a central difference of fourth order; its weights are `STENCIL`."""
+_DIFFERENCE = 1e-3
+"""Step of that difference in q, [rad or m]; smaller near a singularity, where the field changes fast."""
+_RANK = 1e-13
+"""Share of the largest singular value below which one counts as zero."""
+_EXACT = 1e-14
+"""Error that no further step reduces, in fractions of 1 plus the largest position and joint value, [m and rad]."""
+_NEARLY = 1e-10
+_MOST_STEPS = 12
+_ELIMINATED = 1e-6
+_FAR = 1e6
+"""Magnitude of a joint beyond which a configuration counts as diverged, [rad or m]."""
+_FARTHEST = 1.0
+"""Longest step of Newton's method, [rad or m]."""
+_EDGE = 0.2
+"""Share of a joint's range at each limit within which the joint is pushed away."""
+
+
+@dataclass(frozen=True, slots=True)
+class Knot:
+    """An exact point of the joint path.
+
+    Attributes:
+        s: Its place, [m or rad].
+        q: Shape (n,), [rad or m].
+        dq: q' there; shape (n,).
+        ddq: q'' there; shape (n,).
+        sigma: The smallest singular value of the rows that count.
+        span: An orthonormal basis of the rows of J; shape (r, n).
+        change: Norm of dJ/ds, which bounds the change of σ.
+        offset: Distance of q from the path, for a first knot only, [rad or m].
+    """
+
+    s: float
+    q: Array
+    dq: Array
+    ddq: Array
+    sigma: float
+    span: Array
+    change: float
+    offset: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """The path to follow, and how to follow it.
+
+    Attributes:
+        chain: Chain from base to tip.
+        path: The path of the tip.
+        task: Directions of the path that count.
+        residuals: Distance [m] and angle [rad] allowed to an arm with too few joints for all directions.
+        limited: Whether joints must keep their limits.
+        push: Gain that pushes spare joints away from their limits.
+    """
+
+    chain: Chain
+    path: Path
+    task: Task
+    residuals: tuple[float, float]
+    limited: bool = True
+    push: float = 0.0
+
+    @property
+    def is_redundant(self) -> bool:
+        """Whether there are more joints than directions that count."""
+        return len(self.chain) > len(self.task)
+
+    def samples(self, s: Array, begin: float, end: float) -> PathSamples:
+        """Sample the path between two of its breaks; at the end the derivatives are those before the break."""
+        return self.path.at(np.minimum(np.maximum(s, begin), end - 8.0 * np.spacing(end)))
+
+    def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
+        """Return the field's rates q', shape (N, n), and the smallest singular value, shape (N,)."""
+        rows = task_rows(self.chain, self.task, at, qs)
+        left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
+        dqs = _applied(left, sigmas, right, rows.rates)
+        if self.push > 0.0:
+            dqs = dqs + self._pushed(right, rows.rates, qs)
+        return dqs, sigmas[:, -1]
+
+    def knot(self, s: float, at: PathSamples, q: Array, rows: CountedRows | None = None) -> Knot:
+        """Return the knot at a configuration on the path; `at` is one sample, `rows` its task rows if known."""
+        rows = task_rows(self.chain, self.task, at, q[None]) if rows is None else rows
+        left, sigmas, right = np.linalg.svd(rows.jacobians, full_matrices=False)
+        dq = _applied(left, sigmas, right, rows.rates)
+        if self.push > 0.0:
+            dq = dq + self._pushed(right, rows.rates, q[None])
+        dJ, dxi = row_derivatives(self.chain, self.task, at, q[None], dq)
+        if self.push > 0.0:
+            ddq = derivative_along(self, at, q, dq[0], float(sigmas[0, -1]))
+        else:
+            ddq = _acceleration(rows, left, sigmas, right, dq, dJ, dxi)[0]
+        return Knot(s, q, dq[0], ddq, float(sigmas[0, -1]), right[0], float(np.sqrt(np.sum(dJ * dJ))))
+
+    def first_knot(self, s: float, at: PathSamples, q: Array) -> Knot:
+        """Return the knot at a configuration that is nearly on the path."""
+        rows = task_rows(self.chain, self.task, at, q[None])
+        offset = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)
+        return replace(self.knot(s, at, q), offset=float(np.abs(offset).max()))
+
+    def next_to(self, s: float, at: PathSamples, q: Array) -> Knot | None:
+        """Find the knot nearest to a configuration by Newton's method; None if it does not converge."""
+        floor = _EXACT * (1.0 + float(np.abs(at.poses.positions).max()) + float(np.abs(q).max()))
+        before = np.inf
+        for _ in range(_MOST_STEPS):
+            if not float(np.abs(q).max(initial=0.0)) <= _FAR:
+                return None
+            rows = task_rows(self.chain, self.task, at, q[None])
+            error = float(np.abs(rows.errors).max())
+            if error <= floor or (error <= _NEARLY and error > 0.5 * before):
+                return self.knot(s, at, q, rows)
+            step = _step(rows)
+            length = float(np.abs(step).max())
+            if not length <= _FARTHEST:
+                return None
+            q, before = q + step, error
+            if len(self.chain) < len(self.task) and length <= _EXACT * (1.0 + float(np.abs(q).max())) * 10.0:
+                return self.knot(s, at, q) if self.within(at, q) else None
+        return None
+
+    def within(self, at: PathSamples, q: Array) -> bool:
+        """Return whether the tip is on the path within the residuals."""
+        rows = task_rows(self.chain, self.task, at, q[None])
+        limits = np.where(np.flatnonzero(self.task.weights) < 3, *self.residuals)
+        return bool((np.abs(rows.errors[0]) <= limits).all())
+
+    def _pushed(self, right: Array, rates: Array, qs: Array) -> Array:
+        """Return the part of the field along the self-motion that pushes joints away from near limits; shape (N, n)."""
+        lower, upper = self.chain.lower, self.chain.upper
+        ranges = upper - lower
+        limited = np.isfinite(ranges) & (ranges > 0.0)
+        edges = np.where(limited, _EDGE * ranges, 1.0)
+        low = np.where(limited, np.maximum(lower + edges - qs, 0.0) / edges, 0.0)
+        high = np.where(limited, np.maximum(qs - upper + edges, 0.0) / edges, 0.0)
+        # The cube keeps q'' continuous where a joint enters the edge of its range.
+        away = self.push * np.linalg.norm(rates, axis=1)[:, None] * (low**3 - high**3)
+        result: Array = away - np.einsum("bri,br->bi", right, np.einsum("bri,bi->br", right, away))
+        return result
+
+
+def _step(rows: CountedRows) -> Array:
+    """Return J⁺e of the one configuration, by elimination if J is far from losing rank; shape (n,)."""
+    J, e = rows.jacobians[0], rows.errors[0]
+    if len(J) <= J.shape[1]:
+        try:
+            step: Array = J.T @ np.linalg.solve(J @ J.T, e)
+        except np.linalg.LinAlgError:
+            step = np.full(J.shape[1], np.nan)
+        # Elimination is as good as an SVD if its residual is a small share of the error.
+        if float(np.abs(J @ step - e).max()) <= _ELIMINATED * float(np.abs(e).max()):
+            return step
+    decomposed: Array = _applied(*np.linalg.svd(rows.jacobians, full_matrices=False), rows.errors)[0]
+    return decomposed
+
+
+def _applied(left: Array, sigmas: Array, right: Array, bs: Array) -> Array:
+    """Return J⁺b from singular value decompositions of J; shape (N, n)."""
+    counts = sigmas > _RANK * sigmas[:, :1]
+    gains = np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
+    result: Array = ((gains[:, :, None] * (left.transpose(0, 2, 1) @ bs[:, :, None])).transpose(0, 2, 1) @ right)[:, 0]
+    return result
+
+
+def _acceleration(
+    rows: CountedRows, left: Array, sigmas: Array, right: Array, dq: Array, dJ: Array, dxi: Array
+) -> Array:
+    """Return q'' of the shortest q'; shape (N, n)."""
+    missing = dxi - (dJ @ dq[:, :, None])[:, :, 0]
+    if rows.jacobians.shape[2] <= rows.jacobians.shape[1]:
+        return _applied(left, sigmas, right, missing)
+    # λ = (JJᵀ)⁻¹ξ = (J⁺)ᵀq'.
+    counts = sigmas > _RANK * sigmas[:, :1]
+    gains = np.where(counts, 1.0 / np.where(counts, sigmas, 1.0), 0.0)
+    lam = (left @ (gains[:, :, None] * (right @ dq[:, :, None])))[:, :, 0]
+    along = (dJ.transpose(0, 2, 1) @ lam[:, :, None])[:, :, 0]
+    return along + _applied(left, sigmas, right, missing - (rows.jacobians @ along[:, :, None])[:, :, 0])
+
+
+class Field(Protocol):
+    """A field of joint rates, defined at any configuration."""
+
+    def velocities(self, at: PathSamples, qs: Array) -> tuple[Array, Array]:
+        """Return the rates q', shape (N, n), and the smallest singular value, shape (N,)."""
+
+
+def taken(at: PathSamples, rows: slice) -> PathSamples:
+    """Return some of the samples."""
+    return PathSamples(Poses(at.poses.positions[rows], at.poses.rotations[rows]), at.first[rows], at.second[rows])
+
+
+def derivative_along(field: Field, at: PathSamples, q: Array, dq: Array, sigma: float) -> Array:
+    """Return the derivative of a field by s along its own path, by a difference of fourth order; shape (n,)."""
+    step = min(_DIFFERENCE, 0.05 * max(sigma, 1e-6)) / max(
+        float(np.abs(dq).max()), float(np.abs(at.first[:, 3:]).max()), 1e-300
+    )
+    places = PLACES * step
+    velocities = field.velocities(beside(at, places), q + places[:, None] * dq)[0]
+    result: Array = STENCIL @ velocities / step
+    return result
+
+
+def beside(at: PathSamples, places: Array) -> PathSamples:
+    """Extrapolate the path from one sample to offsets in s, with its twist linear in s and without regard to breaks."""
+    first, second = at.first + places[:, None] * at.second, np.repeat(at.second, len(places), axis=0)
+    mean = at.first + 0.5 * places[:, None] * at.second
+    positions = at.poses.positions + places[:, None] * mean[:, :3]
+    rotations = rotations_from_vectors(np.ascontiguousarray(places[:, None] * mean[:, 3:])) @ at.poses.rotations
+    return PathSamples(Poses(positions, rotations), first, second)

@@ -1,0 +1,141 @@
+"""One piece of the joint path, from knot to knot, and how accurate it is in between.
+
+Between two exact knots q is the quintic with the same q, q' and q'' at both. A piece is accepted if its poses are on
+the path within a share of the tolerance, and its rates agree with the field.
+"""
+
+from dataclasses import dataclass
+from math import comb, perm
+
+import numpy as np
+
+from gelenk.kinematics.simd.kernels import chain_poses
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.follow.rate_field import Course, Knot, taken
+from gelenk.trajectory.motion.time_laws import hermite_pieces
+from gelenk.trajectory.paths.paths import PathSamples
+
+_QUINTIC = hermite_pieces(np.eye(6)[:3, None], np.eye(6)[3:, None], np.ones(1))[0]
+"""Coefficients of the six quintics with one end condition 1 and the others 0, by powers of τ; shape (6, 6)."""
+_BERNSTEIN = np.array([[comb(i, k) / comb(5, k) for k in range(6)] for i in range(6)])
+"""Bernstein coefficients from power coefficients: a quintic stays between the smallest and the largest of them."""
+INNER = np.arange(1, 8) / 8.0
+"""Places between 0 and 1 at which a piece is examined."""
+
+
+def _basis(taus: Array, order: int = 0) -> Array:
+    """Evaluate the six quintics, or a derivative of them; shape (N, 6)."""
+    powers = np.arange(6)
+    factors = np.array([perm(k, order) for k in range(6)], dtype=float)
+    values: Array = (factors * taus[:, None] ** np.maximum(powers - order, 0)) @ _QUINTIC
+    return values
+
+
+_VALUES, _RATES = _basis(INNER), _basis(INNER, 1)
+HULL, TO_POWERS = _BERNSTEIN @ _QUINTIC, _QUINTIC
+"""Matrices from a quintic's end conditions to its Bernstein and power coefficients."""
+
+RATE_TOLERANCE = 1e-3
+"""Largest error of q' between knots, in fractions of the largest q' there."""
+SHARE = 1.0 / 3.0
+"""Share of the tolerances that interpolation may use."""
+_SETTLED = 1e-12
+"""Change of the joints that counts as none, [rad or m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A piece of the joint path between two knots.
+
+    Attributes:
+        a: First knot.
+        b: Last knot.
+        data: q, hq', h²q'' at both; shape (6, n).
+        sigmas: The smallest singular value at a, in between, and at b; shape (9,).
+        deviations: Largest distance [m] and angle [rad] of the tip from the path.
+        ratio: Largest ratio of an error to what is allowed.
+    """
+
+    a: Knot
+    b: Knot
+    data: Array
+    sigmas: Array
+    deviations: Array
+    ratio: float
+
+    @property
+    def width(self) -> float:
+        """Width h of the piece, [m or rad]."""
+        return self.b.s - self.a.s
+
+    def at(self, taus: Array) -> Array:
+        """Return configurations at places from 0 to 1; shape (N, n)."""
+        return rates_of(taus, 0, self.data)
+
+
+def rates_of(taus: Array, order: int, data: Array) -> Array:
+    """Return a derivative by τ of a quintic at places from 0 to 1; shape (N, n)."""
+    result: Array = _basis(taus, order) @ data
+    return result
+
+
+def end_conditions(a: Knot, b: Knot) -> Array:
+    """Return the end conditions of the quintic in τ between two knots; shape (6, n)."""
+    h = b.s - a.s
+    return np.array([a.q, h * a.dq, h * h * a.ddq, b.q, h * b.dq, h * h * b.ddq])
+
+
+def attempt(
+    course: Course, tolerances: tuple[float, float], a: Knot, s: float, stretch: tuple[float, float]
+) -> Piece | None:
+    """Return the piece from a knot to a place, whatever its errors; None if no exact knot is found there.
+
+    Args:
+        course: The course being followed.
+        tolerances: Of position [m] and orientation [rad].
+        a: First knot of the piece.
+        s: Place where it ends, [m or rad].
+        stretch: The breaks of the path before and after.
+    """
+    at = course.samples(np.append(a.s + (s - a.s) * INNER, s), *stretch)
+    b = next_knot(course, a, s, taken(at, slice(-1, None)))
+    return None if b is None else piece_between(course, tolerances, a, b, taken(at, slice(0, -1)))
+
+
+def piece_between(course: Course, tolerances: tuple[float, float], a: Knot, b: Knot, at: PathSamples) -> Piece:
+    """Return the quintic between two knots with its errors at the inner samples `at` of the path."""
+    h, data = b.s - a.s, end_conditions(a, b)
+    qs = _VALUES @ data
+    velocities, sigmas = course.velocities(at, qs)
+    fastest = max(float(np.abs(velocities).max()), float(np.abs(data[[1, 4]]).max()) / h, 1e-300)
+    rate_ratio = float(np.abs(_RATES @ data / h - velocities).max()) / (RATE_TOLERANCE * fastest + 20.0 * a.offset / h)
+    errors = course.task.errors(at.poses, Poses(*chain_poses(course.chain.flat, qs)))
+    deviations = errors.max(axis=1)
+    ratio = max(rate_ratio, float((deviations / (SHARE * np.array(tolerances) + 10.0 * a.offset)).max()))
+    return Piece(a, b, data, np.concatenate(([a.sigma], sigmas, [b.sigma])), deviations, ratio)
+
+
+def next_knot(course: Course, a: Knot, s: float, at: PathSamples) -> Knot | None:
+    """Return the knot of the same branch at a place, `at` being the path's sample there; None if none is near.
+
+    For a redundant arm the self-motion follows the field, by the formula of fourth order from q' and q'' at both ends;
+    other arms have no choice.
+    """
+    h = s - a.s
+    b = course.next_to(s, at, a.q + h * (a.dq + 0.5 * h * a.ddq))
+    for _ in range(2 if course.is_redundant else 0):
+        if b is None:
+            return None
+        wanted = a.q + 0.5 * h * (a.dq + b.dq) + h * h / 12.0 * (a.ddq - b.ddq) - b.q
+        along = wanted - b.span.T @ (b.span @ wanted)
+        if float(np.abs(along).max()) <= _SETTLED:
+            break
+        b = course.next_to(s, at, b.q + along)
+    return b
+
+
+def knot_within(course: Course, piece: Piece, s: float, stretch: tuple[float, float]) -> Knot | None:
+    """Return the exact knot at a place within a piece; None if there is none near the quintic."""
+    at = course.samples(np.array([s]), *stretch)
+    return course.next_to(s, at, piece.at(np.array([(s - piece.a.s) / piece.width]))[0])

@@ -1,0 +1,5 @@
+"""Time laws under limits.
+
+- `trapezoid`: bang-coast-bang; `s_curves`: with limited jerk. `time_scaling`: k times the time.
+- `jerk_limited`: from one state to another in the least time, with Ruckig.
+"""

@@ -1,0 +1,110 @@
+"""Uniform time scaling: in k times the time, velocities scale by 1/k, accelerations by 1/k², jerks by 1/k³.
+
+The course only slows down: k = max{1, k_vel, √k_acc}, where k_vel and k_acc are the largest ratios of a peak to its
+limit. Without the 1, k may also speed up, and some limit is just reached. Peaks are exact, from the derivative's roots.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.robot.arrays import Array
+from gelenk.trajectory.motion.extremes import Peaks, peaks
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+
+Quantity: TypeAlias = Literal["velocity", "acceleration", "jerk"]
+
+QUANTITIES: tuple[Quantity, ...] = ("velocity", "acceleration", "jerk")
+"""All quantities in the order of their derivatives, starting with the first."""
+
+STANDS_STILL = 1e-12
+"""Factor below which a motion counts as standing still, so that it has no shortest duration."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScalingLimits:
+    """Limits of each joint; > 0, shape (n,) each, None for no limit.
+
+    Attributes:
+        velocity: [rad/s or m/s].
+        acceleration: [rad/s² or m/s²].
+        jerk: [rad/s³ or m/s³].
+    """
+
+    velocity: Array | None = None
+    acceleration: Array | None = None
+    jerk: Array | None = None
+
+    def of(self, quantity: Quantity) -> Array | None:
+        """Return the limits of a quantity."""
+        found: Array | None = getattr(self, quantity)
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """The joint nearest to its limit of a quantity, or furthest beyond it.
+
+    Attributes:
+        quantity: Limited quantity.
+        ratio: Ratio of the joint's peak to its limit.
+        factor: k that this quantity alone requires: the ratio, its square root or its cube root.
+        joint: Index of the joint, from 0.
+        time: Time of the peak in the unscaled motion, [s].
+        peak: Signed value of the peak.
+        limit: Limit of this joint.
+    """
+
+    quantity: Quantity
+    ratio: float
+    factor: float
+    joint: int
+    time: float
+    peak: float
+    limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class Scaling:
+    """Factors by which a motion can be slowed down or sped up.
+
+    Attributes:
+        bounds: One bound per limited quantity.
+        binding: Bound that requires the largest k.
+        course_factor: k = max{1, k_vel, √k_acc} as in the course, which only slows down.
+        factor: The same without the 1; None for a motion that stands still.
+    """
+
+    bounds: tuple[Bound, ...]
+    binding: Bound
+    course_factor: float
+    factor: float | None
+
+
+def uniform_scaling(motion: PiecewisePolynomial, limits: ScalingLimits) -> Scaling:
+    """Compute the factors by which to multiply a motion's time.
+
+    Args:
+        motion: Motion to scale.
+        limits: Limits of at least one quantity.
+    """
+    bounds = tuple(
+        _bound(quantity, order, peaks(motion, order), limit)
+        for order, quantity in enumerate(QUANTITIES, start=1)
+        if (limit := limits.of(quantity)) is not None
+    )
+    binding = max(bounds, key=lambda bound: bound.factor)
+    factor = binding.factor if binding.factor > STANDS_STILL else None
+    return Scaling(bounds, binding, max(1.0, binding.factor), factor)
+
+
+def _bound(quantity: Quantity, order: int, found: Peaks, limit: Array) -> Bound:
+    ratios = np.abs(found.values) / limit
+    j = int(ratios.argmax())
+    ratio = float(ratios[j])
+    # Among joints whose ratios differ only by rounding, take the first.
+    j = int(np.argmax(ratios >= ratio * (1.0 - 1e-12)))
+    return Bound(
+        quantity, ratio, ratio ** (1.0 / order), j, float(found.times[j]), float(found.values[j]), float(limit[j])
+    )

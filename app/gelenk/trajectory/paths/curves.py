@@ -1,0 +1,128 @@
+"""Curves in space by arc length: a straight line, and an arc of a circle through three points.
+
+A curve gives its position p(s), its unit tangent dp/ds, and d²p/ds², whose length is the curvature. It has no time.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+
+COLLINEAR = 1e-6
+"""Sine of the angle at the via point, or at either end, below which three points count as collinear."""
+
+
+class Curve(Protocol):
+    """A curve in space."""
+
+    @property
+    def length(self) -> float:
+        """Total arc length, [m]."""
+
+    def at(self, s: Array) -> tuple[Array, Array, Array]:
+        """Return position [m], unit tangent and d²p/ds² [1/m] at arc lengths [m]; shape (N,) → three of (N, 3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A straight line; with zero length it is a point whose tangent is zero.
+
+    Attributes:
+        start: Shape (3,), [m].
+        end: Shape (3,), [m].
+    """
+
+    start: Array
+    end: Array
+
+    @property
+    def length(self) -> float:
+        """‖p_f - p_i‖, [m]."""
+        return math.dist(self.start, self.end)
+
+    def at(self, s: Array) -> tuple[Array, Array, Array]:
+        """See `Curve`."""
+        length = self.length
+        direction = (self.end - self.start) / length if length > 0.0 else np.zeros(3)
+        still = np.zeros((len(s), 3))
+        # Measure from the nearer end, so that both ends are exact.
+        near = s <= 0.5 * length
+        from_start, from_end = self.start + s[:, None] * direction, self.end + (s - length)[:, None] * direction
+        return np.where(near[:, None], from_start, from_end), still + direction, still
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """An arc of a circle: p = centre + radius (cos φ x + sin φ y), from φ = 0.
+
+    Attributes:
+        centre: Shape (3,), [m].
+        x: Unit vector from the centre to the start; shape (3,).
+        y: Unit tangent at the start; shape (3,).
+        radius: [m].
+        angle: Angle of the whole arc, in (0, 2π), [rad].
+        via_angle: Angle of the via point, [rad].
+    """
+
+    centre: Array
+    x: Array
+    y: Array
+    radius: float
+    angle: float
+    via_angle: float
+
+    @property
+    def length(self) -> float:
+        """Radius times angle, [m]."""
+        return self.radius * self.angle
+
+    def at(self, s: Array) -> tuple[Array, Array, Array]:
+        """See `Curve`."""
+        cosines, sines = np.cos(s / self.radius)[:, None], np.sin(s / self.radius)[:, None]
+        outwards = cosines * self.x + sines * self.y
+        return self.centre + self.radius * outwards, cosines * self.y - sines * self.x, -outwards / self.radius
+
+
+def arc_through(start: Array, via: Array, end: Array) -> Arc:
+    """Return the arc from a start through a via point to an end.
+
+    Args:
+        start: Shape (3,), [m].
+        via: Shape (3,), [m].
+        end: Shape (3,), [m].
+
+    Raises:
+        InvalidField: Two of the points coincide, or all three lie on a line.
+    """
+    a, b = start - via, end - via
+    lengths = math.hypot(*a), math.hypot(*b), math.dist(start, end)
+    longest = max(lengths)
+    for length, names in zip(lengths, ("start and via", "via and target", "start and target"), strict=True):
+        if length <= COLLINEAR * longest or longest == 0.0:
+            raise InvalidField("via", f"{names} are the same point: a circle needs three different points")
+    normal = np.cross(b, a)
+    area = math.hypot(*normal)
+    sines = [area / (one * other) for one, other in ((lengths[0], lengths[1]), (lengths[0], lengths[2]))]
+    if min(*sines, area / (lengths[1] * lengths[2])) <= COLLINEAR:
+        raise InvalidField(
+            "via", "start, via and target lie on one line: a circle needs three points that are not collinear"
+        )
+    normal /= area
+    # The circumcentre relative to the via point.
+    offset = np.cross(lengths[0] ** 2 * b - lengths[1] ** 2 * a, np.cross(a, b)) / (2.0 * area**2)
+    centre = via + offset
+    radius = lengths[0] * lengths[1] * lengths[2] / (2.0 * area)
+    x = start - centre
+    x /= math.hypot(*x)
+    y = np.cross(normal, x)
+    via_angle, angle = (_angle(point - centre, x, y) for point in (via, end))
+    return Arc(centre, x, y, radius, angle, via_angle)
+
+
+def _angle(arm: Array, x: Array, y: Array) -> float:
+    """Return the angle on the circle of a point relative to the centre, in [0, 2π), [rad]."""
+    return math.atan2(arm @ y, arm @ x) % (2.0 * math.pi)

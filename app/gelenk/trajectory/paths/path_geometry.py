@@ -1,0 +1,270 @@
+"""The time-independent geometry of a path: derivatives by s of the joints and the tip, and their ratios to limits.
+
+With a time law s(t): q̇ = q' ṡ, q̈ = q' s̈ + q'' ṡ², q⃛ = q' s⃛ + 3 q'' ṡ s̈ + q''' ṡ³, and for the tip's twist ξ = ξ_s ṡ,
+ξ̇ = ξ_s s̈ + ξ_s' ṡ². Uniform scaling by k divides the ratio of such a quantity to its limit by k, k² or k³.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
+from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.chain import Chain
+from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.motion.composition import derivatives
+from gelenk.trajectory.motion.intervals import cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.problem.problem import SegmentLimits
+
+TipMotion: TypeAlias = Callable[[Array, Array, Array], tuple[Array, Array]]
+"""Maps q, q̇ and q̈, shape (N, n) each, to the tip's twist and its time derivative, (N, 6) each, [m/s, rad/s], per s."""
+
+QUANTITIES: Final = (
+    "velocity",
+    "acceleration",
+    "jerk",
+    "speed",
+    "angular speed",
+    "acceleration",
+    "angular acceleration",
+)
+"""Limited quantities: three of the joints, four of the tip."""
+ORDERS: Final = np.array([1, 2, 3, 1, 1, 2, 2])
+"""Power of k by which uniform scaling divides each quantity."""
+JOINTS: Final = 3
+"""Number of joint quantities, which come first in `QUANTITIES`."""
+ACCELERATION: Final = 2
+"""Index of the linear acceleration among the tip's quantities."""
+
+_INSIDE = 1e-9
+"""Distance inside a piece at which a path that may jump is examined for its ends, as a fraction of the piece."""
+_SAME = 1e-9
+_CORNER = 1e-7
+"""Jump of q', as a fraction of the largest |q'|, that requires a stop; the same as in `time_optimal`."""
+_BEND = 1e-6
+"""Jump of q'', as a fraction of the largest |q''|, up to which it counts as rounding."""
+_NO_LENGTH = 1e-13
+
+
+def tip_through(chain: Chain) -> TipMotion:
+    """Return the function from the joints' motion to the tip's: J q̇, and J q̈ + (∂J/∂q q̇) q̇."""
+
+    def motion(q: Array, velocity: Array, acceleration: Array) -> tuple[Array, Array]:
+        J = chain_jacobians(chain.flat, q)[2]
+        changes = (chain_hessians(chain.flat, q) @ velocity[:, None, :, None])[..., 0]
+        twists, rates = J @ velocity[:, :, None], J @ acceleration[:, :, None] + changes @ velocity[:, :, None]
+        return twists[..., 0], rates[..., 0]
+
+    return motion
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A part of a path on which the tip has its own limits, in addition to those that hold everywhere.
+
+    Attributes:
+        begin: s at its beginning.
+        end: s at its end.
+        tip: Additional limits of the tip.
+    """
+
+    begin: float
+    end: float
+    tip: TipLimits
+
+
+@dataclass(frozen=True, slots=True)
+class Slopes:
+    """Derivatives by s at N places of a path.
+
+    Attributes:
+        first: q'; shape (N, n), [rad or m per unit of s].
+        second: q''; shape (N, n).
+        third: q'''; shape (N, n).
+        tip: ξ_s and ξ_s'; shape (2, N, 6); None if the tip has no limits.
+        bounds: Limits of the tip, in the order of `QUANTITIES`; shape (N, 4).
+    """
+
+    first: Array
+    second: Array
+    third: Array
+    tip: Array | None
+    bounds: Array
+
+    def take(self, rows: Indices) -> "Slopes":
+        """Return the derivatives at some of the places."""
+        tip = None if self.tip is None else self.tip[:, rows]
+        return Slopes(self.first[rows], self.second[rows], self.third[rows], tip, self.bounds[rows])
+
+
+@dataclass(frozen=True, slots=True)
+class LimitedPath:
+    """A path with its limits.
+
+    Attributes:
+        joints: q(s), whose breaks include those of the tip's path.
+        limits: Limits on the whole path.
+        path: Path of the tip, if there is one.
+        tip_motion: Function from the joints' motion to the tip's; None to use the motion along `path`.
+        zones: Parts of the path on which the tip has its own limits; each begins and ends at a break.
+        corners: s at the beginning and the end of each blend of lines, which are breaks too.
+    """
+
+    joints: PiecewisePolynomial
+    limits: SegmentLimits
+    path: Path | None
+    tip_motion: TipMotion | None
+    zones: tuple[Zone, ...] = ()
+    corners: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Values of s at both ends."""
+        return float(self.joints.breaks[0]), float(self.joints.breaks[-1])
+
+    @property
+    def stands_still(self) -> bool:
+        """Whether no joint moves."""
+        c, lengths = self.joints.coefficients, np.diff(self.joints.breaks)
+        powers = lengths[:, None] ** np.arange(1, c.shape[1])
+        travels = np.abs(c[:, 1:] * powers[:, :, None]).sum(axis=1)
+        return float(travels.max(initial=0.0)) <= _NO_LENGTH
+
+    @property
+    def limits_tip(self) -> bool:
+        """Whether the tip has a limit and its motion is known."""
+        known = self.path is not None or self.tip_motion is not None
+        return known and bool(np.isfinite(self.tip_bounds(np.arange(len(self.joints.breaks) - 1))).any())
+
+    def tip_bounds(self, piece: Indices) -> Array:
+        """Return the tip's limits in given pieces, in the order of `QUANTITIES`; shape (N,) → (N, 4)."""
+        bounds = np.tile(_of_tip(self.limits.tip), (len(piece), 1))
+        middles = 0.5 * (self.joints.breaks[piece] + self.joints.breaks[piece + 1])
+        for zone in self.zones:
+            rows = (middles > zone.begin) & (middles < zone.end)
+            bounds[rows] = np.minimum(bounds[rows], _of_tip(zone.tip))
+        return bounds
+
+    def piece_of(self, s: Array) -> Indices:
+        """Return the index of the piece of q(s) at each place, the later one at a break; shape (N,)."""
+        last = len(self.joints.breaks) - 2
+        found: Indices = np.clip(np.searchsorted(self.joints.breaks, s, side="right") - 1, 0, last)
+        return found
+
+    def at(self, piece: Indices, s: Array) -> Slopes:
+        """Return the derivatives at places s; the pieces distinguish the two sides of a break; shape (N,) each."""
+        local = (s - self.joints.breaks[piece])[:, None]
+        _, first, second, third = derivatives(self.joints.coefficients[piece], local)
+        tip = self.tip_at(piece, s) if self.limits_tip else None
+        return Slopes(first, second, third, tip, self.tip_bounds(piece))
+
+    def tip_at(self, piece: Indices, s: Array) -> Array:
+        """Return ξ_s and ξ_s', zero if the tip's motion is unknown; shape (2, N, 6)."""
+        if self.tip_motion is not None:
+            local = (s - self.joints.breaks[piece])[:, None]
+            return np.stack(self.tip_motion(*derivatives(self.joints.coefficients[piece], local)[:3]))
+        return np.zeros((2, len(s), 6)) if self.path is None else np.stack(self.along(self.path, piece, s))
+
+    def along(self, path: Path, piece: Indices, s: Array) -> tuple[Array, Array]:
+        """Return ξ_s and ξ_s' of a path, evaluated slightly inside a piece at its ends; shape (N, 6) each."""
+        begin, end = self.joints.breaks[piece], self.joints.breaks[piece + 1]
+        inside = _INSIDE * (end - begin)
+        samples = path.at(np.clip(s, begin + inside, end - inside))
+        return samples.first, samples.second
+
+    def samples(self, count: int, least: int) -> tuple[Indices, Array]:
+        """Sample about `count` places in order, with at least `least` intervals and both ends of each piece.
+
+        Returns:
+            Indices of the pieces, and s; shape (N,) each.
+        """
+        lengths = np.diff(self.joints.breaks)
+        counts = np.maximum(np.ceil(lengths / lengths.sum() * count).astype(np.int64), least) + 1
+        piece = np.repeat(np.arange(len(counts)), counts)
+        within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
+        tau = within / (counts - 1)[piece]
+        return piece, np.where(
+            tau == 1.0, self.joints.breaks[piece + 1], self.joints.breaks[piece] + tau * lengths[piece]
+        )
+
+    def bends(self) -> Array:
+        """Return the values of s at which q'' jumps; shape (m,)."""
+        (jumps, bend), (_, slope) = _jumps(self.joints, 2), _jumps(self.joints, 1)
+        scale = max(bend, _BEND * slope / self.joints.duration)
+        found: Array = self.joints.breaks[1:-1][jumps > _BEND * scale]
+        return found
+
+    def parts(self) -> tuple["LimitedPath", ...]:
+        """Cut the path where q' jumps, because the motion has to stop there."""
+        jumps, scale = _jumps(self.joints, 1)
+        inner = 1 + np.flatnonzero(jumps > _CORNER * scale)
+        ends = [0, *inner.tolist(), len(self.joints.breaks) - 1]
+        return tuple(self._part(begin, end) for begin, end in pairwise(ends))
+
+    def _part(self, begin: int, end: int) -> "LimitedPath":
+        joints = PiecewisePolynomial(self.joints.breaks[begin : end + 1], self.joints.coefficients[begin:end])
+        return replace(self, joints=joints)
+
+
+def geometry_of(
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    limits: SegmentLimits,
+    tip_motion: TipMotion | None,
+    zones: tuple[Zone, ...] = (),
+    corners: tuple[tuple[float, float], ...] = (),
+) -> LimitedPath:
+    """Combine limits with a path of the joints, which is also cut at the breaks of the tip's path."""
+    breaks = joints.breaks
+    extra = np.array([] if path is None else path.breaks)
+    nearest = np.abs(extra[:, None] - breaks).min(axis=1) if len(extra) else extra
+    extra = extra[(extra > breaks[0]) & (extra < breaks[-1]) & (nearest > _SAME * (breaks[-1] - breaks[0]))]
+    if len(extra):
+        nodes = np.union1d(breaks, extra)
+        joints = PiecewisePolynomial(nodes, cut(joints, nodes))
+    return LimitedPath(joints, limits, path, tip_motion, zones, corners)
+
+
+def ratios(slopes: Slopes, limits: SegmentLimits, speeds: Array, accelerations: Array, jerks: Array) -> Array:
+    """Return the ratio of each of `QUANTITIES` to its limit at ṡ, s̈ and s⃛ of shape (N,); (N, 7), 0 without limit."""
+    v, a, j = speeds[:, None], accelerations[:, None], jerks[:, None]
+    found = np.zeros((len(speeds), len(QUANTITIES)))
+    velocity = slopes.first * v
+    acceleration = slopes.first * a + slopes.second * v**2
+    jerk = slopes.first * j + slopes.second * (3.0 * v * a) + slopes.third * v**3
+    each = zip((velocity, acceleration, jerk), (limits.velocity, limits.acceleration, limits.jerk), strict=True)
+    for column, (values, limit) in enumerate(each):
+        found[:, column] = np.abs(values / limit).max(axis=1, initial=0.0)
+    if slopes.tip is not None:
+        first, second = slopes.tip
+        found[:, JOINTS:] = tip_ratios(first * v, first * a + second * v**2, slopes.bounds)
+    return found
+
+
+def tip_ratios(twists: Array, changes: Array, bounds: Array) -> Array:
+    """Return the ratio of each of the tip's quantities to its limit; shapes (N, 6), (N, 6) and (N, 4) → (N, 4)."""
+    parts = (twists[:, :3], twists[:, 3:], changes[:, :3], changes[:, 3:])
+    return np.column_stack([np.sqrt(np.einsum("ni,ni->n", part, part)) for part in parts]) / bounds
+
+
+def of_order(order: int) -> Flags:
+    """Return which of `QUANTITIES` are velocities (1), accelerations (2) or jerks (3); shape (7,)."""
+    found: Flags = np.equal(ORDERS, order)
+    return found
+
+
+def _of_tip(limits: TipLimits) -> Array:
+    return np.array([limits.speed, limits.angular_speed, limits.acceleration, limits.angular_acceleration])
+
+
+def _jumps(joints: PiecewisePolynomial, order: int) -> tuple[Array, float]:
+    """Return the largest jump of a derivative at each inner break, shape (M - 1,), and its largest magnitude."""
+    c, lengths = joints.coefficients, np.diff(joints.breaks)[:, None]
+    before, after = (derivatives(c, local)[order] for local in (lengths, np.zeros_like(lengths)))
+    scale = max(float(np.abs(values).max(initial=0.0)) for values in (before, after))
+    return np.abs(before[:-1] - after[1:]).max(axis=1, initial=0.0), scale

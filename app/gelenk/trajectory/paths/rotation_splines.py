@@ -1,0 +1,146 @@
+"""Smooth paths through orientations: a spline with continuous angular acceleration, and the turn over a corner.
+
+Between two knots R(x) = R_k Exp(θ(x)), where θ is a cubic. The angular velocities at the knots are chosen so that the
+angular acceleration is continuous. This makes the spline C², like a cubic spline of positions; SciPy's `RotationSpline`
+computes the same interpolation. Each end has the mean angular velocity of its interval.
+"""
+
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from gelenk.robot.arrays import Array
+from gelenk.robot.notations import rotations_from_vectors, vectors_from_rotations
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.orientation_paths import travelled
+from gelenk.trajectory.paths.so3 import angular_motion, quadratic_part, rate_matrices
+
+_ITERATIONS = 60
+_CONVERGED = 1e-13
+
+
+@dataclass(frozen=True, slots=True)
+class RotationVectorPath:
+    """A path R(x) = R_k Exp(θ(x)), with θ a polynomial on each piece.
+
+    Attributes:
+        starts: R_k of each of the M pieces; shape (M, 3, 3).
+        vectors: θ for x from 0 to 1; M pieces, 3 coordinates, [rad].
+    """
+
+    starts: Array
+    vectors: PiecewisePolynomial
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Always empty: the angular rate is continuous."""
+        return ()
+
+    @property
+    def angle(self) -> float:
+        """See `OrientationPath`."""
+        return travelled(self, max(64, 8 * len(self.starts)))
+
+    def at(self, x: Array) -> tuple[Array, Array, Array]:
+        """See `OrientationPath`."""
+        piece = np.searchsorted(self.vectors.breaks[1:-1], x, side="right")
+        thetas, rates, second = self.vectors.rates_at(x)
+        rotations = self.starts[piece] @ rotations_from_vectors(thetas)
+        omegas, alphas = angular_motion(thetas, rates, second)
+        return rotations, _turned(rotations, omegas), _turned(rotations, alphas)
+
+
+def rotation_spline(rotations: Array, knots: Array) -> RotationVectorPath:
+    """Return the C² spline through orientations.
+
+    Args:
+        rotations: At least two orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
+    """
+    steps = vectors_from_rotations(np.ascontiguousarray(rotations[:-1].transpose(0, 2, 1) @ rotations[1:]))
+    widths = np.diff(knots)[:, None]
+    omegas = np.vstack((steps[:1] / widths[:1], steps / widths))
+    inverses = cast(Array, np.linalg.inv(rate_matrices(steps)))
+    if len(steps) > 1:
+        _solve(steps, widths, inverses, omegas)
+    begin, finish = omegas[:-1], _turned(inverses, omegas[1:])
+    coefficients = np.stack(
+        (
+            np.zeros_like(steps),
+            begin,
+            (3.0 * steps / widths - 2.0 * begin - finish) / widths,
+            (begin + finish - 2.0 * steps / widths) / widths**2,
+        ),
+        axis=1,
+    )
+    return RotationVectorPath(rotations[:-1], PiecewisePolynomial(np.asarray(knots, dtype=float), coefficients))
+
+
+def rotation_corner(entry: Array, corner: Array, exit_: Array) -> RotationVectorPath:
+    """Return the turn over a corner, R(u) = R_B Exp((1 - u)² θ_a + u² θ_b), from R_B Exp(θ_a) to R_B Exp(θ_b).
+
+    As with the parabola of positions, the angular rates at both ends are those of the turns that it connects.
+
+    Args:
+        entry: Orientation at A', where the blend begins; shape (3, 3).
+        corner: Orientation at B, which is not reached; shape (3, 3).
+        exit_: Orientation at C', where the blend ends; shape (3, 3).
+    """
+    a, b = vectors_from_rotations(np.ascontiguousarray(corner.T @ np.array([entry, exit_])))
+    coefficients = np.array([[a, -2.0 * a, a + b]])
+    return RotationVectorPath(corner[None], PiecewisePolynomial(np.array([0.0, 1.0]), coefficients))
+
+
+def _solve(steps: Array, widths: Array, inverses: Array, omegas: Array) -> None:
+    """Fill in the angular velocities at the inner knots that make the angular acceleration continuous there.
+
+    2 A_k ω_k / h_k + 4 (1/h_k + 1/h_{k+1}) ω_{k+1} + 2 A_{k+1}⁻¹ ω_{k+2} / h_{k+1}
+      = 6 (r_k / h_k² + r_{k+1} / h_{k+1}²) - β(r_k, A_k⁻¹ ω_{k+1}),
+    where β is quadratic in ω: the system is solved repeatedly until ω no longer changes. The angular velocity is
+    continuous even without convergence.
+    """
+    lower = 2.0 * rate_matrices(steps)[1:-1] / widths[1:-1, None]
+    upper = 2.0 * inverses[1:-1] / widths[1:-1, None]
+    diagonal = 4.0 * (1.0 / widths[:-1] + 1.0 / widths[1:])
+    fixed = 6.0 * (steps[:-1] / widths[:-1] ** 2 + steps[1:] / widths[1:] ** 2)
+    fixed[0] -= 2.0 * (rate_matrices(steps[:1])[0] @ omegas[0]) / widths[0]
+    fixed[-1] -= 2.0 * (inverses[-1] @ omegas[-1]) / widths[-1]
+    factors, pivots = _eliminated(lower, diagonal, upper)
+    for _ in range(_ITERATIONS):
+        rates = _turned(inverses[:-1], omegas[1:-1])
+        found = _substituted(factors, pivots, upper, fixed - quadratic_part(steps[:-1], rates))
+        change = np.abs(found - omegas[1:-1]).max()
+        omegas[1:-1] = found
+        if change <= _CONVERGED * max(1.0, float(np.abs(found).max())):
+            return
+
+
+def _eliminated(lower: Array, diagonal: Array, upper: Array) -> tuple[Array, Array]:
+    """Eliminate once for repeated use; return factors (M - 1, 3, 3) and inverse pivots (M, 3, 3).
+
+    The matrix has off-diagonal blocks (M - 1, 3, 3), and on its diagonal numbers (M, 1) times the identity matrix.
+    """
+    factors, pivots = np.empty_like(lower), np.empty((len(diagonal), 3, 3))
+    pivots[0] = np.eye(3) / diagonal[0]
+    for i, block in enumerate(lower):
+        factors[i] = block @ pivots[i]
+        pivots[i + 1] = np.linalg.inv(diagonal[i + 1] * np.eye(3) - factors[i] @ upper[i])
+    return factors, pivots
+
+
+def _substituted(factors: Array, pivots: Array, upper: Array, right: Array) -> Array:
+    """Solve for a right side of shape (M, 3) by forward and backward substitution."""
+    solution = right.copy()
+    for i, factor in enumerate(factors):
+        solution[i + 1] -= factor @ solution[i]
+    solution[-1] = pivots[-1] @ solution[-1]
+    for i in range(len(right) - 2, -1, -1):
+        solution[i] = pivots[i] @ (solution[i] - upper[i] @ solution[i + 1])
+    return solution
+
+
+def _turned(matrices: Array, vectors: Array) -> Array:
+    """Multiply each matrix by its vector; shapes (N, 3, 3) and (N, 3)."""
+    products: Array = np.einsum("nij,nj->ni", matrices, vectors)
+    return products

@@ -1,0 +1,203 @@
+"""Paths through orientations by ZYZ Euler angles, the course's alternative to axis and angle.
+
+Each angle changes independently, so the axis of rotation varies. An orientation has two triples, (φ, θ, ψ) and
+(φ + π, -θ, ψ + π), so two paths lead from one to another: θ keeps its sign or changes it. The start is taken with
+θ ≥ 0; from its other triple, the same two paths lead through the same orientations.
+
+If θ = 0 only φ + ψ is determined, and if θ = π only φ - ψ; φ is then taken from an adjacent orientation.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from gelenk.robot.arrays import Array, Flags
+from gelenk.robot.notations import rotations_from_zyz, zyz_from_rotations
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.orientation_paths import travelled
+
+ZyzBranch: TypeAlias = Literal["regular", "flipped"]
+
+_DEGENERATE = 1e-14
+"""Sine of θ up to which only φ + ψ or φ - ψ counts as determined."""
+
+
+@dataclass(frozen=True, slots=True)
+class ZyzPath:
+    """A path on which φ, θ and ψ change at constant rates in x.
+
+    Attributes:
+        start: (φ, θ, ψ) of R_i; shape (3,), [rad].
+        change: Change of the angles up to R_f; shape (3,), [rad].
+        branch: Triple of R_f that it leads to: `regular` if the sign of θ stays, `flipped` if it changes.
+        degenerate: Ends at which only φ + ψ or φ - ψ is determined; φ is there taken from the other end.
+    """
+
+    start: Array
+    change: Array
+    branch: ZyzBranch = "regular"
+    degenerate: tuple[Literal["start", "end"], ...] = ()
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Always empty: the rates of the angles are constant."""
+        return ()
+
+    @property
+    def angle(self) -> float:
+        """See `OrientationPath`; computed by `travelled`."""
+        return travelled(self)
+
+    def triple_at(self, x: float) -> Array:
+        """Return (φ, θ, ψ) at x; shape (3,), [rad]."""
+        triple: Array = self.start + x * self.change
+        return triple
+
+    def at(self, x: Array) -> tuple[Array, Array, Array]:
+        """See `OrientationPath`."""
+        still = np.zeros((len(x), 3))
+        return _motion(self.start + x[:, None] * self.change, still + self.change, still)
+
+    def part(self, begin: float, finish: float) -> "ZyzPath":
+        """See `Turn`."""
+        return ZyzPath(self.triple_at(begin), (finish - begin) * self.change, self.branch)
+
+
+@dataclass(frozen=True, slots=True)
+class ZyzCurve:
+    """A path on which φ, θ and ψ are piecewise polynomials of x.
+
+    Attributes:
+        angles: (φ, θ, ψ) for x from 0 to 1, twice differentiable; 3 coordinates, [rad].
+    """
+
+    angles: PiecewisePolynomial
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Always empty: the angular rate is continuous."""
+        return ()
+
+    @property
+    def angle(self) -> float:
+        """See `OrientationPath`."""
+        return travelled(self, max(64, 8 * len(self.angles.coefficients)))
+
+    def at(self, x: Array) -> tuple[Array, Array, Array]:
+        """See `OrientationPath`."""
+        return _motion(*self.angles.rates_at(x))
+
+
+def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
+    """Return the two paths by ZYZ angles, to either triple of R_f; φ and ψ change by at most π.
+
+    Args:
+        start: R_i; shape (3, 3).
+        end: R_f; shape (3, 3).
+    """
+    both = np.array([start, end])
+    regular, flipped = zyz_turns(both, [False])[0], zyz_turns(both, [True])[0]
+    return regular, flipped
+
+
+def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
+    """Return the turns from each orientation to the next, each starting with the angles at which the previous one ends.
+
+    Args:
+        rotations: Orientations; shape (M + 1, 3, 3).
+        flips: Whether θ changes its sign, for each of the M turns.
+    """
+    triples = zyz_triples(rotations, flips)
+    flat = _degenerate(rotations)
+    names: tuple[Literal["start", "end"], ...] = ("start", "end")
+    turns = []
+    for i, flip in enumerate(flips):
+        degenerate = tuple(name for name, is_flat in zip(names, flat[i : i + 2], strict=True) if is_flat)
+        turns.append(ZyzPath(triples[i], triples[i + 1] - triples[i], "flipped" if flip else "regular", degenerate))
+    return turns
+
+
+def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurve:
+    """Return the natural cubic spline of the angles: C², and linear if there are only two orientations.
+
+    Args:
+        rotations: At least two orientations; shape (M + 1, 3, 3).
+        knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
+        flips: Whether θ changes its sign, for each of the M intervals.
+    """
+    return ZyzCurve(cubic_spline(np.asarray(knots, dtype=float), zyz_triples(rotations, flips), "natural").motion)
+
+
+def zyz_corner(entry: Array, corner: Array, leaving: Array) -> ZyzCurve:
+    """Return the turn over a corner, a parabola in the angles: c + (1 - u)² (e - c) + u² (l - c).
+
+    As with the parabola of positions, its rates at both ends are those of the turns that it connects.
+
+    Args:
+        entry: e, the triple at A', where the blend begins; shape (3,), [rad].
+        corner: c, the triple at B, which is not reached; shape (3,), [rad].
+        leaving: l, the triple at C', where the blend ends; shape (3,), [rad].
+    """
+    a, b = entry - corner, leaving - corner
+    return ZyzCurve(PiecewisePolynomial(np.array([0.0, 1.0]), np.array([[entry, -2.0 * a, a + b]])))
+
+
+def zyz_triples(rotations: Array, flips: Sequence[bool]) -> Array:
+    """Return triples of orientations; φ and ψ change by at most π from each to the next; shape (M + 1, 3), [rad].
+
+    Args:
+        rotations: Orientations; shape (M + 1, 3, 3).
+        flips: Whether θ changes its sign, for each of the M intervals.
+    """
+    triples = zyz_from_rotations(rotations)
+    other = np.logical_xor.accumulate(np.array([False, *flips]))
+    triples[other] = triples[other] * [1.0, -1.0, 1.0] + [math.pi, 0.0, math.pi]
+    _settle(triples, _degenerate(rotations))
+    for before, triple in pairwise(triples):
+        for i in (0, 2):
+            triple[i] = before[i] + math.remainder(triple[i] - before[i], 2.0 * math.pi)
+    return triples
+
+
+def _degenerate(rotations: Array) -> Flags:
+    """Return at which orientations only φ + ψ or φ - ψ is determined; shape (N,)."""
+    flat: Flags = np.hypot(rotations[:, 0, 2], rotations[:, 1, 2]) <= _DEGENERATE
+    return flat
+
+
+def _settle(triples: Array, flat: Flags) -> None:
+    """Give degenerate triples the φ of the previous one; those at the start get the first φ that is determined."""
+    first = int(np.argmin(flat))
+    for i in (*range(first - 1, -1, -1), *range(first + 1, len(triples))):
+        if flat[i]:
+            _move_phi(triples[i], triples[i + 1 if i < first else i - 1][0])
+
+
+def _move_phi(triple: Array, phi: float) -> None:
+    """Change φ of a degenerate triple, keeping φ + ψ if θ = 0 and φ - ψ if θ = π."""
+    sign = 1.0 if math.cos(triple[1]) > 0.0 else -1.0
+    triple[2] += sign * (triple[0] - phi)
+    triple[0] = phi
+
+
+def _motion(triples: Array, rates: Array, changes: Array) -> tuple[Array, Array, Array]:
+    """Return R, ω_x and dω_x/dx from angles and two derivatives; shape (N, 3) each → (N, 3, 3), (N, 3), (N, 3).
+
+    ω = φ' z + θ' y' + ψ' z'' with y' = (-sin φ, cos φ, 0) and z'' the tip's z.
+    """
+    (c1, s1), (c2, s2) = ((np.cos(triples[:, i]), np.sin(triples[:, i])) for i in (0, 1))
+    phi, theta, psi = rates.T[:, :, None]
+    zero = np.zeros(len(triples))
+    z = np.array([0.0, 0.0, 1.0])
+    y, tip_z = np.column_stack((-s1, c1, zero)), np.column_stack((c1 * s2, s1 * s2, c2))
+    y_rate = -phi * np.column_stack((c1, s1, zero))
+    tip_z_rate = theta * np.column_stack((c1 * c2, s1 * c2, -s2)) + phi * np.column_stack((-s1 * s2, c1 * s2, zero))
+    phi2, theta2, psi2 = changes.T[:, :, None]
+    omegas = phi * z + theta * y + psi * tip_z
+    alphas = phi2 * z + theta2 * y + psi2 * tip_z + theta * y_rate + psi * tip_z_rate
+    return rotations_from_zyz(triples), omegas, alphas

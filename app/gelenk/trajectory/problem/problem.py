@@ -1,0 +1,244 @@
+"""The request for a trajectory, and its result.
+
+A trajectory starts at rest at a configuration and runs through segments: the joints move to a configuration or a pose,
+or the tip along a line, a circle or a spline. Each segment has its own time law and limits. The motion stops between
+two segments unless they are blended lines.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from gelenk.ik.search.task import FULL_POSE, Task
+from gelenk.robot.arrays import Array
+from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.audit import Audit
+from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType, StopReason
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.splines import Boundary
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentLimits:
+    """Limits of joints and tip in a segment, scale factors included; > 0, and finite except for the tip's.
+
+    Attributes:
+        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
+        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
+        jerk: Jerk limit of each joint; shape (n,), [rad/s³ or m/s³].
+        tip: Limits of the tip.
+    """
+
+    velocity: Array
+    acceleration: Array
+    jerk: Array
+    tip: TipLimits = field(default_factory=TipLimits)
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One segment of a requested trajectory.
+
+    Attributes:
+        type: Kind of path.
+        law: Time law.
+        limits: Limits on this segment.
+        duration: Requested duration, [s]; the shortest within the limits if None.
+        configuration: Target of a joint segment; shape (n,), [rad or m].
+        pose: T_base_tip at the end of a line, a circle or a joint segment to a pose; shape (4, 4).
+        via: T_base_tip in between on a circle; shape (4, 4).
+        blend_radius: Distance from the end of a line at which its blend into the next begins, [m]; 0 for none.
+        blend_acceleration: Tip acceleration in the blend, given instead of a radius, [m/s²].
+        blend_time: Duration of the blend, given instead of a radius, [s].
+        orientation: How a tip path turns: about an axis (on a smooth spline if it passes several orientations), or by
+            ZYZ Euler angles on either branch.
+        configurations: Waypoints of a joint spline after the start; shape (m, n), [rad or m].
+        poses: Waypoints of a Cartesian spline after the start.
+        times: Time of each waypoint, counted from the start of the segment; shape (m,), [s].
+        boundary: Boundary condition of a spline.
+        blends: Whether joints pass beside the waypoints on straight lines with parabolic blends, not on a spline.
+        stated_jerk: Requested jerk limits, which hold for every law; ∞ where none was requested; shape (n,),
+            [rad/s³ or m/s³].
+    """
+
+    type: SegmentType
+    law: Law
+    limits: SegmentLimits
+    duration: float | None = None
+    configuration: Array | None = None
+    pose: Array | None = None
+    via: Array | None = None
+    blend_radius: float = 0.0
+    blend_acceleration: float | None = None
+    blend_time: float | None = None
+    orientation: OrientationLaw = "axis_angle"
+    configurations: Array | None = None
+    poses: Poses | None = None
+    times: Array | None = None
+    boundary: Boundary = "clamped"
+    blends: bool = False
+    stated_jerk: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Following:
+    """How the joints follow a path of the tip.
+
+    Attributes:
+        task: Constrained directions; the others are free.
+        position_tolerance: Largest distance from the path, also between samples, [m].
+        orientation_tolerance: Largest angle from the path's orientation, [rad].
+        min_singular_value: Smallest singular value of the Jacobian's constrained rows, metres and radians mixed, below
+            which a pose counts as near a singularity.
+        near_singularity: What to do there: stop, damp the joints and leave the path, or slow down on the exact path.
+    """
+
+    task: Task = FULL_POSE
+    position_tolerance: float = 1e-4
+    orientation_tolerance: float = 1e-3
+    min_singular_value: float = 0.01
+    near_singularity: NearSingularity = "stop"
+
+
+@dataclass(frozen=True, slots=True)
+class TrajectoryProblem:
+    """The request for a trajectory.
+
+    Attributes:
+        start: Start configuration, at rest; shape (n,), [rad or m].
+        segments: At least one segment, in order.
+        following: How the joints follow the tip's paths.
+        duration: Requested total duration, [s]; the shortest within the limits if None.
+        compares_timing: Whether to compare uniform and time-optimal timing of each segment.
+    """
+
+    start: Array
+    segments: tuple[Segment, ...]
+    following: Following = field(default_factory=Following)
+    duration: float | None = None
+    compares_timing: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class BlendReport:
+    """How a line was blended into the next.
+
+    Attributes:
+        radius: Distance from the corner at which the blend begins, [m].
+        start_time: Start of the blend, [s].
+        end_time: End of the blend, [s].
+        acceleration: Limit of the tip's acceleration in the blend, [m/s²]; None if only the radius was given.
+    """
+
+    radius: float
+    start_time: float
+    end_time: float
+    acceleration: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentReport:
+    """The result of a segment, as far as it was completed.
+
+    Attributes:
+        index: Index of the segment, from 0.
+        type: Kind of path.
+        law: Time law.
+        start_time: Start of the segment, [s].
+        end_time: End of the segment, [s].
+        length: Length of the tip's path, [m]; None for a joint segment.
+        angle: Angle through which the tip turns, [rad]; None for a joint segment.
+        joint_deviation: Largest distance [m] and angle [rad] from the path due to damping; None if not damped.
+        blended: Whether the motion passes into the next segment without a stop.
+        blend: Blend into the next segment, if the motion gets that far.
+        notes: Further remarks for the user.
+    """
+
+    index: int
+    type: SegmentType
+    law: Law
+    start_time: float
+    end_time: float
+    length: float | None = None
+    angle: float | None = None
+    joint_deviation: tuple[float, float] | None = None
+    blended: bool = False
+    blend: BlendReport | None = None
+    notes: tuple[str, ...] = ()
+
+    def slowed(self, factor: float) -> "SegmentReport":
+        """Return the report of the motion slowed down to `factor` times its duration."""
+        return self._timed(lambda time: factor * time)
+
+    def moved(self, start: float) -> "SegmentReport":
+        """Return the report with all times moved later by `start`, [s]."""
+        return self._timed(lambda time: start + time)
+
+    def _timed(self, change: Callable[[float], float]) -> "SegmentReport":
+        blend = self.blend
+        if blend is not None:
+            blend = replace(blend, start_time=change(blend.start_time), end_time=change(blend.end_time))
+        return replace(self, start_time=change(self.start_time), end_time=change(self.end_time), blend=blend)
+
+
+@dataclass(frozen=True, slots=True)
+class TimingComparison:
+    """Uniform and time-optimal timing of the path of one segment, or of blended ones.
+
+    Attributes:
+        segments: Indices of the segments, from 0.
+        law: Time law that is scaled uniformly.
+        uniform_duration: Duration of that law, scaled until some limit is just reached, [s].
+        velocity_factor: k that the velocity limits alone require for the law lasting 1 s.
+        acceleration_factor: The same for the acceleration limits, which √k times the time keeps.
+        time_optimal_duration: Duration of the time-optimal law, [s].
+    """
+
+    segments: tuple[int, ...]
+    law: Law
+    uniform_duration: float
+    velocity_factor: float
+    acceleration_factor: float
+    time_optimal_duration: float
+
+
+@dataclass(frozen=True, slots=True)
+class PlanningFailure:
+    """Why and where a trajectory ends early.
+
+    Attributes:
+        reason: Kind of reason.
+        segment: Index of the segment that could not be completed, from 0.
+        time: End of the planned motion, [s].
+        position: Position of the tip at which the path could not continue; shape (3,), [m].
+        joint: Joint that is at its limit, if any.
+        detail: Explanation in a sentence.
+    """
+
+    reason: StopReason
+    segment: int
+    time: float
+    position: Array
+    joint: str | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class Trajectory:
+    """The result of planning a trajectory.
+
+    Attributes:
+        motion: Joint motion, starting at 0 s.
+        segments: Reports of the segments that were completed wholly or in part.
+        completed_fraction: Completed fraction; segments count equally, an incomplete one by its completed length.
+        failure: Why the trajectory ends early; None if it is complete.
+        audit: Audit of the motion.
+        timing: Comparisons of timings, if requested.
+    """
+
+    motion: PiecewisePolynomial
+    segments: tuple[SegmentReport, ...]
+    completed_fraction: float
+    failure: PlanningFailure | None
+    audit: Audit
+    timing: tuple[TimingComparison, ...] = ()

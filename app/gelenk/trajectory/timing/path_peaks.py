@@ -1,0 +1,208 @@
+"""Largest ratios of a motion along a path to its limits: exact for the joints, from refined samples for the tip.
+
+A polynomial lies between its least and its largest Bernstein coefficient. So only pieces and joints whose coefficients
+exceed the largest value found by sampling are examined closely.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from gelenk.robot.arrays import Array, Indices
+from gelenk.trajectory.motion.composition import derivatives
+from gelenk.trajectory.motion.extremes import candidates
+from gelenk.trajectory.motion.intervals import bernstein, cut
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.path_geometry import (
+    ACCELERATION,
+    JOINTS,
+    ORDERS,
+    QUANTITIES,
+    LimitedPath,
+    TipMotion,
+    of_order,
+    tip_ratios,
+)
+from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.problem.problem import SegmentLimits
+
+Ratios: TypeAlias = Callable[[Indices, Array], Array]
+"""Maps pieces and times since their start to the tip's ratios; shape (N,) each → (N, 4)."""
+
+_ROUNDING = 1e-12
+_PROBES = np.linspace(0.0, 1.0, 9)
+_SAMPLES = 600
+_LEAST_SAMPLES = 4
+_CANDIDATES = 16
+_DOUBT = 1e-2
+"""Assumed error of a parabola, as a fraction of the largest sample."""
+_ROUNDS = 6
+_OFFSETS = np.linspace(0.0, 1.0, 9)
+
+
+@dataclass(frozen=True, slots=True)
+class PathPeaks:
+    """Largest ratios of a motion to its limits.
+
+    Attributes:
+        ratios: Largest ratio of each of `QUANTITIES`; 0 if it has no limit or is not considered; shape (7,).
+        joints: Index of the joint with this ratio, for each of the first three; shape (3,).
+    """
+
+    ratios: Array
+    joints: Indices
+
+    @property
+    def factor(self) -> float:
+        """Factor k by which slowing down the motion just reaches some limit; 0 if it stands still."""
+        return float(self._factors().max())
+
+    def of_order(self, order: int) -> float:
+        """Return the largest ratio of a velocity (1), an acceleration (2) or a jerk (3), of joints and tip."""
+        return float(self.ratios[of_order(order)].max())
+
+    def binding(self, limits: SegmentLimits, *, in_blends: bool = False) -> str:
+        """Return the limit that is reached first, in words; blends may have their own."""
+        i = int(self._factors().argmax())
+        if i < JOINTS:
+            joint = int(self.joints[i])
+            values = (limits.velocity, limits.acceleration, limits.jerk)[i]
+            return f"joint {joint + 1} reaches its limit of {QUANTITIES[i]}, {values[joint]:g}"
+        if in_blends and i == JOINTS + ACCELERATION:
+            return "the tip reaches its limit of acceleration, its own or that of a blend"
+        tip = limits.tip
+        value = (tip.speed, tip.angular_speed, tip.acceleration, tip.angular_acceleration)[i - JOINTS]
+        return f"the tip reaches its limit of {QUANTITIES[i]}, {value:g}"
+
+    def _factors(self) -> Array:
+        factors: Array = self.ratios ** (1.0 / ORDERS)
+        return factors
+
+
+def peaks_of(
+    geometry: LimitedPath,
+    motion: PiecewisePolynomial,
+    law: PiecewisePolynomial,
+    *,
+    with_jerk: bool,
+    with_joints: bool = True,
+) -> PathPeaks:
+    """Compute the largest ratios of a motion to its limits.
+
+    Args:
+        geometry: The path and its limits.
+        motion: q(s(t)), whose breaks include those of the law.
+        law: s(t).
+        with_jerk: Whether to consider jerk.
+        with_joints: Whether to consider the joints; the tip always counts if it has limits.
+    """
+    found, joints = np.zeros(len(QUANTITIES)), np.zeros(JOINTS, dtype=np.int64)
+    limits = geometry.limits
+    for order, limit in enumerate((limits.velocity, limits.acceleration, limits.jerk)[: 3 if with_jerk else 2]):
+        if with_joints:
+            found[order], joints[order] = _largest(motion.derivative(order + 1), limit)
+    if geometry.limits_tip:
+        found[JOINTS:] = _of_tip(geometry, motion, law)
+    return PathPeaks(found, joints)
+
+
+def _largest(values: PiecewisePolynomial, limits: Array) -> tuple[float, int]:
+    """Return the largest ratio of a magnitude to its limit, and the index of its coordinate."""
+    if len(limits) == 0:
+        return 0.0, 0
+    powers = np.diff(values.breaks)[:, None] ** np.arange(values.coefficients.shape[1])
+    c = values.coefficients * powers[:, :, None] / limits
+    bounds = np.abs(bernstein(c)).max(axis=1)
+    probes = np.abs(_PROBES[:, None] ** np.arange(c.shape[1]) @ c).max(axis=1)
+    joint = int(probes.max(axis=0).argmax())
+    least = float(probes.max())
+    piece, column = np.nonzero(bounds > least * (1.0 + _ROUNDING))
+    if len(piece) == 0:
+        return least, joint
+    chosen = PiecewisePolynomial(np.arange(len(piece) + 1.0), c[piece, :, column][:, :, None])
+    largest = np.abs(candidates(chosen)[1]).max(axis=(1, 2))
+    i = int(largest.argmax())
+    return (float(largest[i]), int(column[i])) if largest[i] > least else (least, joint)
+
+
+def _of_tip(geometry: LimitedPath, motion: PiecewisePolynomial, law: PiecewisePolynomial) -> Array:
+    """Return the tip's largest ratios; shape (4,)."""
+    widths = np.diff(motion.breaks)
+    along = cut(law, motion.breaks)
+    places = geometry.piece_of(derivatives(along, 0.5 * widths[:, None])[0][:, 0])
+    if geometry.tip_motion is not None:
+        ratios = _through_joints(geometry.tip_motion, motion, geometry.tip_bounds(places))
+    elif geometry.path is not None:
+        ratios = _along_path(geometry, geometry.path, along, places)
+    else:
+        return np.zeros(len(QUANTITIES) - JOINTS)
+    counts = np.maximum(np.ceil(widths / widths.sum() * _SAMPLES).astype(np.int64), _LEAST_SAMPLES) + 1
+    piece = np.repeat(np.arange(len(counts)), counts)
+    within = np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)
+    steps = (counts - 1)[piece]
+    found = ratios(piece, within * widths[piece] / steps)
+    largest: Array = found.max(axis=0)
+    rows, columns = _promising(found, within, steps)
+    if len(rows) == 0:
+        return largest
+    piece, within, step = piece[rows], within[rows], (widths[piece] / steps)[rows]
+    refined = _refined(ratios, piece, columns, (within - 1) * step, (within + 1) * step)
+    np.maximum.at(largest, columns, refined)
+    return largest
+
+
+def _refined(ratios: Ratios, piece: Indices, columns: Indices, low: Array, high: Array) -> Array:
+    """Find the largest value of a column between two times in a piece, for each of N searches; shape (N,)."""
+    each = np.arange(len(piece))
+    for _ in range(_ROUNDS):
+        local = low[:, None] + (high - low)[:, None] * _OFFSETS
+        all_ = ratios(np.repeat(piece, len(_OFFSETS)), local.ravel()).reshape(*local.shape, -1)
+        closer = all_[each, :, columns]
+        peak = closer.argmax(axis=1)
+        low, high = local[each, np.maximum(peak - 1, 0)], local[each, np.minimum(peak + 1, len(_OFFSETS) - 1)]
+    result: Array = closer.max(axis=1)
+    return result
+
+
+def _through_joints(tip_motion: TipMotion, motion: PiecewisePolynomial, bounds: Array) -> Ratios:
+    """Return a function for the tip's ratios, computed from the joints' motion; bounds of shape (M, 4)."""
+
+    def ratios(piece: Indices, local: Array) -> Array:
+        rates = derivatives(motion.coefficients[piece], local[:, None])
+        return tip_ratios(*tip_motion(*rates[:3]), bounds[piece])
+
+    return ratios
+
+
+def _along_path(geometry: LimitedPath, path: Path, law: Array, places: Indices) -> Ratios:
+    """Return a function for the tip's ratios along the path; shapes (M, d + 1, 1) of `law` and (M,) of `places`."""
+    bounds = geometry.tip_bounds(places)
+
+    def ratios(piece: Indices, local: Array) -> Array:
+        s, v, a, _ = derivatives(law[piece], local[:, None])
+        first, second = geometry.along(path, places[piece], s[:, 0])
+        return tip_ratios(first * v, first * a + second * v**2, bounds[piece])
+
+    return ratios
+
+
+def _promising(found: Array, within: Indices, steps: Indices) -> tuple[Indices, Indices]:
+    """Return rows and columns around which to expect the largest values between samples; shape (N, 4) → (K,) each.
+
+    The parabola through three samples of a piece estimates the maximum between them; one whose vertex is up to one step
+    outside counts too, since it may be wrong by that much. If many pieces are at a limit, the samples alone would not
+    show which piece exceeds it.
+    """
+    rows = np.flatnonzero((within > 0) & (within < steps))
+    before, at, after = found[rows - 1], found[rows], found[rows + 1]
+    slope, bend = 0.5 * (after - before), 2.0 * at - before - after
+    rises = (bend > 0.0) & (np.abs(slope) < 2.0 * bend)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        vertex = np.clip(slope / bend, -1.0, 1.0)
+        heights = np.where(rises, at + vertex * (slope - 0.5 * bend * vertex), 0.0)
+    chosen = np.argsort(heights, axis=0)[-_CANDIDATES:]
+    columns = np.broadcast_to(np.arange(found.shape[1]), chosen.shape)
+    kept = np.take_along_axis(heights, chosen, axis=0) > found.max(axis=0) * (1.0 - _DOUBT)
+    return rows[chosen[kept]], columns[kept]

@@ -1,0 +1,146 @@
+"""Reachability along a path: the speeds from which its end can be reached, and the fastest among them [Pham2018].
+
+The path is cut into intervals of length Δ. In each of them u = s̈ is constant, so x = ṡ² goes from x_i to x_i + 2Δu.
+The admissible points (u, x_i) of an interval form a convex polygon, given by rows αu + βx ≤ 1; it always contains rest,
+u = x = 0. For a given x, the rows bound u from above and from below by lines in x; eliminating u from pairs of such
+lines leaves bounds of x. All pairs except those with the speed at the next node are evaluated in advance, so one step
+costs only three vector operations.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gelenk.errors import InvalidField
+from gelenk.robot.arrays import Array
+
+_NO_WEIGHT = 1e-12
+"""α of a row, as a fraction of the largest in its interval, below which the row does not bound u."""
+_UNBOUNDED = 1e30
+_MOST_STEPS = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Stages:
+    """Constraints of a motion in each of N intervals.
+
+    Attributes:
+        lengths: Δ; shape (N,).
+        upper: Offsets and slopes of the lines in x that bound u from above, ∞ and 0 for none; shape (2, N, m).
+        lower: The same for those that bound u from below, -∞ and 0 for none.
+        highest: Largest x at the start of each interval from which the motion can continue; shape (N,).
+        kept: Smallest fraction of x that must be left at the end of each interval; shape (N,).
+    """
+
+    lengths: Array
+    upper: Array
+    lower: Array
+    highest: Array
+    kept: Array
+
+
+def stages(lengths: Array, alpha: Array, beta: Array, kept: Array) -> Stages:
+    """Build the constraints of intervals from their rows αu + βx ≤ 1.
+
+    Args:
+        lengths: Δ > 0; shape (N,).
+        alpha: α; shape (N, m).
+        beta: β; shape (N, m).
+        kept: Smallest fraction of x to leave at the end of an interval, from 0 to 1; shape (N,). Without it, where q'
+            of a joint changes sign, the largest x may be one from which the motion can only stop.
+    """
+    is_without = np.abs(alpha) <= _NO_WEIGHT * np.abs(alpha).max(axis=1, keepdims=True)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        offsets, slopes = 1.0 / alpha, -beta / alpha
+        bounds = np.where(is_without & (beta > 0.0), 1.0 / beta, _UNBOUNDED)
+    is_above, is_below = ~is_without & (alpha > 0.0), ~is_without & (alpha < 0.0)
+    upper = np.stack((np.where(is_above, offsets, np.inf), np.where(is_above, slopes, 0.0)))
+    lower = np.stack((np.where(is_below, offsets, -np.inf), np.where(is_below, slopes, 0.0)))
+    # x_i + 2Δu ≥ kept x_i.
+    onward = np.stack((np.zeros_like(lengths), -0.5 * (1.0 - kept) / lengths))[:, :, None]
+    highest = _highest(upper, np.concatenate((lower, onward), axis=2), np.minimum(bounds.min(axis=1), _UNBOUNDED))
+    return Stages(lengths, upper, lower, highest, kept)
+
+
+def _highest(upper: Array, lower: Array, x: Array) -> Array:
+    """Return the largest x at which no upper line is below a lower one, by Newton's method from the right.
+
+    The gap between the lowest upper and the highest lower line is concave in x and nonnegative at 0: every step ends
+    to the right of the zero, and finitely many steps reach it.
+    """
+    rows = np.arange(len(x))
+    for _ in range(_MOST_STEPS):
+        i = (upper[0] + upper[1] * x[:, None]).argmin(axis=1)
+        j = (lower[0] + lower[1] * x[:, None]).argmax(axis=1)
+        room = upper[0, rows, i] - lower[0, rows, j]
+        slope = lower[1, rows, j] - upper[1, rows, i]
+        is_crossing = (slope > 0.0) & (slope * x > room)
+        if not is_crossing.any():
+            break
+        with np.errstate(divide="ignore", invalid="ignore"):
+            nearer = np.where(is_crossing, room / slope, x)
+        if (nearer >= x).all():
+            break
+        x = np.minimum(x, nearer)
+    return x
+
+
+def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple[Array, Array]:
+    """Return the least and the largest x at each node from which the end can be reached; shape (N + 1,) each.
+
+    Args:
+        course: Constraints of the intervals.
+        caps: Further upper bound of x at each node; shape (N + 1,).
+        end: Least and largest x allowed at the end.
+
+    Raises:
+        InvalidField: The end cannot be reached, which is possible only if it is not at rest.
+    """
+    count = len(course.lengths)
+    least, most = np.zeros(count + 1), np.minimum(np.append(course.highest, np.inf), caps)
+    least[-1], most[-1] = end[0], min(end[1], caps[-1])
+    halves = 0.5 / course.lengths
+    climb = course.lower[1] + halves[:, None]
+    with np.errstate(divide="ignore"):
+        gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
+    offsets = course.lower[0]
+    for i in range(count - 1, -1, -1):
+        # No faster than the motion can brake to the largest x of the next node.
+        most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
+        if course.kept[i] > 0.0:
+            most[i] = min(most[i], most[i + 1] / course.kept[i])
+        if least[i + 1] > 0.0:
+            least[i], most[i] = _at_least(course, i, least[i + 1], most[i])
+        if not least[i] <= most[i]:
+            raise InvalidField("end_velocity", "cannot be reached along this path under these limits")
+    return least, most
+
+
+def _at_least(course: Stages, i: int, next_least: float, most: float) -> tuple[float, float]:
+    """Return bounds of x in interval `i` for which x at its end is at least `next_least`."""
+    half = 0.5 / course.lengths[i]
+    need = next_least * half - course.upper[0, i]
+    climb = course.upper[1, i] + half
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bounds = need / climb
+    least = bounds[climb > 0.0].max(initial=0.0)
+    return float(least), float(min(most, bounds[climb < 0.0].min(initial=np.inf)))
+
+
+def fastest(course: Stages, least: Array, most: Array, start: float) -> Array:
+    """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
+
+    Args:
+        course: Constraints of the intervals.
+        least: Least x at each node; shape (N + 1,).
+        most: Largest x at each node; shape (N + 1,).
+        start: x at the first node, within its bounds.
+    """
+    x = start
+    found = [x]
+    bounds = zip(2.0 * course.lengths, *course.upper, least[1:], most[1:], strict=True)
+    for twice, offsets, slopes, lower, upper in bounds:
+        u = (offsets + slopes * x).min()
+        x = max(min(x + twice * u, upper), lower)
+        found.append(x)
+    return np.array(found)

@@ -1,0 +1,278 @@
+"""The fastest motion along a path under limits of joint velocity and acceleration, by reachability [Pham2018].
+
+With u = s̈ and x = ṡ², on a path q(s): q̇² = q'² x and q̈ = q' u + q'' x are linear in (u, x). The path is cut into
+intervals with constant u, on which q̇² and q̈ are polynomials. The limits are imposed on these polynomials, not only on
+their values at the nodes, so they are kept everywhere. The loss is of second order in the interval length. This also
+works where q' of a joint changes sign (zero-inertia points) and conditions at the nodes alone would let the
+acceleration chatter; if the path bends strongly there for a joint's acceleration limit, only short intervals come near
+the optimum.
+
+A second run adds nodes where u switches, and in intervals that take long or bend strongly. Along a straight line the
+result is then the trapezoidal profile up to rounding.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from gelenk.errors import InvalidField, TooLarge
+from gelenk.robot.arrays import Array, Flags
+from gelenk.trajectory.motion.intervals import composed, cut, rows
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.timing.reachability import controllable, fastest, stages
+
+Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
+"""Maps nodes from 0 to 1 to α and β of rows αu + βx ≤ 1 on the intervals between them; (N + 1,) → (N, m) each."""
+
+INTERVALS = 200
+LARGEST_PATH = 100_000
+"""Largest number of intervals times joints in the first run; the second run may double it."""
+SMALLEST, LARGEST = 1e-9, 1e9
+"""Range of a limit; `LARGEST` also bounds the coordinates and travels of a path."""
+
+MARGIN = 1e-9
+"""Fraction of each limit that is reserved for rounding errors."""
+_LEAST_INTERVALS = 4
+"""Least number of intervals per piece of the path, to leave room between corners."""
+_NO_LENGTH = 1e-13
+_STILL = 1e-12
+_JUMP, _EXACT = 1e-9, 1e-12
+"""Largest jump of q that counts as rounding: as a fraction of the largest travel, or absolute, [rad or m], if larger;
+the absolute value is the best accuracy with which joints follow a path."""
+_CORNER = 1e-7
+"""Jump of q', as a fraction of the largest |q'|, above which it counts as a corner."""
+_CHANGE = 0.25
+"""Relative change of q' above which an interval is cut."""
+_MOST_PARTS = 8
+_NEAR = 1e-3
+"""Distance of an extra node from each stop, as a fraction of an interval, to resolve u there."""
+_KEPT = 0.5
+"""Least ṡ² left after an interval, as a fraction of what uniform braking to the next stop leaves."""
+_SWITCH = 0.02
+"""Change of u, as a fraction of the largest |u|, that counts as a switch."""
+
+
+@dataclass(frozen=True, slots=True)
+class TimeOptimal:
+    """The fastest motion along a path.
+
+    Attributes:
+        time_law: s(t), one parabola per piece; one coordinate.
+        motion: q(s(t)), with the same breaks.
+    """
+
+    time_law: PiecewisePolynomial
+    motion: PiecewisePolynomial
+
+
+@dataclass(frozen=True, slots=True)
+class _Task:
+    """A path over 0 ≤ s ≤ 1 and the limits along it.
+
+    Attributes:
+        path: q(s).
+        limits: Limits of velocity and acceleration, less the margin; shape (2, n).
+        is_corner: Whether the motion has to stop at each break; shape (M + 1,).
+        start: Least and largest ṡ² at the start.
+        end: Least and largest ṡ² at the end.
+        rows: Further constraints, if any.
+    """
+
+    path: PiecewisePolynomial
+    limits: Array
+    is_corner: Flags
+    start: tuple[float, float]
+    end: tuple[float, float]
+    rows: Rows | None
+
+
+def time_optimal(
+    path: PiecewisePolynomial,
+    velocity: Array,
+    acceleration: Array,
+    *,
+    start_velocity: float = 0.0,
+    end_velocity: float = 0.0,
+    intervals: int = INTERVALS,
+    further: Rows | None = None,
+) -> TimeOptimal:
+    """Plan the fastest motion along a path; the limits are kept everywhere.
+
+    The motion stops at corners, where q' jumps. Where q'' jumps, the acceleration may jump too.
+
+    Args:
+        path: q(s), without jumps.
+        velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
+        acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
+        start_velocity: ṡ ≥ 0 at the start of the path.
+        end_velocity: ṡ ≥ 0 at its end.
+        intervals: Approximate number of intervals, at least four per piece of the path. More come nearer to the
+            optimum: 200 are within 1.5 % of it along splines through up to 20 knots.
+        further: Further constraints on u = s̈ and x = ṡ² at the start of each interval, for the path scaled to
+            0 ≤ s ≤ 1; u = x = 0 has to satisfy them.
+
+    Returns:
+        The motion, starting at time 0; along a path of zero length (≤ 1e-13), one piece whose two breaks coincide.
+
+    Raises:
+        InvalidField: A limit is out of range, the path jumps or stands still, or a velocity at one of its ends is not
+            feasible.
+        TooLarge: The path has too many pieces.
+    """
+    _check_limits(velocity, acceleration)
+    travels = _travels(path)
+    if travels.max(initial=0.0) <= _NO_LENGTH:
+        law = PiecewisePolynomial(np.zeros(2), path.breaks[None, -1:, None])
+        return TimeOptimal(law, PiecewisePolynomial(np.zeros(2), path.at(path.breaks[-1:])[None]))
+    task = _task(path, velocity, acceleration, (start_velocity, end_velocity), further)
+    nodes = _nodes(task, travels, intervals // 2)
+    x = _squared_speeds(task, nodes, path.duration)
+    more = np.sort(np.concatenate((_switches(nodes, x), _between(task, nodes, _time_law(nodes, x), intervals))))
+    nodes = np.union1d(nodes, more[np.diff(more, prepend=-1.0) > _STILL])
+    law = _time_law(nodes, _squared_speeds(task, nodes, path.duration))
+    motion = PiecewisePolynomial(law.breaks, composed(cut(task.path, nodes), law.coefficients[:, 1:]))
+    c = law.coefficients * path.duration
+    c[:, 0] += path.breaks[0]
+    return TimeOptimal(PiecewisePolynomial(law.breaks, c), motion)
+
+
+def _check_limits(velocity: Array, acceleration: Array) -> None:
+    for name, values in (("velocity", velocity), ("acceleration", acceleration)):
+        wrong = ~((values >= SMALLEST) & (values <= LARGEST))
+        if wrong.any():
+            reason = f"must be a number from {SMALLEST:g} to {LARGEST:g}"
+            raise InvalidField(f"limits/joint_{name}/{int(np.argmax(wrong))}", reason)
+
+
+def _travels(path: PiecewisePolynomial) -> Array:
+    """Estimate how far each joint travels in each piece, zero if it stands still; shape (M, n)."""
+    powers = np.diff(path.breaks)[:, None] ** np.arange(1, path.coefficients.shape[1])
+    with np.errstate(over="ignore", invalid="ignore"):
+        travels: Array = np.abs(path.coefficients[:, 1:] * powers[:, :, None]).sum(axis=1)
+    if not (np.abs(path.coefficients[:, 0]) <= LARGEST).all() or not (travels <= LARGEST).all():
+        raise InvalidField("path", f"must be of numbers of magnitude ≤ {LARGEST:g}")
+    return travels
+
+
+def _task(
+    path: PiecewisePolynomial, velocity: Array, acceleration: Array, ends: tuple[float, float], further: Rows | None
+) -> _Task:
+    length = path.duration
+    powers = length ** np.arange(path.coefficients.shape[1])[:, None]
+    unit = PiecewisePolynomial((path.breaks - path.breaks[0]) / length, path.coefficients * powers)
+    travels = _travels(path).max(axis=1)
+    if (travels <= _STILL * travels.max()).any():
+        i = int(np.argmin(travels))
+        raise InvalidField(
+            "path", f"does not move from s = {path.breaks[i]:g} to {path.breaks[i + 1]:g}: leave that out"
+        )
+    jumps = np.abs(_at_ends(unit)[1][:-1] - _at_ends(unit)[0][1:]).max(axis=1, initial=0.0)
+    if (jumps > max(_JUMP * travels.max(), _EXACT)).any():
+        raise InvalidField("path", f"jumps at s = {path.breaks[1 + int(np.argmax(jumps))]:g}")
+    before, after = _at_ends(unit.derivative())
+    steepest = np.abs(np.concatenate((before, after))).max()
+    is_corner = np.abs(after[:-1] - before[1:]).max(axis=1, initial=0.0) > _CORNER * steepest
+    limits = np.stack((velocity, acceleration)) * (1.0 - MARGIN)
+    start, end = (
+        _speeds(field, speed, length, np.abs(slope), velocity, float(_STILL * steepest))
+        for field, speed, slope in zip(("start_velocity", "end_velocity"), ends, (before[0], after[-1]), strict=True)
+    )
+    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), start, end, further)
+
+
+def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
+    """Return values at the start and at the end of each piece; shape (M, n) each."""
+    powers = np.diff(path.breaks)[:, None] ** np.arange(path.coefficients.shape[1])
+    return path.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, path.coefficients)
+
+
+def _speeds(
+    field: str, speed: float, length: float, slope: Array, velocity: Array, smallest: float
+) -> tuple[float, float]:
+    """Return the least and the largest ṡ² at an end of the path scaled to length 1."""
+    with np.errstate(divide="ignore"):
+        most = float((velocity / slope).min())
+    if not 0.0 <= speed <= most * length * (1.0 + MARGIN):
+        raise InvalidField(
+            field, f"must be a number from 0 to {most * length:g}, where a joint's velocity is at its limit"
+        )
+    if speed == 0.0 and slope.max() <= smallest:
+        return 0.0, np.inf  # Where q' = 0, the joints are at rest at any ṡ.
+    squared = min(speed / length, most * (1.0 - 2.0 * MARGIN)) ** 2
+    return squared, squared
+
+
+def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
+    """Choose nodes: evenly spaced within a piece, more in pieces that are long or take long, and extra near stops."""
+    breaks = task.path.breaks
+    times = (travels / task.limits[0]).max(axis=1)
+    shares = 0.5 * (np.diff(breaks) + times / times.sum())
+    counts = np.maximum(np.ceil(shares * intervals - _STILL), _LEAST_INTERVALS).astype(int)
+    if counts.sum() * travels.shape[1] > LARGEST_PATH:
+        raise TooLarge("intervals along a path times joints", int(counts.sum()) * travels.shape[1], LARGEST_PATH)
+    spans = zip(breaks[:-1], breaks[1:], counts, strict=True)
+    nodes = np.concatenate([*(np.linspace(a, b, count, endpoint=False) for a, b, count in spans), breaks[-1:]])
+    steps = _NEAR * np.diff(breaks) / counts
+    is_stop = task.is_corner | (np.abs(breaks - 0.5) == 0.5)
+    near = np.concatenate(((breaks[:-1] + steps)[is_stop[:-1]], (breaks[1:] - steps)[is_stop[1:]]))
+    return np.union1d(nodes, near)
+
+
+def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
+    """Return x = ṡ² of the fastest motion at each node; shape (N + 1,)."""
+    lengths = np.diff(nodes)
+    stops = np.append(task.path.breaks[task.is_corner], 1.0)
+    next_stops = stops[np.searchsorted(stops, nodes[:-1], side="right")]
+    kept = _KEPT * (next_stops - nodes[1:]) / (next_stops - nodes[:-1])
+    alpha, beta = rows(cut(task.path, nodes), lengths, task.limits)
+    if task.rows is not None:
+        more = task.rows(nodes)
+        alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
+    course = stages(lengths, alpha, beta, kept)
+    caps = np.where(np.isin(nodes, stops[:-1]), 0.0, np.inf)
+    least, most = controllable(course, caps, task.end)
+    if task.start[0] > most[0] * (1.0 + 4.0 * MARGIN):
+        reason = f"must be at most {np.sqrt(most[0]) * length:g} along this path under these limits"
+        raise InvalidField("start_velocity", reason)
+    if task.start[1] < least[0] * (1.0 - 4.0 * MARGIN):
+        raise InvalidField("end_velocity", "cannot be reached from the velocity at the start under these limits")
+    return fastest(course, least, most, max(min(task.start[1], most[0]), least[0]))
+
+
+def _switches(nodes: Array, x: Array) -> Array:
+    """Return the places inside intervals at which u switches, where the lines of x(s) from both sides meet."""
+    lengths = np.diff(nodes)
+    u = 0.5 * np.diff(x) / lengths
+    before, after, inner = u[:-2], u[2:], lengths[1:-1]
+    is_jump = np.abs(before - after) > _SWITCH * np.abs(u).max()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = (0.5 * (x[2:-1] - x[1:-2]) / inner - after) / (before - after)
+    is_inside = is_jump & (share > 0.01) & (share < 0.99)
+    switches: Array = (nodes[1:-2] + share * inner)[is_inside]
+    return switches
+
+
+def _between(task: _Task, nodes: Array, law: PiecewisePolynomial, intervals: int) -> Array:
+    """Return places at which to cut intervals that take long or in which q' changes much, evenly spaced in time."""
+    lasting = np.diff(law.breaks)
+    slopes = task.path.derivative().at(nodes) / task.limits[0]
+    sizes = np.abs(slopes).max(axis=1)
+    changes = np.abs(np.diff(slopes, axis=0)).max(axis=1) / np.maximum(sizes[1:], sizes[:-1])
+    parts = np.fmax(lasting / law.duration * intervals - 0.5, changes / _CHANGE)
+    most = max(1, min(_MOST_PARTS, 2 * LARGEST_PATH // slopes.size))
+    counts = np.ceil(np.minimum(parts, most)).astype(int)
+    times = [law.breaks[i] + lasting[i] * np.arange(1, counts[i]) / counts[i] for i in np.flatnonzero(counts > 1)]
+    between: Array = law.at(np.concatenate([*times, np.empty(0)]))[:, 0]
+    return between
+
+
+def _time_law(nodes: Array, x: Array) -> PiecewisePolynomial:
+    """Return s(t) with constant s̈ between nodes."""
+    speeds, lengths = np.sqrt(x), np.diff(nodes)
+    if not ((speeds[:-1] + speeds[1:] > 0.0) & np.isfinite(x[1:])).all():
+        raise InvalidField("path", "its slopes are too many powers of ten apart")
+    times = np.concatenate(([0.0], np.cumsum(2.0 * lengths / (speeds[:-1] + speeds[1:]))))
+    coefficients = np.stack((nodes[:-1], speeds[:-1], 0.25 * np.diff(x) / lengths), axis=1)
+    return PiecewisePolynomial(times, coefficients[:, :, None])

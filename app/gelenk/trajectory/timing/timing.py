@@ -1,0 +1,246 @@
+"""Timing of the joints along a path, from rest to rest: six laws, each as fast as limits of joints and tip allow.
+
+A law s(t) is chosen, then scaled uniformly until the joints' polynomials in time, or the tip, just reach some limit:
+
+- `cubic`, `quintic`, `septic`: a fixed shape; along blended lines one law per line, with constant speed through the
+  blends, if that takes less time (`chain_laws`).
+- `trapezoidal`: the acceleration and the cruise speed of the shortest time.
+- `jerk_limited`: likewise, with a jerk along s; along blended lines, it is chosen like the polynomials.
+- `time_optimal`: some joint, or the tip, is at a limit nearly always.
+
+Jerk limits apply to the laws with continuous acceleration: `quintic`, `septic`, `jerk_limited`.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from gelenk.errors import InvalidField
+from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.motion.composition import in_time
+from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
+from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, Zone, geometry_of
+from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.chain_laws import chain_law
+from gelenk.trajectory.timing.path_laws import POLYNOMIALS, polynomial, s_curve, trapezoid
+from gelenk.trajectory.timing.path_peaks import peaks_of
+from gelenk.trajectory.timing.time_optimal import time_optimal
+from gelenk.trajectory.timing.tip_constraints import tip_rows
+
+_SMOOTH: Final = frozenset({"quintic", "septic", "jerk_limited"})
+_ONE_LAW: Final = (
+    "one law runs through all blended lines: a corner, or the line with the lowest limits of the tip, makes it slow "
+    "everywhere, `trapezoidal` and `time_optimal` only there"
+)
+_ROUNDING = 1e-9
+"""Relative tolerance for a requested duration that falls short of the shortest one, and then means it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Timed:
+    """A motion along a path, from rest to rest.
+
+    Attributes:
+        motion: Joint motion, starting at 0 s; if nothing moves, one piece of zero or of the requested duration.
+        law: s(t), of the same duration.
+        continuous: Highest order up to which the motion's derivatives are continuous.
+        has_bounded_jerk: Whether the jerk limits hold throughout; where the acceleration jumps, they cannot.
+        binding: Limit that prevents a shorter time with this law, in words.
+        notes: Further remarks for the user.
+    """
+
+    motion: PiecewisePolynomial
+    law: PiecewisePolynomial
+    continuous: int
+    has_bounded_jerk: bool
+    binding: str
+    notes: tuple[str, ...] = ()
+
+
+def timed(
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    law: Law,
+    limits: SegmentLimits,
+    *,
+    duration: float | None = None,
+    slow_down: bool = False,
+    tip_motion: TipMotion | None = None,
+    zones: tuple[Zone, ...] = (),
+    corners: tuple[tuple[float, float], ...] = (),
+) -> Timed:
+    """Plan the fastest motion with a law, slowed down uniformly if a longer duration is requested.
+
+    The motion stops where q' jumps. Where q'' jumps, the acceleration jumps with any law, and a jerk limit holds only
+    before and after the jump.
+
+    The time-optimal law is within 1.5 % of the optimum (`time_optimal`). Where the path bends, tip limits cost up to
+    0.25 % more (`tip_rows`). A final uniform scaling by k ≥ 1, mostly by less than 1e-5, keeps them also between the
+    places at which they are checked. If the trapezoidal law takes no longer, it is used, because it has fewer pieces.
+
+    Args:
+        path: Path of the tip, for its limits and the places where it bends; None for a path of the joints alone.
+        joints: q(s) from s = 0, possibly ending before the path does.
+        law: Time law.
+        limits: Limits of joints and tip.
+        duration: Requested duration, [s]; the shortest within the limits if None.
+        slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
+            replaces `law`.
+        tip_motion: Function from the joints' motion to the tip's (`tip_through`), to which the tip limits then apply;
+            by default they apply to the motion along `path`, from which joints that follow it within a tolerance differ
+            slightly. With neither, the tip has no limits.
+        zones: Parts of the path on which the tip has its own limits.
+        corners: s at the beginning and the end of each blend of lines.
+
+    Raises:
+        InvalidField: The duration is shorter than the limits allow, or limits and path differ too much in magnitude.
+    """
+    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
+    chosen: Law = "time_optimal" if slow_down else law
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
+    found = _in_a_row(parts) if parts else _standing(joints)
+    if not np.isfinite(found.motion.coefficients).all():
+        raise InvalidField("limits", "these limits and this path are too many powers of ten apart")
+    if slow_down and law != "time_optimal":
+        note = f"to be slow only where the joints have to, the time-optimal law is taken in place of `{law}`"
+        found = replace(found, notes=(note, *found.notes))
+    return found if duration is None else _lasting(found, duration)
+
+
+def compared(
+    path: Path | None,
+    joints: PiecewisePolynomial,
+    law: Law,
+    limits: SegmentLimits,
+    *,
+    tip_motion: TipMotion | None = None,
+    zones: tuple[Zone, ...] = (),
+    corners: tuple[tuple[float, float], ...] = (),
+) -> tuple[float, float, float, float]:
+    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path.
+
+    Args:
+        path: See `timed`.
+        joints: See `timed`.
+        law: Law that is scaled.
+        limits: Limits of joints and tip.
+        tip_motion: See `timed`.
+        zones: See `timed`.
+        corners: See `timed`.
+
+    Returns:
+        The duration of the law, [s]; k_vel and k_acc that the velocity and acceleration limits of joints and tip
+        require if it lasts 1 s; the time-optimal duration, [s]. Unless jerk binds, the first is max{k_vel, √k_acc}.
+    """
+    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones, corners=corners)
+    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones, corners=corners)
+    lasting = uniform.motion.duration
+    if lasting == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
+    peaks = peaks_of(geometry, uniform.motion, uniform.law, with_jerk=False)
+    return lasting, peaks.of_order(1) * lasting, peaks.of_order(2) * lasting**2, optimal.motion.duration
+
+
+def _fastest(geometry: LimitedPath, law: Law) -> Timed:
+    if law == "time_optimal":
+        return _time_optimal(geometry)
+    single = _along(geometry, law, _shape(geometry, law))
+    chained = None if law == "trapezoidal" else chain_law(geometry, POLYNOMIALS.get(law))
+    if chained is not None:
+        each = _along(geometry, law, chained)
+        if each.motion.duration < single.motion.duration:
+            return each
+    if geometry.corners and law != "trapezoidal":
+        single = replace(single, notes=(*single.notes, _ONE_LAW))
+    return single
+
+
+def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed:
+    """Time the path with a law's shape s(t), scaled to the least time."""
+    motion = in_time(geometry.joints, along)
+    smooth = law in _SMOOTH
+    peaks = peaks_of(geometry, motion, along, with_jerk=smooth)
+    bends = geometry.bends()
+    jerk_holds = smooth and len(bends) == 0
+    notes: tuple[str, ...] = ()
+    if smooth and not jerk_holds:
+        places = ", ".join(f"{s:.4g}" for s in bends[:4]) + (", …" if len(bends) > 4 else "")
+        note = f"the path's curvature jumps at s = {places}: so does the acceleration there, and the limit of jerk"
+        notes = (f"{note} holds in between only",)
+    binding = peaks.binding(geometry.limits, in_blends=bool(geometry.zones))
+    return _scaled(Timed(motion, along, 2 if jerk_holds else 1, jerk_holds, binding, notes), peaks.factor)
+
+
+def _shape(geometry: LimitedPath, law: Law) -> PiecewisePolynomial:
+    """Return a law's s(t) with an arbitrary duration."""
+    if law in POLYNOMIALS:
+        return polynomial(law, geometry)
+    return trapezoid(geometry) if law == "trapezoidal" else s_curve(geometry)
+
+
+def _time_optimal(geometry: LimitedPath) -> Timed:
+    limits = geometry.limits
+    found = time_optimal(geometry.joints, limits.velocity, limits.acceleration, further=tip_rows(geometry))
+    timing = Timed(found.motion, found.time_law, 1, False, "some limit is reached nearly everywhere")
+    if geometry.limits_tip:
+        peaks = peaks_of(geometry, found.motion, found.time_law, with_jerk=False, with_joints=False)
+        timing = _scaled(timing, max(1.0, peaks.factor))
+    # Along a straight path the trapezoidal law is the exact optimum, with only three pieces.
+    simple = _fastest(geometry, "trapezoidal")
+    return simple if simple.motion.duration <= timing.motion.duration * (1.0 + _ROUNDING) else timing
+
+
+def _scaled(timing: Timed, factor: float) -> Timed:
+    """Return the same motion in `factor` times the time."""
+    return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
+
+
+def _in_a_row(parts: list[Timed]) -> Timed:
+    """Join motions with a stop between each two."""
+    if len(parts) == 1:
+        return parts[0]
+    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
+    notes = dict.fromkeys(note for part in parts for note in part.notes)
+    return Timed(
+        joined([part.motion for part in parts]),
+        joined([part.law for part in parts]),
+        min(part.continuous for part in parts),
+        all(part.has_bounded_jerk for part in parts),
+        parts[0].binding,
+        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
+    )
+
+
+def _standing(joints: PiecewisePolynomial) -> Timed:
+    """Return a motion of zero duration at the end of the path."""
+    end = joints.breaks[-1:]
+    motion = PiecewisePolynomial(np.zeros(2), joints.at(end)[None])
+    return Timed(motion, PiecewisePolynomial(np.zeros(2), end[None, :, None].copy()), 2, True, "nothing moves")
+
+
+def _lasting(fastest: Timed, duration: float) -> Timed:
+    """Slow a motion down to a given duration.
+
+    Raises:
+        InvalidField: The motion cannot be that fast.
+    """
+    least = fastest.motion.duration
+    if duration < least * (1.0 - _ROUNDING):
+        raise InvalidField("duration", f"must be at least {least:.10g} s: {fastest.binding}")
+    if least == 0.0:
+        ends = np.array([0.0, duration])
+        motion, law = (PiecewisePolynomial(ends, one.coefficients) for one in (fastest.motion, fastest.law))
+        return replace(fastest, motion=motion, law=law)
+    slowed = _scaled(fastest, max(1.0, duration / least))
+    return replace(slowed, motion=_ending(slowed.motion, duration), law=_ending(slowed.law, duration))
+
+
+def _ending(motion: PiecewisePolynomial, duration: float) -> PiecewisePolynomial:
+    """Set the last break to exactly `duration`."""
+    breaks = motion.breaks.copy()
+    breaks[-1] = duration
+    return PiecewisePolynomial(breaks, motion.coefficients)

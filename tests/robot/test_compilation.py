@@ -1,0 +1,100 @@
+"""What compiling must not do: take time from a limit, or end a program that can write nowhere."""
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numba
+import pytest
+from numba.core.compiler_lock import global_compiler_lock
+
+from gelenk.ik import solve
+from gelenk.ik.search.search import mid_range
+from gelenk.ik.solve import Options, inverse_kinematics
+from gelenk.ik.verdict.verdict import TargetProblem
+from gelenk.kinematics.poses.forward import forward_kinematics
+from gelenk.robot.compilation import clock, when_compiling
+from tests.robots import robot
+
+COMPILING, LIMIT = 0.6, 0.3
+"""Seconds; inverse kinematics needs a hundredth of the limit."""
+
+
+def compile_something() -> None:
+    """What numba does when a function is called for the first time, for as long as a large one takes."""
+    with global_compiler_lock:
+        time.sleep(COMPILING)
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("name", ["ur5", "panda"])
+@pytest.mark.parametrize("options", [{}, {"every": True}, {"method": "newton"}], ids=str)
+def test_a_limit_of_time_does_not_count_compiling(
+    name: str, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = robot(name)
+    chain = machine.chain(None, None)
+    qs = mid_range(chain)[None] + 0.1
+    targets = forward_kinematics(machine, chain, qs).poses
+    inverse_kinematics(machine, chain, targets, qs - 0.02, Options(**options))  # what is really compiled here is now
+
+    def cold(*arguments: Any) -> TargetProblem:
+        compile_something()
+        return TargetProblem(*arguments)
+
+    monkeypatch.setattr(solve, "TargetProblem", cold)
+    found = inverse_kinematics(machine, chain, targets, qs - 0.02, Options(**options, time_limit=LIMIT))
+    assert found.statuses == ["solved"]
+
+
+@pytest.mark.slow
+def test_the_clock_stands_still_while_any_thread_compiles_or_waits_for_that() -> None:
+    began, threads = clock(), [threading.Thread(target=compile_something) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+        time.sleep(0.1)
+    first = clock()
+    time.sleep(0.2)
+    assert clock() == first
+    for thread in threads:
+        thread.join()
+    assert first - began < COMPILING
+    second = clock()
+    time.sleep(0.1)
+    assert clock() - second >= 0.1
+
+
+def test_what_is_compiled_is_told_once() -> None:
+    told: list[None] = []
+    function = numba.njit(lambda x: x + 1)
+    with when_compiling(lambda: told.append(None)):
+        for value in (1, 1.0, 2.0):
+            function(value)
+    function(True)
+    assert len(told) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("is_set", [True, False])
+def test_where_nothing_can_be_written_it_says_so_and_goes_on(is_set: bool, tmp_path: Path) -> None:
+    """A tree and a home that nobody can write to: files are where folders would have to be."""
+    shutil.copytree("app/gelenk/robot", tmp_path / "gelenk" / "robot", ignore=shutil.ignore_patterns("__pycache__"))
+    (tmp_path / "gelenk" / "__init__.py").touch()
+    nowhere = tmp_path / "gelenk" / "__pycache__"
+    for file in (nowhere, tmp_path / "gelenk" / "robot" / "__pycache__"):
+        file.touch()
+    environment = {
+        name: value for name, value in os.environ.items() if name not in {"NUMBA_CACHE_DIR", "XDG_CACHE_HOME"}
+    }
+    environment |= {"HOME": str(nowhere)} | ({"NUMBA_CACHE_DIR": str(nowhere / "kernels")} if is_set else {})
+    program = "import numpy; from gelenk.robot import notations; notations.rotations_from_rpy(numpy.zeros((1, 3)))"
+    command = [sys.executable, "-c", program]
+    run = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    assert run.stderr.count("\n") == 1
+    assert f"nothing can be written to {nowhere}" in run.stderr

@@ -1,0 +1,85 @@
+"""Every error of the core: its sentence, its data, its journey between processes, its place in the tree."""
+
+import pickle
+import re
+from dataclasses import fields
+
+import pytest
+
+from gelenk import errors
+from gelenk.errors import KinematicsError, kinds, listed, quoted
+
+OURS = {"reason", "element", "parameter", "quantity", "what", "joint_type", "representation", "angle"}
+"""Fields whose text we write; all other texts come from outside."""
+
+
+def example(cls: type[KinematicsError], name: str = "el\nbow") -> KinematicsError:
+    """An error with something in every field; its names from outside are this one."""
+    values: dict[object, object] = {
+        str: name,
+        int: 7,
+        int | None: 8,
+        float: 0.5,
+        float | None: 0.25,
+        str | None: name,
+        tuple[str, ...]: ("shoulder", name),
+    }
+    return cls(*("elbow" if field.name in OURS else values[field.type] for field in fields(cls)))
+
+
+CONCRETE = [cls for _, cls in sorted(kinds().items()) if cls.detail is not KinematicsError.detail]
+"""All classes with a sentence of their own."""
+
+every_error = pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)
+
+
+@every_error
+def test_detail_is_one_sentence(cls: type[KinematicsError]) -> None:
+    detail = example(cls).detail
+    assert detail == str(example(cls)) != ""
+    assert not re.search(r"[.!?] [A-Z]|\.$", detail)
+    assert detail.isprintable()
+
+
+@every_error
+def test_errors_travel_between_processes(cls: type[KinematicsError]) -> None:
+    error = example(cls)
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert type(again) is cls
+    assert (again.detail, again.facts()) == (error.detail, error.facts())
+
+
+def documented() -> dict[str, str]:
+    """Each class of the tree in the module's docstring, and the one it hangs on."""
+    assert errors.__doc__ is not None
+    parents: dict[str, str] = {}
+    above: list[tuple[int, str]] = []
+    for match in re.finditer(r"^([ │├└─]*)([A-Z]\w+)(?=\s{2}|$)", errors.__doc__, re.MULTILINE):
+        indent, name = len(match[1]), match[2]
+        above = [(depth, parent) for depth, parent in above if depth < indent]
+        parents[name] = above[-1][1] if above else "Exception"
+        above.append((indent, name))
+    return parents
+
+
+def test_the_tree_is_drawn_as_it_is() -> None:
+    classes = [cls for cls in vars(errors).values() if isinstance(cls, type) and issubclass(cls, KinematicsError)]
+    assert documented() == {cls.__name__: cls.__bases__[0].__name__ for cls in classes}
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("elbow", "'elbow'"),
+        ("el\nbow", "'el\\u000abow'"),
+        ("\x1b[2J", "'\\u001b[2J'"),
+        ("e" * 1000, "'" + "e" * 79 + "…'"),
+    ],
+)
+def test_names_from_outside_are_shown_safely(name: str, shown: str) -> None:
+    assert quoted(name) == shown
+
+
+def test_long_lists_are_cut() -> None:
+    assert listed(()) == "none"
+    assert listed(tuple("abc"), most=2) == "'a', 'b' and 1 more"
