@@ -133,7 +133,7 @@ def _paragraphs(found: list[Kind]) -> Iterator[str]:
 
 def _of_the_core() -> Iterator[Kind]:
     for name, error in kinds().items():
-        if error.detail is not KinematicsError.detail:  # others are never raised, only what derives from them
+        if error.template:  # others are never raised, only what derives from them
             meaning = " ".join((error.__doc__ or "").split())
             yield Kind(name, status_of(error), meaning, _facts(error), error.__name__)
 

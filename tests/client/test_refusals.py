@@ -78,7 +78,7 @@ def test_every_kind_of_problem_comes_back_with_its_data(kind: Kind) -> None:
 
 
 def test_no_kind_is_left_out() -> None:
-    concrete = {kind for kind, core in errors.kinds().items() if core.detail is not errors.KinematicsError.detail}
+    concrete = {kind for kind, core in errors.kinds().items() if core.template}
     assert {kind.name for kind in all_kinds() if kind.exception} == concrete
 
 

@@ -16,7 +16,7 @@ from docs.handbook.operations import compact
 from docs.handbook.problem_kinds import OF_HTTP, all_kinds, problems
 from docs.handbook.reference import GROUPS, Reference
 from docs.handbook.settings_list import bounds, settings
-from gelenk.errors import KinematicsError, kinds
+from gelenk.errors import kinds
 from gelenk.http.messages.problems import status_of
 from gelenk.settings import Settings
 from tests.openapi import document
@@ -48,7 +48,7 @@ def places() -> Iterator[str]:
         yield f"object-{dashed(name)}"
         yield from (f"field-{dashed(name)}-{dashed(field)}" for field in schema.get("properties", ()))
     for kind, error in kinds().items():
-        if error.detail is not KinematicsError.detail:
+        if error.template:
             yield f"problem-{kind}"
     yield from (f"problem-{kind}" for _, kind in kinds_of_http())
     yield from (f"setting-{dashed(field.name)}" for field in dataclasses.fields(Settings))
@@ -119,7 +119,7 @@ def test_every_kind_has_its_status() -> None:
     found = {kind.name: kind for kind in all_kinds()}
     assert len(found) == len(all_kinds())
     for name, error in kinds().items():
-        if name in found and error.detail is not KinematicsError.detail:
+        if name in found and error.template:
             assert found[name].status == status_of(error)
             assert found[name].exception == error.__name__
     own = {(kind.status, kind.name) for kind in OF_HTTP}

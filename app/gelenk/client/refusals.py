@@ -23,11 +23,10 @@ class Refused(KinematicsError):
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
         self.problem = dict(problem)
-        if type(self) is not Refused:
-            facts = self.facts()
-            for field in fields(self):
-                absent = None if field.default is MISSING else field.default  # an older service sends less
-                setattr(self, field.name, _frozen(facts.get(field.name, absent)))
+        facts = self.facts()
+        for field in fields(self):
+            absent = None if field.default is MISSING else field.default  # an older service sends less
+            setattr(self, field.name, _frozen(facts.get(field.name, absent)))
 
     @property
     def detail(self) -> str:
@@ -55,20 +54,9 @@ class Refused(KinematicsError):
 class NotAnswering(KinematicsError):
     """The service cannot be reached, or breaks the connection."""
 
-    def __init__(self, url: str, reason: str) -> None:
-        self.url, self.reason = url, reason
-
-    @property
-    def detail(self) -> str:
-        """Address that was tried, and what went wrong."""
-        return f"no answer from {self.url}: {self.reason}"
-
-    def facts(self) -> dict[str, object]:
-        """Return both parts of the sentence."""
-        return {"url": self.url, "reason": self.reason}
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return type(self), (self.url, self.reason)
+    url: str
+    reason: str
+    template = "no answer from {url}: {reason}"
 
 
 def refusal(problem: Mapping[str, Any]) -> Refused:
@@ -80,7 +68,8 @@ def refusal(problem: Mapping[str, Any]) -> Refused:
 @cache
 def _classes() -> dict[str, type[Refused]]:
     """Return each class of the core as a refusal, by kind."""
-    return {kind: type(core.__name__, (Refused, core), {}) for kind, core in kinds().items()}
+    own = {"__init__": Refused.__init__}
+    return {kind: type(core.__name__, (Refused, core), own) for kind, core in kinds().items()}
 
 
 def _frozen(value: Any) -> Any:

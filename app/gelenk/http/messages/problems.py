@@ -142,11 +142,11 @@ def _kinematics(request: Request, error: Exception) -> Response:
     if (pointer := _place(error)) is not None:
         facts["pointer"] = pointer
     response = problem(request, status_of(type(error)), errors.kind_of(type(error)), error.detail, facts)
-    if isinstance(error, errors.TooManyJobs | errors.TooManyRequests | errors.ServiceBusy | errors.NoRoomForBody):
-        response.headers["Retry-After"] = str(error.retry_after)
+    if (retry_after := facts.get("retry_after")) is not None:
+        response.headers["Retry-After"] = str(retry_after)
         if not isinstance(error, errors.TooManyJobs):
             # The connection is read again after that time: see `connections`.
-            request.scope.setdefault("state", {})["retry_after"] = error.retry_after
+            request.scope.setdefault("state", {})["retry_after"] = retry_after
     elif response.status_code == HTTPStatus.SERVICE_UNAVAILABLE:
         response.headers["Retry-After"] = _LATER
     return response
@@ -212,20 +212,18 @@ def _sentence(message: str) -> str:
 def _place(error: errors.KinematicsError) -> str | None:
     """Return the place in the payload where the core found an error, if known."""
     match error:
-        case errors.InvalidField(field=field):
-            return _of_field(field)
-        case errors.UnknownFrame(field=str(field)):
-            return _of_field(field)
         case errors.InvalidUrdf():
             return "#/urdf"
         case errors.InvalidDhTable(joint=None):
             return "#/dh"
-        case errors.InvalidPose(field=("base" | "tool") as place, index=None):
-            return f"#/dh/{place}"
         case errors.InvalidDhTable(joint=joint, parameter=parameter):
             return f"#/dh/joints/{joint}" + (f"/{parameter}" if parameter else "")
-    index, field = getattr(error, "index", None), getattr(error, "field", "joint_positions")
-    if field is None or not hasattr(error, "index"):
+        case errors.InvalidPose(field=("base" | "tool") as place, index=None):
+            return f"#/dh/{place}"
+        case errors.RepresentationSingularity():
+            return f"#/joint_positions/{error.index}"
+    index, field = getattr(error, "index", None), getattr(error, "field", None)
+    if field is None:
         return None
     return _of_field(field) if index is None else f"{_of_field(field)}/{index}"
 
