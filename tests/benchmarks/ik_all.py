@@ -353,7 +353,7 @@ def time_cells(name: str, of_arm: Mapping[type[Lister], Score | str]) -> list[st
 
 def wanted_of(name: str) -> str:
     """What is asked of ours."""
-    return {CLOSED: f"≤ {LIMIT:.0f} µs", GENERAL: "quicker than ssik", REDUNDANT: ""}[CASES[name].kind]
+    return {CLOSED: f"≤ {LIMIT:.0f} µs", GENERAL: "faster than ssik", REDUNDANT: ""}[CASES[name].kind]
 
 
 def ratio_of(of_arm: Mapping[type[Lister], Score | str], peer: type[Lister]) -> float | None:
@@ -466,7 +466,7 @@ def missing_text(scores: Scores, lister: type[Lister]) -> str:
     known = sum(judged.known or 0 for judged in found)
     missing = sum(judged.known - judged.solutions for judged in found if judged.known is not None)
     invalid, unmarked = sum(judged.invalid for judged in found), sum(judged.unmarked for judged in found)
-    wrong = f"{invalid:,} answers ({unmarked:,} unmarked) that do not hold"
+    wrong = f"{invalid:,} wrong answers ({unmarked:,} unmarked)"
     return f"{len(found)} arms, {missing:,} of {known:,} missing, {wrong}"
 
 

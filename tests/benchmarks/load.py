@@ -142,14 +142,14 @@ def rows_of_many(name: str, scale: Scale, many: Crowd, before: Seen, seen: Seen)
     share = many.refused / max(1, many.requests)
     return [
         Row(
-            f"{clients} clients of {name}: 99 % of who is let in",
+            f"{clients} clients of {name}: 99 % of those accepted",
             f"{1e3 * accepted:.0f} ms",
             f"with {scale.clients}, {1e3 * usual:.0f} ms",
             accepted / usual,
             "≤ 2",
         ),
         Row(
-            f"{clients} clients of {name}: 99 % of who is not",
+            f"{clients} clients of {name}: 99 % of those refused",
             f"503 within {1e3 * p99(seen.refused):.0f} ms; {share:.0%} of the crowd's requests, "
             f"{many.broken + many.timeouts} broken or late, {len(seen.other)} other answers",
             wanted="at once",
