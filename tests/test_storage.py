@@ -146,7 +146,7 @@ def test_a_read_only_disk_and_a_full_one(tmp_path: Path) -> None:
         disk.fill()
         before = disk.files()
         assert set(refused(url)) == {(507, "storage-full")}
-        bookkeeping = ("data/jobs/.lock", "data/jobs/.owners", "data/audit")
+        bookkeeping = ("data/jobs/.lock", "data/jobs/.owners", "data/jobs/.database", "data/audit")
         assert {name for name in disk.files() - before if not name.startswith(bookkeeping)} <= {"data/jobs"}
         wait_for(lambda: ready(url) == (503, ["storage"]), 10.0)
         assert "No space left" in ask(url, "/readyz").content["reasons"]["storage"]

@@ -85,7 +85,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         threading.Thread(target=library.prepare, name="sweep", daemon=True).start()
-        runner.begin()
+        runner.start()
         starting = asyncio.create_task(_start(readiness, pool))
         async with metrics.publishing():
             yield

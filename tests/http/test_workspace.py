@@ -313,7 +313,19 @@ def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:
         assert not (tmp_path / "jobs").exists()
         finished(client, {"samples": 10, "job_id": "mine"})
     # What it needed meanwhile goes after it has said that it has succeeded.
-    wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["job.json", "result.json", "result.npy"], 20.0)
+    wait_for(lambda: names_in(tmp_path / "jobs" / "mine") == ["result.json", "result.npy"], 20.0)
+
+
+def test_the_service_starts_with_a_damaged_table_of_jobs(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    folder = tmp_path / "jobs" / ".database"
+    folder.mkdir(parents=True)
+    (folder / "jobs.sqlite").write_bytes(b"SQLite format 3\0" + bytes(range(256)) * 100)
+    with TestClient(create_app(Settings(data_dir=tmp_path, job_processes=1))) as client:
+        assert client.get("/v1/jobs/mine").status_code == 404
+        finished(client, {"samples": 10, "job_id": "mine"})
+    assert f"the jobs in {folder}/jobs.sqlite are lost" in caplog.text
+    assert (next(folder.glob("damaged-*")) / "jobs.sqlite").stat().st_size == 25616
+    caplog.clear()
 
 
 def names_in(folder: Path) -> list[str]:

@@ -47,7 +47,7 @@ def address() -> Iterator[str]:
 def runner(address: str, tmp_path: Path) -> Iterator[Runner]:
     kinds = {"parts": of_parts}
     made = Runner(JobStore(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
-    made.begin()
+    made.start()
     yield made
     made.close()
 
@@ -130,7 +130,7 @@ def test_what_is_lost_waits_or_goes_on_here(tmp_path: Path, monkeypatch: pytest.
     executor, kinds = Scripted(), {"parts": of_parts}
     runner = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 60.0, executor, is_local)
     with contextlib.closing(runner):
-        runner.begin()
+        runner.start()
         job = submitted(runner, "echo", [1, 2, "hangs"])
         deadline = time.monotonic() + SOON
         while runner.store.get(job.id).progress < 0.6:
@@ -164,7 +164,7 @@ def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothin
     with socket.create_server((HOST, 0)) as head:
         address = f"{HOST}:{head.getsockname()[1]}"
         runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
-        runner.begin()
+        runner.start()
         job = submitted(runner, "double", [1])
         head.accept()[0].close()  # the first look whether it is there; what comes next is Ray
         time.sleep(1.0)
@@ -180,7 +180,7 @@ def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
         job, _ = store.add("parts", "x", made_by("double", [1]))
     nowhere, kinds = Cluster(f"{HOST}:{free_port()}"), {"parts": of_parts}
     with contextlib.closing(Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
-        runner.begin()
+        runner.start()
         deadline = time.monotonic() + SOON
         while "refused" not in (runner.failure or ""):
             assert time.monotonic() < deadline
@@ -190,7 +190,7 @@ def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
         assert (left.state, left.owner, left.attempts) == ("queued", job.owner, 0)
     here = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0)
     with contextlib.closing(here):
-        here.begin()
+        here.start()
         assert ended(here, job).state == "succeeded"
 
 
@@ -328,7 +328,7 @@ def test_no_job_hangs_on_a_part_of_the_cluster_that_is_lost(
         nodes = [stack.enter_context(node(folder, address, 1)) for _ in range(1 + others)]
         runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
         stack.callback(runner.close)
-        runner.begin()
+        runner.start()
         job = submitted(runner, "sleep", [0.2] * 30)
         deadline = time.monotonic() + SOON
         while runner.store.get(job.id).progress < 0.1:

@@ -46,7 +46,7 @@ def test_they_take_no_more_than_they_may(tmp_path: Path) -> None:
 
 def test_what_others_have_written_counts_too(tmp_path: Path) -> None:
     parts = Parts(tmp_path, DIGEST, 200)
-    parts.count(computed((bytes, 100, parts, "all-0")))
+    parts.bytes += computed((bytes, 100, parts, "all-0"))
     assert parts.read("all-0") == bytes(100)
     with pytest.raises(TooLarge):
         parts.write("all-1", bytes(100))

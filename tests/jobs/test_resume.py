@@ -25,7 +25,7 @@ from pathlib import Path
 from tests.jobs.test_resume import opened
 if __name__ == "__main__":
     runner = opened(Path(sys.argv[1]))
-    runner.begin()
+    runner.start()
     while runner.store.get("mine").progress < float(sys.argv[2]):
         time.sleep(0.01)
     os.kill(os.getpid(), 9)
@@ -64,7 +64,7 @@ def killed(folder: Path, progress: float) -> None:
 def finished(folder: Path) -> Runner:
     """A process of the service that is let go on to the end of the job."""
     runner = opened(folder)
-    runner.begin()
+    runner.start()
     deadline = time.monotonic() + 20.0
     while not runner.store.get("mine").is_final:
         assert time.monotonic() < deadline
@@ -96,7 +96,7 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     assert (job.state, job.progress) == ("succeeded", 1.0)
     expected = "[" + ", ".join(repr(str(k)) for k in range(PARTS)) + "]"
     assert runner.result("mine", "result.txt").read_text() == expected
-    assert sorted(path.name for path in (jobs / "mine").iterdir()) == ["job.json", "result.txt"]
+    assert sorted(path.name for path in (jobs / "mine").iterdir()) == ["result.txt"]
     counts = Counter(int(line) for line in notes.read_text().split())
     assert set(counts) == set(range(PARTS))
     assert {counts[k] for k in range(int(seen[0] * PARTS))} == {1}, "what is finished is not done again"
@@ -127,4 +127,4 @@ def test_a_job_that_brings_the_service_down_is_given_up(tmp_path: Path) -> None:
     assert runner.store.get("mine").state == "failed"
     with pytest.raises(JobInterrupted, match="started 3 times"):
         runner.result("mine", "result.txt")
-    assert [path.name for path in (tmp_path / "mine").iterdir()] == ["job.json"]
+    assert list((tmp_path / "mine").iterdir()) == []

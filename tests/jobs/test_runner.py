@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +81,21 @@ def test_results_come_in_order_and_progress_only_grows(runner: Runner) -> None:
     progress = [state.progress for state in states]
     assert progress == sorted(progress)
     assert any(0.0 < value < 1.0 for value in progress)
+
+
+def test_progress_is_written_a_few_times_a_second(runner: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
+    times = []
+    change = runner.store.change
+
+    def counted(which: Job | str, **changes: Any) -> Job:
+        if set(changes) & {"progress"} and "state" not in changes:
+            times.append(time.monotonic())
+        return change(which, **changes)
+
+    monkeypatch.setattr(runner.store, "change", counted)
+    watched(runner, submitted(runner, "sleep", [0.02] * 100))
+    assert len(times) >= 2
+    assert all(later - earlier >= 0.2 for earlier, later in pairwise(times))
 
 
 def test_a_name_that_stands_is_not_done_again(runner: Runner) -> None:
@@ -241,7 +257,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     assert (left.state, left.progress, left.attempts, left.failure) == ("queued", 0.8, 0, None)
     following = opened(tmp_path)
     try:
-        following.begin()
+        following.start()
         states = watched(following, waiting)
         assert states[-1].state == "succeeded"
         assert following.result(waiting.id, "result.txt").read_text() == "[14]"

@@ -1,11 +1,12 @@
 """Jobs on disk: one truth for all processes, bounded, and honest about jobs whose process is gone."""
 
+import shutil
+import sqlite3
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from gelenk import errors
 from gelenk.errors import JobExists, TooManyJobs, UnknownJob
 from gelenk.jobs import store as shelf_module
 from gelenk.jobs.job import Failure
-from gelenk.jobs.store import JOB_FILE, JobStore, Limits
+from gelenk.jobs.store import JobStore, Limits, write_result
 from tests.test_errors import CONCRETE, example
 
 
@@ -91,7 +92,7 @@ LEAVES = (
     "import os, sys; from pathlib import Path; from gelenk.jobs.store import *\n"
     "store = JobStore(Path(sys.argv[1]), Limits())\n"
     "job, _ = store.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
-    "store.change(store.begin(job), progress=0.5)\n"
+    "store.change(store.start(job), progress=0.5)\n"
     "os.kill(os.getpid(), 9)"
 )
 TAKES = (
@@ -116,7 +117,7 @@ def test_a_job_whose_process_is_gone_waits_to_be_taken_up(store: JobStore, tmp_p
     assert [(one.id, one.state, one.progress, one.attempts) for one in taken] == [("left", "queued", 0.5, 1)]
     assert store.take_up() == []
     assert (store.request("left") / "call.json").read_bytes() == b"{}"
-    begun = store.begin(taken[0])
+    begun = store.start(taken[0])
     assert (begun.state, begun.attempts, begun.started) == ("running", 2, job.started)
 
 
@@ -142,7 +143,7 @@ def test_two_shelves_of_one_folder_know_that_the_other_lives(tmp_path: Path) -> 
         with opened(tmp_path) as one:
             job, _ = one.add("workspace", "digest", {})
             other.add("workspace", "digest", {})
-            running = one.begin(job)
+            running = one.start(job)
             other.prepare()
             assert other.take_up() == []
             assert other.get(job.id).state == "running"
@@ -194,7 +195,7 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
         done("b")
         job = store.add("workspace", "x", {}, "c")[0]
         clocks.wall -= YEAR
-        store.begin(job)
+        store.start(job)
         job = store.change("c", state="cancelled")
         assert job.started is not None
         assert job.finished is not None
@@ -215,16 +216,17 @@ def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.Monkey
             store.parts(job).write("all-0", b"part")
             store.change(job, state="cancelled")
         for job, age in ((old, 101.0), (rested, 99.0)):
-            aged = replace(store.get(job.id), finished=time.time() - age)
-            (tmp_path / job.id / JOB_FILE).write_bytes(aged.as_bytes())
+            with sqlite3.connect(tmp_path / ".database" / "jobs.sqlite") as table:
+                table.execute("UPDATE jobs SET finished = ? WHERE id = ?", (time.time() - age, job.id))
+            table.close()
         store.tidy()
         assert store.get(old.id)
         monkeypatch.setattr(shelf_module, "_SURE_SECONDS", 0.0)
         store.tidy()
         with pytest.raises(UnknownJob):
             store.get(old.id)
-        assert [path.name for path in (tmp_path / rested.id).iterdir()] == [JOB_FILE]
-        assert len(list((tmp_path / new.id).iterdir())) == 3
+        assert list((tmp_path / rested.id).iterdir()) == []
+        assert len(list((tmp_path / new.id).iterdir())) == 2
 
 
 def test_no_more_wait_than_may(tmp_path: Path) -> None:
@@ -269,21 +271,25 @@ def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
         assert store.get("job-2").state == "succeeded"
         with pytest.raises(UnknownJob):
             store.get("job-1")
-        store.write("job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
+        write_result(tmp_path / "job-3", "result.npy", lambda target: target.write(b"x" * 20_000))
         store.change("job-3", state="succeeded")
         store.add("workspace", "x", {}, "job-4")
         assert sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith(".")) == ["job-0", "job-4"]
 
 
 def test_what_is_no_job_is_left_aside(store: JobStore, tmp_path: Path) -> None:
-    job, _ = store.add("workspace", "digest", {})
-    (tmp_path / "jobs" / job.id / JOB_FILE).write_text("{")
+    store.add("workspace", "digest", {}, "job")
+    shutil.rmtree(tmp_path / "jobs" / "job")  # by a person
     (tmp_path / "jobs" / "stray").mkdir()
     (tmp_path / "jobs" / "file").touch()
-    for name in (job.id, "stray", "file"):
-        with pytest.raises(UnknownJob):
-            store.get(name)
-    store.add("workspace", "digest", {})
+    for name in ("job", "stray", "file"):
+        for ask in (store.get, store.remove, store.change):
+            with pytest.raises(UnknownJob):
+                ask(name)
+    assert store.states() == {}
+    for name in ("job", "stray", "file"):
+        assert store.add("workspace", "another", {}, name)[1]
+    assert store.states() == {"queued": 3}
 
 
 @pytest.mark.parametrize("cls", CONCRETE, ids=lambda cls: cls.__name__)

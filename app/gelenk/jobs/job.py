@@ -66,7 +66,7 @@ class Job:
         failure: Why it failed, where it did.
         attempts: How often it was started without getting further than the time before.
         robot_digest: SHA-256 of the description of the robot that it is about.
-        number: Its place among all jobs in the order in which they came: clocks are set, also back.
+        number: Its place among all jobs in the order in which they came, from 1 on: clocks are set, also back.
         client: The client that requested it; empty where clients are not distinguished.
     """
 
@@ -90,12 +90,13 @@ class Job:
         """Whether it will never change again."""
         return self.state in FINAL
 
-    def as_bytes(self) -> bytes:
-        """The job as stored on disk."""
-        return orjson.dumps(asdict(self), default=str)
+    def to_row(self) -> dict[str, Any]:
+        """Return the job's row in the table of jobs, by column."""
+        failure = None if self.failure is None else orjson.dumps(asdict(self.failure), default=str).decode()
+        return {**asdict(self), "number": self.number or None, "failure": failure}
 
     @classmethod
-    def from_bytes(cls, content: bytes) -> "Job":
-        """As `as_bytes` has written it."""
-        job = cls(**orjson.loads(content))
-        return job if job.failure is None else replace(job, failure=Failure(**job.failure))  # type: ignore[arg-type]
+    def from_row(cls, row: dict[str, Any]) -> "Job":
+        """Return the job of a row made by `to_row`; any other row raises TypeError or ValueError."""
+        job = cls(**row)
+        return job if job.failure is None else replace(job, failure=Failure(**orjson.loads(row["failure"])))

@@ -5,11 +5,11 @@ import uuid
 from pathlib import Path
 from typing import IO
 
-from gelenk.store.folders import open_plain
+from gelenk.store.folders import is_locked, open_plain
 
 
 class Owners:
-    """This process of the service among all of them, on any machine that sees the folder.
+    """The processes of the service that own jobs; this object stands for one of them.
 
     Args:
         folder: Of the locked files; made when first needed.
@@ -20,34 +20,25 @@ class Owners:
         self._lock: IO[str] | None = None
         self.own_name = uuid.uuid4().hex
 
-    def say_alive(self) -> None:
-        """Hold a lock from now on; to be called before anything is this process's."""
+    def register(self) -> None:
+        """Lock the file of this process; to be called before the process owns a job."""
         if self._lock is None:
             self._folder.mkdir(exist_ok=True)
             self._lock = open_plain(self._folder / self.own_name, "w")
             fcntl.flock(self._lock, fcntl.LOCK_EX)
 
-    def lives(self, name: str) -> bool:
-        """Whether a process is there."""
-        if name == self.own_name:
-            return self._lock is not None
-        try:
-            with open_plain(self._folder / name) as lock:
-                fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
-        except OSError:
-            return False
-        return False
+    def is_alive(self, name: str) -> bool:
+        """Return whether a process is alive."""
+        return self._lock is not None if name == self.own_name else is_locked(self._folder / name)
 
     def sweep(self) -> None:
         """Remove the files of processes that are gone."""
         for lock in self._folder.glob("*"):
-            if not self.lives(lock.name):
+            if not self.is_alive(lock.name):
                 lock.unlink(missing_ok=True)
 
-    def close(self) -> None:
-        """Let go of the lock."""
+    def release(self) -> None:
+        """Give up the lock."""
         if self._lock is not None:
             self._lock.close()
             (self._folder / self.own_name).unlink(missing_ok=True)

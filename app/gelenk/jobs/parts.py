@@ -66,7 +66,7 @@ class Parts:
         """Keep a part.
 
         Returns:
-            Its bytes, for `count`.
+            How much more they take now, to be added to `bytes` in the process that counts.
 
         Raises:
             TooLarge: All of them would take too much.
@@ -88,10 +88,6 @@ class Parts:
                 beside.unlink(missing_ok=True)
                 raise
         return _DIGEST + len(content)
-
-    def count(self, size: int) -> None:
-        """Count a part that has been written, by whichever process."""
-        self.bytes += size
 
     def clear(self) -> None:
         """Remove all of them."""

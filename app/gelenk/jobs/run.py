@@ -18,7 +18,9 @@ _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 _LOOK = 0.1
-"""How often a job looks whether it was cancelled, and says how far it is, [s]."""
+"""How often to check whether a job was cancelled, [s]."""
+_WRITE = 0.3
+"""How often to write how far a job is, [s]."""
 _AHEAD = 2
 """Parts a process that are handed out at once: while one is computed the next one waits."""
 
@@ -67,6 +69,7 @@ class Run:
     store: JobStore
     parts: Parts
     _looked: float = field(default=0.0)
+    _written: float = field(default=0.0)
     _progress: float = field(default=0.0)
     _is_further: bool = field(default=False)
 
@@ -104,14 +107,14 @@ class Run:
                     number = k + len(waiting)
                     name = f"{stage}-{number}"
                     kept = self.parts.read(name) is not None
-                    waiting.append(None if kept else self._begun(function, argument(number), name))
+                    waiting.append(None if kept else self._submit(function, argument(number), name))
                 if (part := waiting[0]) is not None:
                     try:
                         found: bytes | int = self._waited(part)
                     except ChildProcessError as error:
                         which = f"part {k + 1} of {count} ({stage} from {k * size:,} on)"
                         raise JobFailed(f"{which}: {error}") from error
-                    self.parts.count(self.parts.write(f"{stage}-{k}", found) if isinstance(found, bytes) else found)
+                    self.parts.bytes += self.parts.write(f"{stage}-{k}", found) if isinstance(found, bytes) else found
                     self._is_further = True
                 waiting.popleft()
                 self.report(span[0] + (span[1] - span[0]) * (k + 1) / count)
@@ -120,7 +123,7 @@ class Run:
                 if part is not None:
                     part.cancel()
 
-    def _begun(self, function: Callable[[_Argument], bytes], argument: _Argument, name: str) -> "Future[bytes | int]":
+    def _submit(self, function: Callable[[_Argument], bytes], argument: _Argument, name: str) -> "Future[bytes | int]":
         """A part that is handed out: where the disk is at hand it is written there, and only its size comes back."""
         if self.executor is self.workers:
             return self.workers.submit(computed, (function, argument, self.parts, name), self.order)
@@ -173,6 +176,9 @@ class Run:
             raise OutOfTime
 
     def _news(self) -> dict[str, Any]:
-        """What has changed since the job was started; once it gets further, the times before do not count."""
+        """What to write of the job, from time to time; once it gets further, the attempts before do not count."""
+        if self._looked < self._written + _WRITE:
+            return {}
+        self._written = self._looked
         further = {"attempts": 1} if self._is_further else {}
         return {"progress": max(self._progress, self.job.progress), **further}

@@ -21,7 +21,7 @@ from gelenk.errors import (
 )
 from gelenk.jobs.job import Failure, Job
 from gelenk.jobs.run import Executor, Files, Run
-from gelenk.jobs.store import JobStore
+from gelenk.jobs.store import JobStore, write_result
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
 from gelenk.processes.turns import Turns
 
@@ -79,7 +79,7 @@ class Runner:
         self._waiting: list[Job] = []
         self._closed = threading.Event()
 
-    def begin(self) -> None:
+    def start(self) -> None:
         """Take up what was left by processes that are gone, now and whenever there is something."""
         self.store.prepare()
         thread = threading.Thread(target=self._take_up, name="jobs-left", daemon=True)
@@ -158,7 +158,7 @@ class Runner:
                 raise JobCancelled(job_id)
             case "failed":
                 raise (job.failure or Failure.because("the job failed")).error_again()
-        return self.store.file(job_id, name)
+        return self.store.folder(job_id) / name
 
     def rendered(self, function: Callable[[Any], bytes], argument: Any) -> bytes:
         """What a function makes of a result, in another process because it takes long.
@@ -269,7 +269,7 @@ class Runner:
     def _done(self, job: Job, order: Order) -> None:
         if self.failure is not None:
             raise Unavailable(self.failure)
-        job = self.store.begin(job)
+        job = self.store.start(job)
         if job.is_final:
             return
         if job.attempts > _ATTEMPTS:
@@ -282,7 +282,7 @@ class Runner:
         executor = self.workers if self._is_local and self._executor.failure else self._executor
         run = Run(job, order, executor, self.workers, self.store, self.store.parts(job))
         for name, content in self._kinds[job.kind](request)(run).items():
-            self.store.write(job.id, name, content)
+            write_result(self.store.folder(job.id), name, content)
         self.store.change(job, state="succeeded", progress=1.0)
 
     def _clear(self, job: Job) -> None:

@@ -1,8 +1,8 @@
-"""Jobs as folders, which every process of the service reads and writes.
+"""The jobs of all processes of the service: one table, and for each job a folder with its request and results.
 
-What stands in a folder's `job.json` is the truth: a process that cancels a job writes so there, and the one that does
-it finds that out at its next step. Beside it are the request and the finished parts. Each process of the
-service holds a locked file as long as it lives; a job whose process is gone waits until another one takes it up.
+A process that cancels a job writes this to the table, and the process that runs the job reads it at its next step. Each
+process of the service locks a file of its own for as long as it lives; if it ends, another one takes up its jobs. A job
+exists while it has both a row and a folder: removing the folder by hand removes the job.
 """
 
 import logging
@@ -12,22 +12,26 @@ import shutil
 import time
 import uuid
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Any
 
 from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
+from gelenk.jobs.database import NAMED, Database
+from gelenk.jobs.earlier import import_earlier
 from gelenk.jobs.job import Job
 from gelenk.jobs.owners import Owners
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.robot_files import robot_digest
 from gelenk.store import folders
 
-JOB_FILE = "job.json"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
-_OWNERS = ".owners"
+_OWNERS, _DATABASE = ".owners", ".database"
+_ALL = "SELECT * FROM jobs ORDER BY number"
+_FINISHED = "SELECT * FROM jobs WHERE finished IS NOT NULL ORDER BY number"
+_UNFINISHED = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY number"
 _REQUEST = "request"
 _SURE_SECONDS = 24 * 3600.0
 """How long a job must have seemed to be too old, by a clock that cannot be set, before it is removed for that, [s]."""
@@ -62,35 +66,37 @@ class JobStore:
     """All jobs below a folder; safe to use from many threads and processes.
 
     Args:
-        root: The folder; made when first written to.
+        root: The folder, on a disk of this machine; made when first written to.
         limits: How much it holds.
     """
 
     def __init__(self, root: Path, limits: Limits) -> None:
         self._root, self._limits = root, limits
         self._owners = Owners(root / _OWNERS)
+        self._database = Database(root / _DATABASE)
         self._too_old: dict[tuple[str, float], float] = {}
 
     def prepare(self) -> None:
-        """Remove what interrupted writers, and processes that are gone, have left; what is read-only stays."""
+        """Remove what interrupted writers and dead processes have left, and import jobs of earlier versions."""
         if not self._root.is_dir():
             return
         try:
             with folders.exclusive(self._root):
-                for folder in (self._root, *(path.parent for path in self._root.glob(f"*/{JOB_FILE}"))):
-                    folders.sweep(folder)
+                folders.sweep(self._root)
+                import_earlier(self._root, self._database)
                 self._owners.sweep()
         except StorageFailed as error:
             logger.warning("jobs cannot be written: %s", error.reason)
 
     def close(self) -> None:
-        """Give up what says that this process lives."""
-        self._owners.close()
+        """Close the table, and give up the lock that says that this process lives."""
+        self._database.close()
+        self._owners.release()
 
     def add(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> tuple[Job, bool]:
-        """A new job, or the existing one with the same name and request.
+        """Add a job, on disk when this returns, or find the existing one with the same name and request.
 
         One that was given up because its service kept ending starts afresh.
 
@@ -111,38 +117,36 @@ class JobStore:
         """
         with folders.exclusive(self._root):
             folders.sweep(self._root)
-            self._owners.say_alive()
-            if job_id is not None and (found := self._read(job_id)) is not None:
-                if found.digest != digest:
-                    raise JobExists(job_id)
-                if not _was_interrupted(found):
-                    return self._as_it_is(found), False
-            self._make_room(client)
-            if job_id is not None and self._read(job_id) is not None:
-                folders.remove_folder(self._root, job_id)
-            number = 1 + max((job.number for job in self._jobs()), default=0)
-            name, owner = job_id or uuid.uuid4().hex, self._owners.own_name
-            job = Job(name, kind, digest, owner, time.time(), number=number, client=client)
-            job = replace(job, robot_digest=robot_digest(request))
-            files = {f"{_REQUEST}/{name}": content for name, content in request.items()}
-            folders.create_folder(self._root, job.id, {**files, JOB_FILE: job.as_bytes()})
+            self._owners.register()
+            found = None if job_id is None else self._find(job_id)
+            if found is not None and found.digest != digest:
+                raise JobExists(found.id)
+            if found is not None and not _was_interrupted(found):
+                return self._as_seen(found), False
+            self.check_room(client)
+            self._remove_oldest()
+            name = job_id or uuid.uuid4().hex
+            job = Job(name, kind, digest, self._owners.own_name, time.time(), client=client)
+            with self._database.transaction():
+                job = self._database.put(replace(job, robot_digest=robot_digest(request)))
+            with suppress(FileNotFoundError):
+                folders.remove_folder(self._root, name)
+            folders.create_folder(self._root, name, {f"{_REQUEST}/{file}": request[file] for file in request})
         return job, True
 
     def take_up(self) -> list[Job]:
-        """The unfinished jobs whose process is gone, the oldest first; from now on they are this process's.
+        """Make the unfinished jobs of processes that are gone this process's own, and return them, the oldest first.
 
         Raises:
             StorageFailed: Nothing can be written.
         """
-        if not any(self._is_left(job) for job in self._jobs()):
+        if not any(self._is_left(job) for job in self._jobs(_UNFINISHED)):
             return []
         with folders.exclusive(self._root):
-            self._owners.say_alive()
-            left = [job for job in self._jobs() if self._is_left(job)]
-            taken = [replace(job, owner=self._owners.own_name, state="queued") for job in left]
-            for job in taken:
-                folders.replace_file(self._root / job.id, JOB_FILE, job.as_bytes())
-        return taken
+            self._owners.register()
+            with self._database.transaction():
+                left = [job for job in self._jobs(_UNFINISHED) if self._is_left(job)]
+                return [self._database.put(replace(job, owner=self._owners.own_name, state="queued")) for job in left]
 
     def tidy(self) -> None:
         """Remove finished jobs that are older than they may be, and what others no longer need.
@@ -152,16 +156,17 @@ class JobStore:
         """
         now, since = time.time(), self._too_old
         self._too_old = {}
-        for job in self._jobs():
-            age = now - (job.finished or job.created)
+        for job in self._jobs(_FINISHED):
+            age = now - (job.finished or now)
             with suppress(UnknownJob):
-                if job.is_final and age > self._limits.kept_seconds:
+                if age > self._limits.kept_seconds:
                     which = job.id, job.created
                     self._too_old[which] = since.get(which, time.monotonic())
                     if time.monotonic() >= self._too_old[which] + _SURE_SECONDS:
                         self.remove(job.id)
-                if job.is_final and age > _AT_REST and (self.request(job.id).exists() or self.parts(job).bytes):
+                if age > _AT_REST:
                     self.clear(job)
+        self._forget_removed()
 
     def clear(self, job: Job) -> None:
         """Remove the request and the parts of a job that is over; its results stay."""
@@ -169,18 +174,15 @@ class JobStore:
         shutil.rmtree(self.request(job.id), ignore_errors=True)
 
     def get(self, job_id: str) -> Job:
-        """The current state of a job.
+        """Return the current state of a job.
 
         Raises:
             UnknownJob: There is none of this name.
         """
-        job = self._read(job_id)
-        if job is None:
-            raise UnknownJob(job_id)
-        return self._as_it_is(job)
+        return self._as_seen(self._same(job_id))
 
-    def begin(self, job: Job) -> Job:
-        """Count that a job is started, on disk before this returns; a finished one stays as it is.
+    def start(self, job: Job) -> Job:
+        """Count an attempt at a job, on disk before this returns; a finished one stays as it is.
 
         Raises:
             UnknownJob: It was removed meanwhile, or is another process's.
@@ -193,6 +195,8 @@ class JobStore:
     def change(self, which: Job | str, **changes: Any) -> Job:
         """Change fields of a job that is not finished; a finished one stays as it is.
 
+        A new state is on disk when this returns; how far a job is need not outlive the machine.
+
         Args:
             which: The job by its name; or that very job, and not one that has its name by now.
             changes: The fields.
@@ -204,30 +208,16 @@ class JobStore:
             UnknownJob: It was removed meanwhile.
             StorageFailed: It cannot be written.
         """
-        with folders.exclusive(self._root):
-            job_id = which if isinstance(which, str) else which.id
-            job = self._read(job_id)
-            if job is None or (isinstance(which, Job) and (job.owner, job.created) != (which.owner, which.created)):
-                raise UnknownJob(job_id)
-            if job.is_final:
-                return job
-            job, before = replace(job, **changes), job
-            if job.is_final:
-                job = replace(job, finished=max(time.time(), job.started or job.created))
-            if job != before:
-                # How far a job is need not outlive the machine.
-                durable = job.state != before.state
-                folders.replace_file(self._root / job_id, JOB_FILE, job.as_bytes(), is_durable=durable)
+        job = self._same(which)
+        if job.is_final or job == replace(job, **changes):
+            return job
+        with self._database.transaction(is_durable="state" in changes):
+            job = self._same(which)
+            if not job.is_final:
+                job = replace(job, **changes)
+                finished = max(time.time(), job.started or job.created) if job.is_final else None
+                job = self._database.put(replace(job, finished=finished))
         return job
-
-    def write(self, job_id: str, name: str, content: Callable[[IO[bytes]], object]) -> None:
-        """Write a result; on disk when this returns, and not read before the job has the state `succeeded`.
-
-        Raises:
-            UnknownJob: The job was removed meanwhile.
-            StorageFailed: It cannot be written.
-        """
-        write_result(self._root / job_id, name, content)
 
     def remove(self, job_id: str) -> None:
         """Remove a job and its results.
@@ -237,48 +227,23 @@ class JobStore:
             StorageFailed: It cannot be removed.
         """
         with folders.exclusive(self._root):
-            if self._read(job_id) is None:
-                raise UnknownJob(job_id)
-            folders.remove_folder(self._root, job_id)
+            self._remove(self._same(job_id))
+
+    def folder(self, job_id: str) -> Path:
+        """Return the folder with a job's results."""
+        return self._root / job_id
 
     def request(self, job_id: str) -> Path:
-        """The folder with a job's request; it exists until the job is over."""
-        return self._root / job_id / _REQUEST
-
-    def file(self, job_id: str, name: str) -> Path:
-        """Where a result of a job is, or will be."""
-        return self._root / job_id / name
+        """Return the folder with a job's request; it exists until the job has ended."""
+        return self.folder(job_id) / _REQUEST
 
     def parts(self, job: Job) -> Parts:
-        """The finished parts of a job."""
-        return Parts(self._root / job.id, job.digest, self._limits.job_bytes)
+        """Return the finished parts of a job."""
+        return Parts(self.folder(job.id), job.digest, self._limits.job_bytes)
 
     def states(self) -> Counter[str]:
-        """How many jobs there are, by state."""
-        return Counter(self._as_it_is(job).state for job in self._jobs())
-
-    def _as_it_is(self, job: Job) -> Job:
-        """The current state of a job: one that no process runs is queued."""
-        return replace(job, state="queued") if self._is_left(job) else job
-
-    def _is_left(self, job: Job) -> bool:
-        """Whether a job is not finished and the process that was to do it is gone."""
-        return not (job.is_final or self._owners.lives(job.owner))
-
-    def _read(self, job_id: str) -> Job | None:
-        if not _NAME.fullmatch(job_id):
-            return None
-        try:
-            return Job.from_bytes(folders.read_plain(self._root / job_id / JOB_FILE))
-        except (FileNotFoundError, NotADirectoryError, ValueError, TypeError):
-            return None
-
-    def _jobs(self) -> list[Job]:
-        """All jobs, the oldest first, whatever the clock said."""
-        if not self._root.is_dir():
-            return []
-        found = [self._read(path.name) for path in self._root.iterdir() if not path.name.startswith(".")]
-        return sorted((job for job in found if job is not None), key=lambda job: (job.number, job.created))
+        """Count the jobs by state."""
+        return Counter(self._as_seen(job).state for job in self._jobs())
 
     def check_room(self, client: str) -> None:
         """Refuse a client another job where too many are unfinished, before much is done for it.
@@ -289,38 +254,72 @@ class JobStore:
         Raises:
             TooManyJobs: There are too many.
         """
-        self._check_room(self._jobs(), client)
-
-    def _check_room(self, jobs: Sequence[Job], client: str) -> None:
-        """See `check_room`; `jobs` are all."""
-        unfinished = [job for job in jobs if not job.is_final]
-        own, half = sum(job.client == client for job in unfinished), max(1, self._limits.unfinished // 2)
-        most = self._limits.unfinished if own == len(unfinished) else half
+        clients = [job.client for job in self._jobs(_UNFINISHED)]
+        own, half = clients.count(client), max(1, self._limits.unfinished // 2)
+        most = self._limits.unfinished if own == len(clients) else half
         if own >= most:
             raise TooManyJobs(own, most, _PAUSE, "client")
-        if len(unfinished) >= self._limits.unfinished + half:
-            raise TooManyJobs(len(unfinished), self._limits.unfinished + half, _PAUSE, "service")
+        if len(clients) >= self._limits.unfinished + half:
+            raise TooManyJobs(len(clients), self._limits.unfinished + half, _PAUSE, "service")
 
-    def _make_room(self, client: str) -> None:
-        """Drop the oldest finished jobs beyond what is kept.
+    def _as_seen(self, job: Job) -> Job:
+        """Return a job as others see it: if its process is gone, it is queued."""
+        return replace(job, state="queued") if self._is_left(job) else job
 
-        Raises:
-            TooManyJobs: There are too many unfinished ones.
-        """
+    def _is_left(self, job: Job) -> bool:
+        """Return whether a job is unfinished and its process is gone."""
+        return not (job.is_final or self._owners.is_alive(job.owner))
+
+    def _jobs(self, query: str = _ALL, *values: str) -> list[Job]:
+        """Return the jobs that a query finds, without those whose folder is gone or whose name is damaged."""
+        found = self._database.read(query, *values)
+        return [job for job in found if _NAME.fullmatch(job.id) and self.folder(job.id).is_dir()]
+
+    def _find(self, job_id: str) -> Job | None:
+        return next(iter(self._jobs(NAMED, job_id)), None) if _NAME.fullmatch(job_id) else None
+
+    def _same(self, which: Job | str) -> Job:
+        """Return a job as it is now, by name; if a `Job` is given, another one of its name raises UnknownJob."""
+        job_id, known = (which, None) if isinstance(which, str) else (which.id, which)
+        found = self._find(job_id)
+        if found is None or (known and (found.owner, found.created) != (known.owner, known.created)):
+            raise UnknownJob(job_id)
+        return found
+
+    def _remove(self, job: Job) -> None:
+        """Remove a job, on a full disk too: without its folder it no longer exists, whatever becomes of the row."""
+        folders.remove_folder(self._root, job.id)
+        with suppress(StorageFailed), self._database.transaction(is_durable=False):
+            self._database.delete(job.id)
+
+    def _remove_oldest(self) -> None:
+        """Make room for a job: remove the oldest finished ones beyond what is kept."""
         jobs = self._jobs()
-        self._check_room(jobs, client)
-        sizes = {job.id: _size(self._root / job.id) for job in jobs}
+        sizes = {job.id: _size(self.folder(job.id)) for job in jobs}
         count, total = len(jobs), sum(sizes.values())
         for job in jobs:
             if count < self._limits.kept and total <= self._limits.kept_bytes:
                 return
             if job.is_final:
-                folders.remove_folder(self._root, job.id)
+                self._remove(job)
                 count, total = count - 1, total - sizes[job.id]
+
+    def _forget_removed(self) -> None:
+        """Delete the rows of jobs whose folder a person has removed."""
+        for job in self._database.read(_ALL):
+            if not self.folder(job.id).is_dir():
+                with folders.exclusive(self._root), self._database.transaction(is_durable=False):
+                    if not self.folder(job.id).is_dir():  # else it was just being made
+                        self._database.delete(job.id)
 
 
 def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]) -> None:
-    """Write a result into the folder of a job, which is its name; see `JobStore.write`."""
+    """Write a result into the folder of a job; on disk when this returns, and not read before the job has succeeded.
+
+    Raises:
+        UnknownJob: The job was removed meanwhile.
+        StorageFailed: It cannot be written.
+    """
     with folders.writing():
         try:
             with (folder / name).open("wb") as target:
@@ -335,12 +334,12 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
 
 
 def _was_interrupted(job: Job) -> bool:
-    """Whether it was given up because the processes that did it came to their end before it did."""
+    """Return whether a job was given up because its process ended each time it was started."""
     return job.failure is not None and job.failure.error == JobInterrupted.__name__
 
 
 def _size(folder: Path) -> int:
-    """Bytes of the files below a folder."""
+    """Return the bytes of the files below a folder."""
     total = 0
     for parent, _, names in os.walk(folder):  # takes no harm where a folder is removed meanwhile
         for name in names:

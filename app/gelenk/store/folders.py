@@ -101,12 +101,17 @@ def writing() -> Iterator[None]:
 def why_not(root: Path) -> str | None:
     """Return why nothing can be written below `root`, which is created if missing; None if a test write succeeds."""
     try:
-        with nameless(root) as file:
-            file.write(bytes(_PROBE))
-            file.flush()
+        probe(root)
     except StorageFailed as error:
         return error.reason
     return None
+
+
+def probe(root: Path) -> None:
+    """Write a file below `root` that is gone when this returns; raises as `writing` does."""
+    with nameless(root) as file:
+        file.write(bytes(_PROBE))
+        file.flush()
 
 
 @contextmanager
@@ -154,7 +159,7 @@ def staging(root: Path) -> Iterator[Path]:
         with exclusive(root):
             folder.mkdir()
             stack.callback(discard, folder)
-            # Locked as long as it is in use: see `_is_in_use`.
+            # Locked as long as it is in use: see `_orphans`.
             lock = stack.enter_context((folder / _LOCK).open("w"))
             fcntl.flock(lock, fcntl.LOCK_EX)
             orphans = []
@@ -253,13 +258,13 @@ def _beside(parent: Path) -> Iterator[Path]:
 def _orphans(folder: Path) -> list[Path]:
     """Return what interrupted writers left in a folder."""
     left = [folder / name for name in os.listdir(folder) if name.startswith((_OLD, _NEW))]  # noqa: PTH208 - of thousands
-    return [path for path in left if path.name.startswith(_OLD) or not _is_in_use(path)]
+    return [path for path in left if path.name.startswith(_OLD) or not is_locked(path / _LOCK)]
 
 
-def _is_in_use(new: Path) -> bool:
-    """Return whether a process holds the lock in a `staging` folder."""
+def is_locked(file: Path) -> bool:
+    """Return whether a process holds the lock of a file; False if the file is missing or not a plain one."""
     try:
-        with open_plain(new / _LOCK) as lock:
+        with open_plain(file) as lock:
             fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except BlockingIOError:
         return True
