@@ -40,8 +40,7 @@ from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
 from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner
-from gelenk.jobs.store import JobStore
-from gelenk.jobs.store import Limits as JobLimits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import Workers
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool

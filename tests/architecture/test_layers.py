@@ -1,8 +1,10 @@
 """Who may know whom, asked of a fresh interpreter; and what no committed file may hold."""
 
+import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -97,3 +99,20 @@ def test_packages_hold_a_docstring_and_nothing_else(package: Path) -> None:
     code = compile((package / "__init__.py").read_text(), str(package), "exec")
     assert code.co_consts[0]
     assert set(code.co_names) <= {"__doc__"}
+
+
+LISTS = {"contract", "operations"}
+"""Folders that are lists: a module an operation."""
+SHARED_NAMES = {"MotionCertificate", "_Part", "_Seat"}
+"""Of the contract's classes one has the name of a core's, which is on the wire; the others are private to processes."""
+
+
+def test_a_folder_has_at_most_fifteen_modules() -> None:
+    sizes = {folder: len(list(folder.glob("*.py"))) for folder in PACKAGE.rglob("*") if folder.is_dir()}
+    assert {folder.name: size for folder, size in sizes.items() if size > 15 and folder.name not in LISTS} == {}
+
+
+def test_no_class_name_stands_for_two_things() -> None:
+    trees = [ast.parse(file.read_text(encoding="utf-8")) for file in PACKAGE.rglob("*.py")]
+    names = Counter(node.name for tree in trees for node in tree.body if isinstance(node, ast.ClassDef))
+    assert {name for name, count in names.items() if count > 1} - SHARED_NAMES == set()

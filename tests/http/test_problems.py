@@ -21,8 +21,7 @@ from gelenk.http.workers.context import ContextSetup
 from gelenk.http.workers.pool_client import PoolClient
 from gelenk.jobs.job import Failure
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobStore
-from gelenk.jobs.store import Limits as JobLimits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import Workers
 from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.operations.outcome import Limits

@@ -21,9 +21,9 @@ from gelenk.errors import JobFailed
 from gelenk.jobs import runner as runner_module
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.driver import _computed, code_digest
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import Cancelled, Order, Unavailable, Workers
 from gelenk.main import create_app
 from gelenk.settings import Settings
@@ -46,17 +46,17 @@ def address() -> Iterator[str]:
 @pytest.fixture
 def runner(address: str, tmp_path: Path) -> Iterator[Runner]:
     kinds = {"parts": of_parts}
-    made = Runner(JobStore(tmp_path / "jobs", Limits()), kinds, Workers(1), 1, 120.0, Cluster(address))
+    made = Runner(JobStore(tmp_path / "jobs", JobLimits()), kinds, Workers(1), 1, 120.0, Cluster(address))
     made.start()
     yield made
     made.close()
 
 
-def submitted(runner: Runner, function: str, values: list[Any]) -> Job:
+def submitted(runner: Runner, function: str, values: list[Any]) -> JobRecord:
     return runner.submit("parts", "x", made_by(function, values))
 
 
-def ended(runner: Runner, job: Job) -> Job:
+def ended(runner: Runner, job: JobRecord) -> JobRecord:
     deadline = time.monotonic() + SOON
     while not (now := runner.store.get(job.id)).is_final:
         assert time.monotonic() < deadline
@@ -128,7 +128,7 @@ class Scripted:
 def test_what_is_lost_waits_or_goes_on_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_local: bool) -> None:
     monkeypatch.setattr(runner_module, "_LOOK_FOR_LEFT", 0.05)
     executor, kinds = Scripted(), {"parts": of_parts}
-    runner = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 60.0, executor, is_local)
+    runner = Runner(JobStore(tmp_path, JobLimits()), kinds, Workers(1), 1, 60.0, executor, is_local)
     with contextlib.closing(runner):
         runner.start()
         job = submitted(runner, "echo", [1, 2, "hangs"])
@@ -163,7 +163,7 @@ def done(value: Any) -> "Future[Any]":
 def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothing(tmp_path: Path) -> None:
     with socket.create_server((HOST, 0)) as head:
         address = f"{HOST}:{head.getsockname()[1]}"
-        runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
+        runner = Runner(JobStore(tmp_path, JobLimits()), {"parts": of_parts}, Workers(1), 1, 60.0, Cluster(address))
         runner.start()
         job = submitted(runner, "double", [1])
         head.accept()[0].close()  # the first look whether it is there; what comes next is Ray
@@ -176,10 +176,10 @@ def test_the_service_ends_at_once_while_a_head_takes_connections_and_says_nothin
 
 
 def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
-    with contextlib.closing(JobStore(tmp_path, Limits())) as store:
+    with contextlib.closing(JobStore(tmp_path, JobLimits())) as store:
         job, _ = store.add("parts", "x", made_by("double", [1]))
     nowhere, kinds = Cluster(f"{HOST}:{free_port()}"), {"parts": of_parts}
-    with contextlib.closing(Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
+    with contextlib.closing(Runner(JobStore(tmp_path, JobLimits()), kinds, Workers(1), 1, 9.0, nowhere)) as runner:
         runner.start()
         deadline = time.monotonic() + SOON
         while "refused" not in (runner.failure or ""):
@@ -188,7 +188,7 @@ def test_a_job_that_was_left_waits_for_the_cluster(tmp_path: Path) -> None:
         time.sleep(0.2)
         left = runner.store.get(job.id)
         assert (left.state, left.owner, left.attempts) == ("queued", job.owner, 0)
-    here = Runner(JobStore(tmp_path, Limits()), kinds, Workers(1), 1, 9.0)
+    here = Runner(JobStore(tmp_path, JobLimits()), kinds, Workers(1), 1, 9.0)
     with contextlib.closing(here):
         here.start()
         assert ended(here, job).state == "succeeded"
@@ -326,7 +326,7 @@ def test_no_job_hangs_on_a_part_of_the_cluster_that_is_lost(
     with tempfile.TemporaryDirectory(prefix="ray-") as folder, contextlib.ExitStack() as stack:
         ray_head, address = stack.enter_context(head(folder, 0))
         nodes = [stack.enter_context(node(folder, address, 1)) for _ in range(1 + others)]
-        runner = Runner(JobStore(tmp_path, Limits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
+        runner = Runner(JobStore(tmp_path, JobLimits()), {"parts": of_parts}, Workers(1), 1, 300.0, Cluster(address))
         stack.callback(runner.close)
         runner.start()
         job = submitted(runner, "sleep", [0.2] * 30)

@@ -18,11 +18,11 @@ import pytest
 
 from gelenk.errors import TooLarge, UnknownJob
 from gelenk.jobs.job import Failure
-from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.store import JobLimits, JobStore
 
 START = (
     "import os, signal, sys, time; from pathlib import Path; from gelenk.jobs.store import *\n"
-    "store = JobStore(Path(sys.argv[1]), Limits(unfinished=100))\n"
+    "store = JobStore(Path(sys.argv[1]), JobLimits(unfinished=100))\n"
 )
 
 
@@ -33,7 +33,7 @@ def root(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def store(root: Path) -> Iterator[JobStore]:
-    made = JobStore(root, Limits(unfinished=100))
+    made = JobStore(root, JobLimits(unfinished=100))
     yield made
     made.close()
 
@@ -89,7 +89,7 @@ def test_two_processes_update_at_once(store: JobStore, root: Path) -> None:
 def test_the_first_end_of_a_job_stays(store: JobStore, root: Path) -> None:
     """Also where another process writes it after this one has looked, and before it writes itself."""
     job, _ = store.add("workspace", "x", {}, "mine")
-    with closing(JobStore(root, Limits())) as other, ThreadPoolExecutor() as pool:
+    with closing(JobStore(root, JobLimits())) as other, ThreadPoolExecutor() as pool:
         with other._database.transaction():
             late = pool.submit(store.change, "mine", state="succeeded")
             time.sleep(0.5)  # by then it waits
@@ -206,7 +206,7 @@ def test_damage_beneath_a_running_service_is_survived(
     root: Path, store: JobStore, caplog: pytest.LogCaptureFixture
 ) -> None:
     """One process moves the table aside; the other ones notice, and write to no file that nobody reads."""
-    other = JobStore(root, Limits())
+    other = JobStore(root, JobLimits())
     for number in range(20):
         store.change(store.add("workspace", "x", {}, f"job-{number}")[0], state="cancelled")
         other.get(f"job-{number}")

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from gelenk.errors import StorageFailed, TooLarge, UnknownJob
-from gelenk.jobs.packing import packed, unpacked
-from gelenk.jobs.parts import Parts, computed
+from gelenk.jobs.parts import Parts, computed, packed, unpacked
 
 DIGEST, OTHER = "ab" * 32, "cd" * 32
 

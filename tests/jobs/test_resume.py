@@ -14,7 +14,7 @@ import pytest
 
 from gelenk.errors import JobInterrupted
 from gelenk.jobs.runner import Runner
-from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import Order, Workers
 from tests.jobs.parts import fatal, made_by, of_parts
 
@@ -52,7 +52,7 @@ class Threads:
 
 def opened(folder: Path) -> Runner:
     kinds = {"parts": of_parts, "fatal": fatal}
-    return Runner(JobStore(folder, Limits()), kinds, Workers(1), running=1, seconds=60.0, executor=Threads())
+    return Runner(JobStore(folder, JobLimits()), kinds, Workers(1), running=1, seconds=60.0, executor=Threads())
 
 
 def killed(folder: Path, progress: float) -> None:
@@ -75,7 +75,7 @@ def finished(folder: Path) -> Runner:
 
 def left(folder: Path, kind: str, request: dict[str, bytes]) -> None:
     """A job that its process has not begun."""
-    store = JobStore(folder, Limits())
+    store = JobStore(folder, JobLimits())
     store.add(kind, "x", request, "mine")
     store.close()
 
@@ -87,7 +87,7 @@ def test_a_job_goes_on_after_its_last_finished_part(tmp_path: Path) -> None:
     seen = []
     for progress in (0.25, 0.6):
         killed(jobs, progress)
-        job = JobStore(jobs, Limits()).get("mine")
+        job = JobStore(jobs, JobLimits()).get("mine")
         assert (job.state, job.attempts) == ("queued", 1)
         assert job.progress >= progress
         seen.append(job.progress)
@@ -122,7 +122,7 @@ def test_a_job_that_brings_the_service_down_is_given_up(tmp_path: Path) -> None:
     left(tmp_path, "fatal", {"call.json": b""})
     for attempt in (1, 2, 3):
         killed(tmp_path, 2.0)
-        assert JobStore(tmp_path, Limits()).get("mine").attempts == attempt
+        assert JobStore(tmp_path, JobLimits()).get("mine").attempts == attempt
     runner = finished(tmp_path)
     assert runner.store.get("mine").state == "failed"
     with pytest.raises(JobInterrupted, match="started 3 times"):

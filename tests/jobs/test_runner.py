@@ -21,10 +21,10 @@ from gelenk.errors import (
     TooLarge,
     UnknownJob,
 )
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Runner, Work
-from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.jobs.workers import Workers
 from tests.jobs.parts import gone, made_by, of_parts
 
@@ -42,7 +42,7 @@ def raised(folder: Path) -> Work:
 
 def opened(folder: Path, workers: int = 2, running: int = 2, seconds: float = 60.0) -> Runner:
     kinds = {"parts": of_parts, "raised": raised}
-    return Runner(JobStore(folder, Limits()), kinds, Workers(workers), running, seconds)
+    return Runner(JobStore(folder, JobLimits()), kinds, Workers(workers), running, seconds)
 
 
 @pytest.fixture(scope="module")
@@ -52,11 +52,11 @@ def runner(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Runner]:
     made.close()
 
 
-def submitted(runner: Runner, function: str, values: list[Any], name: str | None = None) -> Job:
+def submitted(runner: Runner, function: str, values: list[Any], name: str | None = None) -> JobRecord:
     return runner.submit("parts", "x", made_by(function, values), name)
 
 
-def watched(runner: Runner, job: Job) -> list[Job]:
+def watched(runner: Runner, job: JobRecord) -> list[JobRecord]:
     """Every state of a job until its end, and that does not take long."""
     seen = [runner.store.get(job.id)]
     deadline = time.monotonic() + 20.0
@@ -87,7 +87,7 @@ def test_progress_is_written_a_few_times_a_second(runner: Runner, monkeypatch: p
     times = []
     change = runner.store.change
 
-    def counted(which: Job | str, **changes: Any) -> Job:
+    def counted(which: JobRecord | str, **changes: Any) -> JobRecord:
         if set(changes) & {"progress"} and "state" not in changes:
             times.append(time.monotonic())
         return change(which, **changes)
@@ -146,7 +146,7 @@ def test_a_job_that_is_cancelled_before_its_turn_is_never_begun(runner: Runner) 
 def test_turns_go_round_the_clients(tmp_path: Path) -> None:
     runner = opened(tmp_path)
 
-    def asked(client: str, parts: int) -> Job:
+    def asked(client: str, parts: int) -> JobRecord:
         return runner.submit("parts", "x", made_by("sleep", [0.1] * parts), client=client)
 
     heavy = [asked("heavy", 1000) for _ in range(4)]
@@ -253,7 +253,7 @@ def test_the_end_of_the_service_leaves_its_jobs_to_the_next_one(tmp_path: Path) 
     assert all(gone(pid) for pid in pids)
     with pytest.raises(ServiceStopping):
         submitted(runner, "sleep", [0.0])
-    left = JobStore(tmp_path, Limits()).get(first.id)
+    left = JobStore(tmp_path, JobLimits()).get(first.id)
     assert (left.state, left.progress, left.attempts, left.failure) == ("queued", 0.8, 0, None)
     following = opened(tmp_path)
     try:

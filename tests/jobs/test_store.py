@@ -15,12 +15,12 @@ from gelenk import errors
 from gelenk.errors import JobExists, TooManyJobs, UnknownJob
 from gelenk.jobs import store as shelf_module
 from gelenk.jobs.job import Failure
-from gelenk.jobs.store import JobStore, Limits, write_result
+from gelenk.jobs.store import JobLimits, JobStore, write_result
 from tests.test_errors import CONCRETE, example
 
 
 @contextmanager
-def opened(root: Path, limits: Limits = Limits()) -> Iterator[JobStore]:  # noqa: B008 - frozen
+def opened(root: Path, limits: JobLimits = JobLimits()) -> Iterator[JobStore]:  # noqa: B008 - frozen
     store = JobStore(root, limits)
     try:
         yield store
@@ -80,7 +80,7 @@ def test_another_process_sees_a_job_and_cancels_it(store: JobStore, tmp_path: Pa
     job, _ = store.add("workspace", "digest", {})
     code = (
         "import sys; from pathlib import Path; from gelenk.jobs.store import *\n"
-        "store = JobStore(Path(sys.argv[1]), Limits())\n"
+        "store = JobStore(Path(sys.argv[1]), JobLimits())\n"
         "assert store.get(sys.argv[2]).state == 'queued'\n"
         "store.change(sys.argv[2], state='cancelled')"
     )
@@ -90,14 +90,14 @@ def test_another_process_sees_a_job_and_cancels_it(store: JobStore, tmp_path: Pa
 
 LEAVES = (
     "import os, sys; from pathlib import Path; from gelenk.jobs.store import *\n"
-    "store = JobStore(Path(sys.argv[1]), Limits())\n"
+    "store = JobStore(Path(sys.argv[1]), JobLimits())\n"
     "job, _ = store.add('workspace', 'digest', {'call.json': b'{}'}, 'left')\n"
     "store.change(store.start(job), progress=0.5)\n"
     "os.kill(os.getpid(), 9)"
 )
 TAKES = (
     "import sys, time; from pathlib import Path; from gelenk.jobs.store import *\n"
-    "store = JobStore(Path(sys.argv[1]), Limits())\n"
+    "store = JobStore(Path(sys.argv[1]), JobLimits())\n"
     "print('ready', flush=True); sys.stdin.readline()\n"
     "print(len(store.take_up()), flush=True); sys.stdin.readline()"
 )
@@ -176,7 +176,7 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
     """Set forward by a year and right again within the day, or set back: what is too old goes, and nothing else."""
     clocks = Clocks()
     monkeypatch.setattr(shelf_module, "time", clocks)
-    with opened(tmp_path, Limits(kept=3, kept_seconds=30 * DAY)) as store:
+    with opened(tmp_path, JobLimits(kept=3, kept_seconds=30 * DAY)) as store:
 
         def done(name: str) -> None:
             store.change(store.add("workspace", "x", {}, name)[0].id, state="cancelled")
@@ -210,7 +210,7 @@ def test_a_clock_that_is_set_costs_no_job(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with opened(tmp_path, Limits(kept_seconds=100.0)) as store:
+    with opened(tmp_path, JobLimits(kept_seconds=100.0)) as store:
         old, rested, new = (store.add("workspace", "x", {"call.json": b"{}"}, name)[0] for name in ("a", "b", "c"))
         for job in (old, rested, new):
             store.parts(job).write("all-0", b"part")
@@ -230,7 +230,7 @@ def test_what_is_over_is_put_in_order(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def test_no_more_wait_than_may(tmp_path: Path) -> None:
-    with opened(tmp_path, Limits(unfinished=2)) as store:
+    with opened(tmp_path, JobLimits(unfinished=2)) as store:
         first, _ = store.add("workspace", "1", {})
         store.add("workspace", "2", {})
         with pytest.raises(TooManyJobs) as refused:
@@ -242,7 +242,7 @@ def test_no_more_wait_than_may(tmp_path: Path) -> None:
 
 def test_a_client_has_at_most_half_of_the_places_beside_others(tmp_path: Path) -> None:
     """Alone it has all; and who comes then is let in, up to half as many more."""
-    with opened(tmp_path, Limits(unfinished=4)) as store:
+    with opened(tmp_path, JobLimits(unfinished=4)) as store:
 
         def refused_to(client: str) -> tuple[int, int, str]:
             with pytest.raises(TooManyJobs) as refused:
@@ -262,7 +262,7 @@ def test_a_client_has_at_most_half_of_the_places_beside_others(tmp_path: Path) -
 
 
 def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
-    with opened(tmp_path, Limits(kept=3, kept_bytes=10_000, unfinished=10)) as store:
+    with opened(tmp_path, JobLimits(kept=3, kept_bytes=10_000, unfinished=10)) as store:
         names = [store.add("workspace", "x", {}, f"job-{i}")[0].id for i in range(3)]
         for name in names[1:]:
             store.change(name, state="succeeded")

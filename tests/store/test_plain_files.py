@@ -12,7 +12,7 @@ import pytest
 
 from gelenk.errors import KinematicsError
 from gelenk.jobs.robot_files import robot_text
-from gelenk.jobs.store import JobStore, Limits
+from gelenk.jobs.store import JobLimits, JobStore
 from gelenk.store.folders import read_plain
 from gelenk.store.library import Library, RobotUpload
 from tests.store.test_archive import CATALOGUE, urdf
@@ -54,7 +54,7 @@ def at_most(seconds: int, what: str) -> Iterator[None]:
 
 def used(data: Path) -> None:
     """Everything that a service does with its data folder, at its start and for requests."""
-    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", Limits(unfinished=100))
+    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", JobLimits(unfinished=100))
     steps: list[Callable[[], object]] = [
         library.prepare,
         library.summaries,
@@ -84,7 +84,7 @@ def used(data: Path) -> None:
 @pytest.fixture(scope="module")
 def template(tmp_path_factory: pytest.TempPathFactory) -> Path:
     data = tmp_path_factory.mktemp("data")
-    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", Limits())
+    library, store = Library(CATALOGUE, data / "robots"), JobStore(data / "jobs", JobLimits())
     library.add(RobotUpload("arm", "urdf", urdf("m/a.stl"), meshes={"m/a.stl": b"solid"}))
     job, _ = store.add("ik", "digest", {"robot.urdf": b"<robot/>", "robot.json": b'["arm", "a", "b"]'}, "mine")
     store.parts(job).write("1", b"part")

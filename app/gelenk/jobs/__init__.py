@@ -10,7 +10,7 @@ any order; those that are finished are on disk, and a job that is taken up after
 - `workers`: processes that are kept warm, and replaced when they die or hang.
 - `cluster`: the same on a Ray cluster; `driver`: the process that speaks to it, the only place that knows Ray.
 - `run`: a job while it is done; `runner`: takes jobs in and up again, has them done, and cancels them.
-- `packing`: arrays as bytes; `robot_files`: the robot of a job.
+- `robot_files`: the robot of a job.
 - `workspace`: the workspace of a robot as a job.
 - `workspace_picture`: its picture.
 """

@@ -17,7 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from gelenk.errors import StorageFailed, StorageFull
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.store import folders
 
 NAMED = "SELECT * FROM jobs WHERE id = ?"
@@ -65,7 +65,7 @@ class Database:
                 self._connection.close()
             self._connection = None
 
-    def read(self, query: str, *values: str) -> list[Job]:
+    def read(self, query: str, *values: str) -> list[JobRecord]:
         """Return the jobs that a SELECT finds; `values` are those of its question marks.
 
         Raises:
@@ -97,7 +97,7 @@ class Database:
                 connection.execute("BEGIN IMMEDIATE")
                 yield
 
-    def put(self, job: Job) -> Job:
+    def put(self, job: JobRecord) -> JobRecord:
         """Within a transaction, insert a job or replace the one of its name; a new job gets its number."""
         return replace(job, number=self._open().execute(_PUT, job.to_row()).lastrowid or 0)
 
@@ -173,10 +173,10 @@ class Database:
             raise StorageFailed(str(error)) from error
 
 
-def _jobs(connection: sqlite3.Connection, query: str, values: tuple[str, ...]) -> list[Job]:
+def _jobs(connection: sqlite3.Connection, query: str, values: tuple[str, ...]) -> list[JobRecord]:
     rows = connection.execute(query, values)
     names = [column[0] for column in rows.description]
-    return [Job.from_row(dict(zip(names, row, strict=True))) for row in rows]
+    return [JobRecord.from_row(dict(zip(names, row, strict=True))) for row in rows]
 
 
 def _code(error: Exception) -> int:

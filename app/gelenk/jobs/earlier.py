@@ -7,7 +7,7 @@ from pathlib import Path
 import orjson
 
 from gelenk.jobs.database import NAMED, Database
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.store import folders
 
 _FILE = "job.json"
@@ -26,10 +26,10 @@ def import_earlier(root: Path, database: Database) -> None:
         folders.discard(root / job.id / _FILE)
 
 
-def _read(path: Path) -> Job | None:
+def _read(path: Path) -> JobRecord | None:
     """Return the job of a file; None if it has none."""
     with suppress(OSError, ValueError, TypeError, KeyError):
         row = orjson.loads(folders.read_plain(path))
-        job = Job.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})
+        job = JobRecord.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})
         return job if job.id == path.parent.name else None
     return None

@@ -50,7 +50,7 @@ class Failure:
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class JobRecord:
     """A job.
 
     Attributes:
@@ -96,7 +96,7 @@ class Job:
         return {**asdict(self), "number": self.number or None, "failure": failure}
 
     @classmethod
-    def from_row(cls, row: dict[str, Any]) -> "Job":
+    def from_row(cls, row: dict[str, Any]) -> "JobRecord":
         """Return the job of a row made by `to_row`; any other row raises TypeError or ValueError."""
         job = cls(**row)
         return job if job.failure is None else replace(job, failure=Failure(**orjson.loads(row["failure"])))

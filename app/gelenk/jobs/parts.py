@@ -9,8 +9,12 @@ has lost one, or a half of it, the digest tells, and the part is computed again.
 import hashlib
 import uuid
 from collections.abc import Callable, Iterator
+from io import BytesIO
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from gelenk.errors import TooLarge, UnknownJob
 from gelenk.store import folders
@@ -104,3 +108,16 @@ def computed(job: tuple[Callable[[Any], bytes], Any, Parts, str]) -> int:
 
 def _digest(content: bytes) -> bytes:
     return hashlib.blake2b(content, digest_size=_DIGEST).digest()
+
+
+def packed(**arrays: Any) -> bytes:
+    """Return numbers and arrays of numbers by their names as bytes that hold no code; None is left out."""
+    target = BytesIO()
+    np.savez(target, allow_pickle=False, **{name: array for name, array in arrays.items() if array is not None})
+    return target.getvalue()
+
+
+def unpacked(content: bytes) -> dict[str, NDArray[Any]]:
+    """Return the arrays that `packed` was given, to the last bit; a number is an array of shape ()."""
+    with np.load(BytesIO(content), allow_pickle=False) as arrays:
+        return dict(arrays)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import IO, Any, Protocol, TypeAlias, TypeVar
 
 from gelenk.errors import JobFailed, UnknownJob
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.parts import Parts, computed
 from gelenk.jobs.store import JobStore
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
@@ -62,7 +62,7 @@ class Run:
         parts: Those that are finished.
     """
 
-    job: Job
+    job: JobRecord
     order: Order
     executor: Executor
     workers: Workers

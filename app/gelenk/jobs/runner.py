@@ -19,7 +19,7 @@ from gelenk.errors import (
     ServiceStopping,
     UnknownJob,
 )
-from gelenk.jobs.job import Failure, Job
+from gelenk.jobs.job import Failure, JobRecord
 from gelenk.jobs.run import Executor, Files, Run
 from gelenk.jobs.store import JobStore, write_result
 from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
@@ -70,13 +70,13 @@ class Runner:
         self.store, self.workers, self._kinds = store, workers, kinds
         self._executor, self._is_local = executor or workers, is_local
         self._seconds = seconds
-        self._turns: Turns[Job] = Turns(running)
+        self._turns: Turns[JobRecord] = Turns(running)
         self._turned = threading.Condition()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
         self._orders: dict[str, Order] = {}
-        self._unsaid: dict[str, tuple[Job, Failure]] = {}
-        self._waiting: list[Job] = []
+        self._unsaid: dict[str, tuple[JobRecord, Failure]] = {}
+        self._waiting: list[JobRecord] = []
         self._closed = threading.Event()
 
     def start(self) -> None:
@@ -93,7 +93,7 @@ class Runner:
 
     def submit(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
-    ) -> Job:
+    ) -> JobRecord:
         """Start a job, or find the same one submitted before.
 
         Args:
@@ -116,7 +116,7 @@ class Runner:
             self._do_later(job)
         return job
 
-    def cancel(self, job_id: str, *, remove: bool = False) -> Job:
+    def cancel(self, job_id: str, *, remove: bool = False) -> JobRecord:
         """End a job that is not finished, in whichever process it is.
 
         Args:
@@ -210,7 +210,7 @@ class Runner:
             if self._closed.wait(_LOOK_FOR_LEFT):
                 return
 
-    def _do_later(self, job: Job) -> None:
+    def _do_later(self, job: JobRecord) -> None:
         with self._turned:
             self._turns.add(job.client, job)
             self._turned.notify_all()
@@ -231,7 +231,7 @@ class Runner:
                 self._turns.give_back(client)
                 self._turned.notify_all()
 
-    def _next(self) -> tuple[str, Job] | None:
+    def _next(self) -> tuple[str, JobRecord] | None:
         """The job whose turn it is, once there is one; None at the end."""
         with self._turned:
             while not self._closed.is_set():
@@ -240,7 +240,7 @@ class Runner:
                 self._turned.wait(_LOOK_SECONDS if self._turns else None)
         return None
 
-    def _do(self, job: Job) -> None:
+    def _do(self, job: JobRecord) -> None:
         """A job from where it is to its end; nothing that goes wrong in it leaves it."""
         order = Order(time.monotonic() + self._seconds)
         self._orders[job.id] = order
@@ -266,7 +266,7 @@ class Runner:
                 del self._orders[job.id]
             self._clear(job)
 
-    def _done(self, job: Job, order: Order) -> None:
+    def _done(self, job: JobRecord, order: Order) -> None:
         if self.failure is not None:
             raise Unavailable(self.failure)
         job = self.store.start(job)
@@ -285,14 +285,14 @@ class Runner:
             write_result(self.store.folder(job.id), name, content)
         self.store.change(job, state="succeeded", progress=1.0)
 
-    def _clear(self, job: Job) -> None:
+    def _clear(self, job: JobRecord) -> None:
         """Remove what a job needs no more, if it is over."""
         with contextlib.suppress(KinematicsError, OSError):
             now = self.store.get(job.id)
             if now.is_final and now.created == job.created:
                 self.store.clear(job)
 
-    def _postpone(self, job: Job, reason: Unavailable) -> None:
+    def _postpone(self, job: JobRecord, reason: Unavailable) -> None:
         """Put a job back into the queue: its remaining parts cannot be computed now."""
         logger.warning("job %s %s: %s", job.id, "continues here" if self._is_local else "waits", reason)
         self._leave(job)
@@ -301,12 +301,12 @@ class Runner:
         else:
             self._waiting.append(job)
 
-    def _leave(self, job: Job) -> None:
+    def _leave(self, job: JobRecord) -> None:
         """Leave a job to the next process of the service; this shutdown does not count as a failed attempt."""
         with contextlib.suppress(KinematicsError):
             self.store.change(job, state="queued", attempts=0)
 
-    def _fail(self, job: Job, failure: Failure) -> None:
+    def _fail(self, job: JobRecord, failure: Failure) -> None:
         """Say that a job has failed; where the disk does not even take that, as soon as it does."""
         with contextlib.suppress(KinematicsError, OSError):
             self.store.parts(job).clear()  # it is room that may be lacking

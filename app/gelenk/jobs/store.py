@@ -21,7 +21,7 @@ from typing import IO, Any
 from gelenk.errors import JobExists, JobInterrupted, StorageFailed, TooManyJobs, UnknownJob
 from gelenk.jobs.database import NAMED, Database
 from gelenk.jobs.earlier import import_earlier
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.owners import Owners
 from gelenk.jobs.parts import Parts
 from gelenk.jobs.robot_files import robot_digest
@@ -44,7 +44,7 @@ logger = logging.getLogger("gelenk")
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class JobLimits:
     """How much is kept, and waits.
 
     Attributes:
@@ -70,7 +70,7 @@ class JobStore:
         limits: How much it holds.
     """
 
-    def __init__(self, root: Path, limits: Limits) -> None:
+    def __init__(self, root: Path, limits: JobLimits) -> None:
         self._root, self._limits = root, limits
         self._owners = Owners(root / _OWNERS)
         self._database = Database(root / _DATABASE)
@@ -95,7 +95,7 @@ class JobStore:
 
     def add(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
-    ) -> tuple[Job, bool]:
+    ) -> tuple[JobRecord, bool]:
         """Add a job, on disk when this returns, or find the existing one with the same name and request.
 
         One that was given up because its service kept ending starts afresh.
@@ -126,7 +126,7 @@ class JobStore:
             self.check_room(client)
             self._remove_oldest()
             name = job_id or uuid.uuid4().hex
-            job = Job(name, kind, digest, self._owners.own_name, time.time(), client=client)
+            job = JobRecord(name, kind, digest, self._owners.own_name, time.time(), client=client)
             with self._database.transaction():
                 job = self._database.put(replace(job, robot_digest=robot_digest(request)))
             with suppress(FileNotFoundError):
@@ -134,7 +134,7 @@ class JobStore:
             folders.create_folder(self._root, name, {f"{_REQUEST}/{file}": request[file] for file in request})
         return job, True
 
-    def take_up(self) -> list[Job]:
+    def take_up(self) -> list[JobRecord]:
         """Make the unfinished jobs of processes that are gone this process's own, and return them, the oldest first.
 
         Raises:
@@ -168,12 +168,12 @@ class JobStore:
                     self.clear(job)
         self._forget_removed()
 
-    def clear(self, job: Job) -> None:
+    def clear(self, job: JobRecord) -> None:
         """Remove the request and the parts of a job that is over; its results stay."""
         self.parts(job).clear()
         shutil.rmtree(self.request(job.id), ignore_errors=True)
 
-    def get(self, job_id: str) -> Job:
+    def get(self, job_id: str) -> JobRecord:
         """Return the current state of a job.
 
         Raises:
@@ -181,7 +181,7 @@ class JobStore:
         """
         return self._as_seen(self._same(job_id))
 
-    def start(self, job: Job) -> Job:
+    def start(self, job: JobRecord) -> JobRecord:
         """Count an attempt at a job, on disk before this returns; a finished one stays as it is.
 
         Raises:
@@ -192,7 +192,7 @@ class JobStore:
             job, state="running", started=job.started or max(time.time(), job.created), attempts=job.attempts + 1
         )
 
-    def change(self, which: Job | str, **changes: Any) -> Job:
+    def change(self, which: JobRecord | str, **changes: Any) -> JobRecord:
         """Change fields of a job that is not finished; a finished one stays as it is.
 
         A new state is on disk when this returns; how far a job is need not outlive the machine.
@@ -237,7 +237,7 @@ class JobStore:
         """Return the folder with a job's request; it exists until the job has ended."""
         return self.folder(job_id) / _REQUEST
 
-    def parts(self, job: Job) -> Parts:
+    def parts(self, job: JobRecord) -> Parts:
         """Return the finished parts of a job."""
         return Parts(self.folder(job.id), job.digest, self._limits.job_bytes)
 
@@ -262,31 +262,31 @@ class JobStore:
         if len(clients) >= self._limits.unfinished + half:
             raise TooManyJobs(len(clients), self._limits.unfinished + half, _PAUSE, "service")
 
-    def _as_seen(self, job: Job) -> Job:
+    def _as_seen(self, job: JobRecord) -> JobRecord:
         """Return a job as others see it: if its process is gone, it is queued."""
         return replace(job, state="queued") if self._is_left(job) else job
 
-    def _is_left(self, job: Job) -> bool:
+    def _is_left(self, job: JobRecord) -> bool:
         """Return whether a job is unfinished and its process is gone."""
         return not (job.is_final or self._owners.is_alive(job.owner))
 
-    def _jobs(self, query: str = _ALL, *values: str) -> list[Job]:
+    def _jobs(self, query: str = _ALL, *values: str) -> list[JobRecord]:
         """Return the jobs that a query finds, without those whose folder is gone or whose name is damaged."""
         found = self._database.read(query, *values)
         return [job for job in found if _NAME.fullmatch(job.id) and self.folder(job.id).is_dir()]
 
-    def _find(self, job_id: str) -> Job | None:
+    def _find(self, job_id: str) -> JobRecord | None:
         return next(iter(self._jobs(NAMED, job_id)), None) if _NAME.fullmatch(job_id) else None
 
-    def _same(self, which: Job | str) -> Job:
-        """Return a job as it is now, by name; if a `Job` is given, another one of its name raises UnknownJob."""
+    def _same(self, which: JobRecord | str) -> JobRecord:
+        """Return a job as it is now, by name; if a `JobRecord` is given, another one of its name raises UnknownJob."""
         job_id, known = (which, None) if isinstance(which, str) else (which.id, which)
         found = self._find(job_id)
         if found is None or (known and (found.owner, found.created) != (known.owner, known.created)):
             raise UnknownJob(job_id)
         return found
 
-    def _remove(self, job: Job) -> None:
+    def _remove(self, job: JobRecord) -> None:
         """Remove a job, on a full disk too: without its folder it no longer exists, whatever becomes of the row."""
         folders.remove_folder(self._root, job.id)
         with suppress(StorageFailed), self._database.transaction(is_durable=False):
@@ -333,7 +333,7 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
             raise
 
 
-def _was_interrupted(job: Job) -> bool:
+def _was_interrupted(job: JobRecord) -> bool:
     """Return whether a job was given up because its process ended each time it was started."""
     return job.failure is not None and job.failure.error == JobInterrupted.__name__
 

@@ -10,8 +10,7 @@ import numpy as np
 import orjson
 
 from gelenk.errors import InvalidField
-from gelenk.jobs.packing import packed, unpacked
-from gelenk.jobs.parts import Parts
+from gelenk.jobs.parts import Parts, packed, unpacked
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work
 from gelenk.jobs.store import write_result

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
-from gelenk.jobs.store import Limits as JobLimits
+from gelenk.jobs.store import JobLimits
 from gelenk.operations.request_counts import RequestCounts
 from gelenk.robot.arrays import Array
 

@@ -8,17 +8,17 @@ from fastapi import Response
 
 from gelenk.errors import kind_of
 from gelenk.http.messages.payloads import JSON
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 
 NO_STORE = {"Cache-Control": "no-store"}
 
 
-def job_response(job: Job, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+def job_response(job: JobRecord, status: int = 200, headers: dict[str, str] | None = None) -> Response:
     """Return a job as a response."""
     return Response(orjson.dumps(job_content(job)), status, {**NO_STORE, **(headers or {})}, JSON)
 
 
-def job_content(job: Job) -> dict[str, Any]:
+def job_content(job: JobRecord) -> dict[str, Any]:
     """Return a job as JSON content."""
     failure = job.failure
     content: dict[str, Any] = {

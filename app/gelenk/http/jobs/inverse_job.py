@@ -14,7 +14,7 @@ from gelenk.errors import InvalidField
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from gelenk.http.messages.payloads import JSON, NPY, read_json
 from gelenk.ik.solve import inverse_kinematics
-from gelenk.jobs.packing import packed, unpacked
+from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work

@@ -20,7 +20,7 @@ from gelenk.http.jobs.info import NO_STORE, job_content, job_response
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, headers_of
 from gelenk.http.messages.openapi import csv_content, npy_content, picture_content, problem_responses
 from gelenk.http.messages.payloads import CSV, JSON, NO_ARRAY, NPY, PNG, SVG, preferred_type
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.workspace import ARRAY, KIND, SUMMARY
 from gelenk.jobs.workspace_picture import picture
@@ -172,11 +172,11 @@ def jobs_router(runner: Runner) -> APIRouter:
     return router
 
 
-def _event_id(job: Job) -> str:
+def _event_id(job: JobRecord) -> str:
     return job.state if job.is_final else f"{job.progress:.6f}"
 
 
-async def _events(runner: Runner, job: Job, state: Mapping[str, Any]) -> AsyncIterator[str]:
+async def _events(runner: Runner, job: JobRecord, state: Mapping[str, Any]) -> AsyncIterator[str]:
     """Yield the events of a job from now on; when its client has left, the server ends the iteration.
 
     Args:

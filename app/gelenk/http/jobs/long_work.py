@@ -18,7 +18,7 @@ from gelenk.http.jobs.info import job_response
 from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG
 from gelenk.http.messages.preference import APPLIED
 from gelenk.http.workers.pool_client import client_of
-from gelenk.jobs.packing import packed, unpacked
+from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import robot_files
 from gelenk.jobs.runner import Runner, Work
 from gelenk.operations.outcome import Limits

@@ -11,7 +11,7 @@ import orjson
 from gelenk.contract.trajectory_request import MAX_JOB_SAMPLES, TrajectoryRequest
 from gelenk.http.jobs.long_work import HEADERS, RESULTS, LongWork, as_bytes, headers_file
 from gelenk.http.messages.payloads import CSV, JSON, NPY, PNG, SVG, read_json
-from gelenk.jobs.packing import packed, unpacked
+from gelenk.jobs.parts import packed, unpacked
 from gelenk.jobs.robot_files import RobotText, robot_of, robot_text
 from gelenk.jobs.run import Files, Run
 from gelenk.jobs.runner import Work

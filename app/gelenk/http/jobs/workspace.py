@@ -18,7 +18,7 @@ from gelenk.http.messages.payloads import JSON, BoundedRequest, read_json
 from gelenk.http.messages.problems import UnsupportedMediaType
 from gelenk.http.messages.routes import DocumentedRoute
 from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient, client_of
-from gelenk.jobs.job import Job
+from gelenk.jobs.job import JobRecord
 from gelenk.jobs.robot_files import robot_files, robot_of, robot_text
 from gelenk.jobs.runner import Runner, Work
 from gelenk.jobs.workspace import KIND, WorkspaceWork, check_size, question, work_of
@@ -99,7 +99,9 @@ def workspace_route(
     )
 
 
-def _submitted(runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits, client: str) -> Job:
+def _submitted(
+    runner: Runner, loaded: LoadedRobot, call: WorkspaceRequest, limits: SampleLimits, client: str
+) -> JobRecord:
     """Check a call and submit its job."""
     if call.samples > limits.samples:
         raise TooLarge("samples", call.samples, limits.samples)
