@@ -1,6 +1,6 @@
-"""Everything the core refuses to do, with typed data and no HTTP status.
+"""Exceptions of the core, each with typed data and a message, but without an HTTP status.
 
-Not converging, or a target out of reach, is a result with a reason, not an error.
+A solver that does not converge and an unreachable target are results with a reason, not errors.
 """
 
 import re
@@ -13,35 +13,35 @@ _QUOTED_LENGTH = 80
 
 
 def quoted(name: str) -> str:
-    """An untrusted name for use in a sentence: quoted, escaped, shortened."""
+    """Quote, escape and shorten an untrusted name for use in a message."""
     shown = name if len(name) <= _QUOTED_LENGTH else name[: _QUOTED_LENGTH - 1] + "…"
     return "'" + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in shown) + "'"
 
 
 def listed(names: tuple[str, ...], most: int = 12) -> str:
-    """The first names of a list, quoted, and how many more there are."""
+    """Join the first names, quoted, and add how many more there are."""
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return (", ".join(quoted(name) for name in names[:most]) or "none") + more
 
 
 def counted(count: int, thing: str) -> str:
-    """How many there are, as a sentence has it: `1 joint`, `2 joints`, `3 entries`."""
+    """Join a count and a noun, in the plural if needed: `1 joint`, `2 joints`, `3 entries`."""
     things = f"{thing[:-1]}ies" if thing.endswith("y") else f"{thing}s"
     return f"{count} {thing if count == 1 else things}"
 
 
 def meshes_are(names: tuple[str, ...]) -> str:
-    """How a sentence about meshes begins: `mesh 'a.stl' is`, `2 meshes ('a.stl', 'b.stl') are`."""
+    """Return the start of a sentence about meshes: `mesh 'a.stl' is`, `2 meshes ('a.stl', 'b.stl') are`."""
     return f"mesh {quoted(names[0])} is" if len(names) == 1 else f"{len(names)} meshes ({listed(names)}) are"
 
 
 def kind_of(error: type[Exception]) -> str:
-    """The name of a class of errors on the wire: `UnknownFrame` → `unknown-frame`."""
+    """Convert the name of an error class to its name on the wire: `UnknownFrame` → `unknown-frame`."""
     return re.sub(r"(?<!^)(?=[A-Z])", "-", error.__name__).lower()
 
 
 class _ErrorFormatter(Formatter):
-    """Fills templates with the attributes of an error; `!q` quotes an untrusted name, or a list of names."""
+    """Fills templates with the attributes of an error; `!q` quotes an untrusted name or a list of names."""
 
     def get_value(self, key: int | str, args: Sequence[Any], _: Mapping[str, Any]) -> Any:
         (error,) = args
@@ -56,13 +56,13 @@ class _ErrorFormatter(Formatter):
 @dataclass_transform(eq_default=False)
 @dataclass(eq=False)
 class KinematicsError(Exception):
-    """The root: anything the core can refuse.
+    """Base class of all errors of the core.
 
-    A subclass declares its data as fields, like a dataclass, and what it says as a template.
+    A subclass declares its data as fields, like a dataclass, and its message as a template.
 
     Attributes:
         template: One sentence for the caller: what is wrong, why, and what is allowed; see `_ErrorFormatter`. Empty in
-            a class that is never raised, only what derives from it.
+            a class of which only subclasses are raised.
     """
 
     template: ClassVar[str] = ""
@@ -75,11 +75,11 @@ class KinematicsError(Exception):
 
     @property
     def detail(self) -> str:
-        """The sentence for the caller."""
+        """Message for the caller: the filled template."""
         return _ErrorFormatter().format(self.template, self)
 
     def facts(self) -> dict[str, object]:
-        """The typed data of the error, by field name."""
+        """Return the typed data of the error by field name."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -87,7 +87,7 @@ class KinematicsError(Exception):
 
 
 def _prefix(*places: str | None) -> str:
-    """The places that are known, each followed by a colon."""
+    """Join the places that are known, each followed by a colon."""
     return "".join(f"{place}: " for place in places if place is not None)
 
 
@@ -96,7 +96,7 @@ class InvalidInput(KinematicsError):
 
 
 class InvalidUrdf(InvalidInput):
-    """The description is not a robot: why, in which element, on which line (1-based)."""
+    """The URDF does not describe a valid robot; where known, the error names the element and the line (1-based)."""
 
     reason: str
     element: str | None = None
@@ -109,7 +109,7 @@ class InvalidUrdf(InvalidInput):
 
 
 class InvalidDhTable(InvalidInput):
-    """The table is not a robot: why, in which joint (0-based) and which parameter."""
+    """The DH table does not describe a valid robot; where known, the error names the joint (0-based) and parameter."""
 
     reason: str
     joint: int | None = None
@@ -122,7 +122,7 @@ class InvalidDhTable(InvalidInput):
 
 
 class InvalidPose(InvalidInput):
-    """The orientation is further from a rotation than rounding explains."""
+    """The orientation differs from a rotation by more than rounding explains."""
 
     reason: str
     distance: float | None = None
@@ -141,7 +141,7 @@ class InvalidPose(InvalidInput):
 
 
 class InvalidArchive(InvalidInput):
-    """The archive is not one URDF and its meshes: why, and which entry."""
+    """The archive does not contain exactly one URDF and its meshes; where known, the error names the entry."""
 
     reason: str
     entry: str | None = None
@@ -153,7 +153,7 @@ class InvalidArchive(InvalidInput):
 
 
 class InvalidRobotFolder(InvalidInput):
-    """A folder among the uploaded robots is not one: why, and which of its files."""
+    """A folder of the uploaded robots does not contain a valid robot; the error names the file at fault."""
 
     reason: str
     file: str
@@ -161,7 +161,7 @@ class InvalidRobotFolder(InvalidInput):
 
 
 class InvalidName(InvalidInput):
-    """A robot's name must be fit for a path and a URL."""
+    """A robot's name is not suitable for a path and a URL."""
 
     name: str
     template = (
@@ -190,7 +190,7 @@ class _HasConfiguration(Protocol):
 
 
 def _configuration(error: _HasConfiguration) -> str:
-    """The place of a configuration, in words; fields other than positions by name."""
+    """Describe where a configuration is in the request; name the field unless it is `joint_positions`."""
     if error.field != "joint_positions":
         return quoted(error.field) if error.index is None else f"entry {error.index} of {quoted(error.field)}"
     return "a configuration" if error.index is None else f"configuration {error.index}"
@@ -212,7 +212,7 @@ class WrongJointCount(InvalidInput):
 
 
 class MissingJoint(InvalidInput):
-    """A configuration given by name leaves a joint of the chain out."""
+    """A configuration with values by joint name omits a joint of the chain."""
 
     joint: str
     expected: tuple[str, ...]
@@ -223,7 +223,7 @@ class MissingJoint(InvalidInput):
 
 
 class UnknownJoint(InvalidInput):
-    """A configuration given by name has a joint that the robot does not have."""
+    """A configuration with values by joint name names a joint that the robot does not have."""
 
     joint: str
     expected: tuple[str, ...]
@@ -236,7 +236,7 @@ class UnknownJoint(InvalidInput):
 
 
 class OutsideLimits(InvalidInput):
-    """A configuration lies beyond a joint's limits, and the call respects them."""
+    """A configuration violates a joint's limits in a call that respects them."""
 
     joint: str
     value: float
@@ -249,7 +249,7 @@ class OutsideLimits(InvalidInput):
 
 
 class UnsupportedJoint(InvalidInput):
-    """A chain would lead across a joint with more than one degree of freedom."""
+    """A chain would cross a joint with more than one degree of freedom."""
 
     joint: str
     joint_type: str
@@ -263,7 +263,7 @@ class UnsupportedJoint(InvalidInput):
 
 
 class FrameNotOnChain(InvalidInput):
-    """The pose of a frame depends on joints that the chain does not have."""
+    """The pose of a frame depends on joints outside the chain."""
 
     frame: str
     missing_joints: tuple[str, ...]
@@ -276,7 +276,7 @@ class FrameNotOnChain(InvalidInput):
 
 
 class RepresentationSingularity(InvalidInput):
-    """Euler angles have no rate at this orientation, though the robot may move there."""
+    """Euler angles have no unique rates at this orientation; the robot itself need not be singular there."""
 
     representation: str
     angle: str
@@ -293,7 +293,7 @@ class NotFound(KinematicsError):
 
 
 class UnknownRobot(NotFound):
-    """No robot of this name."""
+    """No robot has this name."""
 
     robot: str
     close: tuple[str, ...] = ()
@@ -305,7 +305,7 @@ class UnknownRobot(NotFound):
 
 
 class UnknownFrame(NotFound):
-    """The robot has no frame of this name; in which field, where that is known."""
+    """The robot has no frame of this name; where known, the error names the field of the request."""
 
     frame: str
     known: tuple[str, ...]
@@ -318,21 +318,21 @@ class UnknownFrame(NotFound):
 
 
 class UnknownMesh(NotFound):
-    """The robot's description came without this mesh file."""
+    """The robot has no mesh file with this path."""
 
     path: str
     template = "the robot has no mesh file {path!q}"
 
 
 class UnknownJob(NotFound):
-    """No job of this name, or none any more."""
+    """No job has this name, or it has been removed."""
 
     job: str
     template = "there is no job {job!q}; the oldest are removed when there are too many"
 
 
 class TooLarge(KinematicsError):
-    """More than the service is configured to accept in one call."""
+    """A call exceeds a size that the service is configured to accept."""
 
     what: str
     given: int
@@ -341,7 +341,7 @@ class TooLarge(KinematicsError):
 
 
 class QuotaExceeded(KinematicsError):
-    """A client would store more than it may: of what, how much it has, how much is added, and how much is allowed."""
+    """A client would exceed its storage quota; the fields give the amounts stored, added and allowed, and of what."""
 
     client: str
     what: str
@@ -372,7 +372,7 @@ class ReadOnlyRobot(KinematicsError):
 
 
 class StorageFailed(KinematicsError):
-    """A robot cannot be written to disk durably."""
+    """A robot or a job cannot be written to disk durably."""
 
     reason: str
     template = (
@@ -452,7 +452,7 @@ class JobTookTooLong(KinematicsError):
 
 
 class TooManyJobs(KinematicsError):
-    """The queue of jobs, in all or of one client, is full."""
+    """The queue of jobs is full, either for all clients together or for one client."""
 
     unfinished: int
     allowed: int
@@ -522,7 +522,7 @@ class WorkerOutOfMemory(KinematicsError):
 
 
 class CertificationFailed(KinematicsError):
-    """Two computations that share no code disagree: the answer is withheld."""
+    """Two computations that share no code disagree, so the answer is withheld."""
 
     quantity: str
     error: float
@@ -534,13 +534,13 @@ class CertificationFailed(KinematicsError):
 
 
 class AuditFailed(KinematicsError):
-    """A motion violates its limits or tolerances: the answer is withheld."""
+    """A motion violates its limits or tolerances, so the answer is withheld."""
 
     reason: str
     template = "the motion was withheld: it failed its audit: {reason}"
 
 
 def kinds() -> dict[str, type[KinematicsError]]:
-    """All classes of the tree except its root, by their name on the wire; subclasses defined elsewhere are left out."""
+    """Return all error classes of this module except the base class, by their names on the wire."""
     classes = [cls for cls in globals().values() if isinstance(cls, type) and issubclass(cls, KinematicsError)]
     return {kind_of(cls): cls for cls in classes if cls is not KinematicsError}

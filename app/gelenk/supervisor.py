@@ -1,4 +1,4 @@
-"""Several worker processes on one address: watched, and replaced within a fraction of a second."""
+"""Supervises several worker processes on one address, and replaces a failed one within a fraction of a second."""
 
 import asyncio
 import contextlib
@@ -21,20 +21,20 @@ from gelenk.processes import copies
 from gelenk.processes.copies import Copy
 
 LISTENERS = 8
-"""Connections accepted in one turn of an event loop, each in less than a tenth of a millisecond."""
+"""Number of connections that an event loop accepts per turn; each takes less than 0.1 ms."""
 LEAVING_SECONDS = 0.5
-"""How long requests are still accepted after SIGTERM; each answer says that its connection closes, [s]."""
+"""How long requests are still accepted after SIGTERM, [s]; each response announces that its connection closes."""
 STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
-"""How a worker ends that could not begin to serve."""
+"""Exit code of a worker that could not start serving."""
 _BEAT_SECONDS = 5.0
-"""How often a worker says that its event loop goes on."""
+"""Interval of the heartbeats from a worker's event loop, [s]."""
 _HANGS_SECONDS = 60.0
-"""After how long without a word a worker is taken to hang."""
+"""Time without a heartbeat after which a worker counts as hung, [s]."""
 _PATIENCE_SECONDS = 2.5
-"""How long the kernels may take before a worker is wanted without them: from their cache they come sooner."""
+"""Time to load the kernels before a worker serves without them, [s]; from the cache, they load faster."""
 _SOON_SECONDS = 5.0
-"""A worker that ends sooner after its beginning than this may do so again: the next one has to wait."""
+"""If a worker ends within this time after its start, [s], its replacement has to wait, because it may do the same."""
 _LOOK_SECONDS = 0.5
 _PAUSE_SECONDS, _MOST_PAUSE_SECONDS = 0.1, 10.0
 _END_SECONDS = 1.0
@@ -43,11 +43,11 @@ logger = logging.getLogger("gelenk")
 
 
 class Supervisor:
-    """Starts the workers, and watches over them.
+    """Starts the workers, watches them and replaces them.
 
     Args:
-        config: What each of them serves, and how; `workers` is how many there are.
-        listener: Where requests come in; it queues them until a worker accepts them.
+        config: Configuration of each worker; `workers` is their number.
+        listener: Listening socket; it queues connections until a worker accepts them.
     """
 
     def __init__(self, config: uvicorn.Config, listener: socket.socket) -> None:
@@ -58,10 +58,10 @@ class Supervisor:
         self._goes_on, self._has_told = True, False
 
     def run(self) -> None:
-        """Serve until SIGINT or SIGTERM, or until a worker cannot even begin to.
+        """Serve until SIGINT or SIGTERM, or until a worker cannot start serving.
 
         Raises:
-            SystemExit: The latter.
+            SystemExit: A worker could not start serving.
         """
         wakes, woken = socket.socketpair()
         for end in (wakes, woken):
@@ -77,7 +77,7 @@ class Supervisor:
             if self._warming is not None:
                 self._look_after(self._warming, self._warming in ready)
             for seat in (*self._seats, self._early):
-                # Who was stopped itself cannot blame others for their silence.
+                # If this process was suspended, missing heartbeats prove nothing.
                 seat.look(now, is_forgiving=now - looked > _BEAT_SECONDS)
             looked = now
         self._end()
@@ -89,7 +89,7 @@ class Supervisor:
         self._goes_on = False
 
     def _fill(self) -> None:
-        """A worker on each seat that wants one, as soon as what they are copied from has loaded everything."""
+        """Start a worker on each free seat as soon as the fork server has loaded everything."""
         empty = [seat for seat in self._seats if seat.wants_worker]
         if not empty:
             return
@@ -107,7 +107,7 @@ class Supervisor:
                 seat.rest()
 
     def _look_after(self, warming: socket.socket, is_over: bool) -> None:
-        """Where the kernels are compiled, which may take a minute, let an early worker say how things are."""
+        """Let an early worker report the service's state while the kernels are compiled, which may take a minute."""
         if is_over:
             warming.close()
             self._warming = None
@@ -119,16 +119,16 @@ class Supervisor:
             self._early.serve(self._listener)
 
     def _signs(self) -> list[int | socket.socket]:
-        """What becomes readable when there is something to look at."""
+        """Return what becomes readable when a worker or the warm-up needs attention."""
         found: list[int | socket.socket] = [one for seat in (*self._seats, self._early) for one in seat.signs]
         return found if self._warming is None else [*found, self._warming]
 
     def _end(self) -> None:
-        """Let requests in flight finish; what does not end by itself is killed."""
+        """Let running requests finish, then kill the workers that do not end by themselves."""
         seats = [*self._seats, self._early]
         for seat in seats:
             seat.stop()
-        self._listener.close()  # when the last worker has closed its own, nobody is let in whom nobody will answer
+        self._listener.close()  # once all workers close theirs, no connection is accepted in vain
         until = time.monotonic() + LEAVING_SECONDS + (self._config.timeout_graceful_shutdown or 0) + _END_SECONDS
         for seat in seats:
             seat.leave(until)
@@ -138,7 +138,7 @@ class _Seat:
     """The place of one worker.
 
     Attributes:
-        cannot_begin: Whether the first one that was here could not begin to serve: no other one could.
+        cannot_begin: Whether the worker could not start serving, and none here ever did, so a new one could not either.
     """
 
     def __init__(self) -> None:
@@ -155,14 +155,14 @@ class _Seat:
 
     @property
     def signs(self) -> list[int]:
-        """File descriptors that become readable when there is something to look at."""
+        """File descriptors that become readable when the worker needs attention."""
         return [one.fileno() for one in (self._worker, self._beats) if one is not None]
 
     def take(self, config: uvicorn.Config, name: str) -> None:
-        """Have a worker here, which waits for the word to serve.
+        """Start a worker unless this seat has one; it waits until `serve` lets it serve.
 
         Raises:
-            OSError: None could be started.
+            OSError: No worker could be started.
         """
         if self._worker is None:
             self._worker, self._beats = copies.started(partial(work, config), name)
@@ -170,14 +170,14 @@ class _Seat:
             self._is_stopped = self._serves = False
 
     def serve(self, listener: socket.socket) -> None:
-        """Let the worker serve."""
+        """Let the worker serve, by sending it the listening socket."""
         if self._worker is not None and self._beats is not None and not self._serves:
             self._serves = True
-            with contextlib.suppress(OSError):  # it has ended: `look` will see that
+            with contextlib.suppress(OSError):  # the worker has ended; `look` notices that
                 reduction.send_handle(self._beats, listener.fileno(), self._worker.pid)
 
     def look(self, now: float, is_forgiving: bool) -> None:
-        """Listen to the worker, and let go of one that has ended or hangs."""
+        """Read the worker's heartbeats, and release a worker that has ended or hangs."""
         if self._worker is None or self._beats is None:
             return
         with contextlib.suppress(EOFError, OSError):
@@ -202,12 +202,12 @@ class _Seat:
             self._pause = _PAUSE_SECONDS
 
     def rest(self) -> None:
-        """Stay empty for a while, longer each time."""
+        """Leave the seat empty for a while, longer each time."""
         self._empty_until = time.monotonic() + self._pause
         self._pause = min(2.0 * self._pause, _MOST_PAUSE_SECONDS)
 
     def stop(self) -> None:
-        """Tell the worker to end; one that does not serve yet does so when its connection ends."""
+        """Let the worker end: SIGTERM if it serves, otherwise by killing it."""
         self._is_stopped = True
         if self._worker is not None and self._serves:
             self._worker.signal(signal.SIGTERM)
@@ -215,7 +215,7 @@ class _Seat:
             self._let_go()
 
     def leave(self, until: float) -> None:
-        """Wait for the worker's end until then, and kill it where it does not come."""
+        """Wait for the worker to end, until this time of the monotonic clock, [s]; then kill it."""
         if self._worker is not None:
             self._worker.join(max(0.0, until - time.monotonic()))
             self._let_go()
@@ -226,14 +226,14 @@ class _Seat:
 
 
 def work(config: uvicorn.Config, connection: Connection) -> None:
-    """Serve; what a worker process does.
+    """Serve requests; a worker process runs this function.
 
     Args:
-        config: What, and how.
-        connection: To the supervisor: the listening socket comes from there, and beats go there.
+        config: Configuration of the server.
+        connection: Connection to the supervisor, which sends the listening socket and receives heartbeats.
 
     Raises:
-        SystemExit: It could not begin.
+        SystemExit: The worker could not start serving.
     """
     listener = socket.socket(fileno=reduction.recv_handle(connection))
     os.set_blocking(connection.fileno(), False)
@@ -250,44 +250,44 @@ def work(config: uvicorn.Config, connection: Connection) -> None:
 
 
 def several(listener: socket.socket) -> list[socket.socket]:
-    """One listening socket as several, all on one queue of connections.
+    """Duplicate a listening socket `LISTENERS` - 1 times; all of them share one queue of connections.
 
-    The event loop takes one connection a turn from each. From a single one it would take a thousand turns until the
-    last of a thousand that have come at once is accepted, and in each turn those before it are being answered.
+    The event loop accepts one connection per turn from each socket. With a single one, the last of a thousand
+    simultaneous connections would wait a thousand turns, and in each turn, earlier requests are answered.
     """
-    # All of them, in all workers, share one mode: a copy in another one would make those block that serve already.
+    # All duplicates in all workers share the blocking mode: a blocking one would block the workers that already serve.
     listener.setblocking(False)
     return [listener, *(listener.dup() for _ in range(LISTENERS - 1))]
 
 
 def waiting(listener: socket.socket) -> Iterator[socket.socket]:
-    """The pending connections of a non-blocking listening socket."""
+    """Accept and yield the pending connections of a non-blocking listening socket."""
     with contextlib.suppress(OSError):
         while True:
             yield listener.accept()[0]
 
 
 class _Server(uvicorn.Server):
-    """A server that says that it goes on."""
+    """Server that sends heartbeats to the supervisor."""
 
     def __init__(self, config: uvicorn.Config, connection: Connection) -> None:
         super().__init__(config)
         self._connection = connection
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Begin to serve."""
+        """Start serving, and then the heartbeats."""
         await super().startup(sockets=sockets)
         if self.started:
             self._beat()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """End; a client that is just about to ask again over an open connection is answered before it is closed."""
+        """Stop serving, but first answer requests that clients are about to send over open connections."""
         gate: Gate = cast(partial[Any], self.config.http).keywords["gate"]
         gate.stop()
         until = time.monotonic() + LEAVING_SECONDS
         while gate.connections and time.monotonic() < until:
             await asyncio.sleep(0.05)
-        # Who stands in the queue when it is closed is cut off: it is emptied first, and there is no wait in between.
+        # Connections still queued when the listener closes are cut off, so accept them right before, without an await.
         arrived = asyncio.gather(*map(self._let_in, waiting(sockets[0]) if sockets else ()))
         await super().shutdown(sockets)
         await arrived
@@ -295,7 +295,7 @@ class _Server(uvicorn.Server):
     async def _let_in(self, connection: socket.socket) -> None:
         make: Any = self.config.http_protocol_class
         protocol = partial(make, config=self.config, server_state=self.server_state, app_state=self.lifespan.state)
-        with contextlib.suppress(OSError):  # it has left already
+        with contextlib.suppress(OSError):  # the client has already left
             await asyncio.get_running_loop().connect_accepted_socket(protocol, connection)
 
     def _beat(self) -> None:

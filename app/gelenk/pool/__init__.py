@@ -1,6 +1,6 @@
-"""Processes for requests that may take long or crash; each is isolated, and replaced alone.
+"""Worker processes for requests that may take long or crash; each is isolated and replaced on its own.
 
-- `pool`: hands calls to idle processes, within a bounded queue and a deadline; kills and replaces them.
-- `worker`: what such a process runs: one call after the other, within limits of memory and processor time.
-- `wire`: how an object and large bytes beside it get from one to the other.
+- `pool`: sends calls to idle processes, with a bounded queue and deadlines; kills and replaces processes.
+- `worker`: runs in such a process: one call after another, within limits on memory and processor time.
+- `wire`: sends objects and large buffers between the service and the processes.
 """

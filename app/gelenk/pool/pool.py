@@ -1,8 +1,8 @@
-"""A pool of processes that an event loop sends calls to: bounded, each call with a deadline, none lost.
+"""Process pool for an event loop: a bounded queue, and a deadline for each call.
 
-If a call crashes its process, misses its deadline or is abandoned, only its own process ends. A new one is there within
-milliseconds, because it is a copy of one that has everything loaded. A client that comes while others occupy all
-processes gets an additional one in the same time.
+A call that crashes, misses its deadline or is abandoned ends only its own process. A new process replaces it within
+milliseconds, because it is a copy of one that has everything loaded. A client that arrives while others occupy all
+processes gets an additional one just as fast.
 """
 
 import asyncio
@@ -28,39 +28,39 @@ _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 _END_SECONDS = 2.0
-"""How long to wait for the reason why a process ended."""
+"""Longest wait for the exit code of a process that ended, [s]."""
 _PATIENCE = 0.05
-"""An abandoned call may finish within this time, [s]: that costs less than a new process."""
+"""Time in which an abandoned call may still finish, [s]: that costs less than a new process."""
 _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _CROWD_SECONDS = 10.0
-"""Retries of refused calls are spread over at most this time, [s]: many clients never return."""
+"""Longest time over which retries of refused calls are spread, [s]: many clients never return."""
 _SMOOTHING = 0.1
 _START_SECONDS = 600.0
-"""How long the first processes may take, because they may compile; calls' waiting times do not count it."""
+"""Time added to the wait of calls while the first processes start, [s]: they may have to compile."""
 _MOMENT = 1.0
-"""How long processes may be missing before that is reported, [s]."""
+"""How long processes may be missing before the pool reports it, [s]."""
 _LOOK_SECONDS = 0.5
-"""How often to check whether clients have left for whom an idle process is kept, [s]."""
+"""Interval of checks whether the clients for which an idle process is reserved have left, [s]."""
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
-"""A function, its argument, and how many seconds it may take."""
+"""A function, its argument, and its time limit, [s]."""
 
 logger = logging.getLogger("gelenk")
 
 
 class WorkerPool:
-    """The processes; belongs to one event loop.
+    """Pool of processes that run calls; belongs to one event loop.
 
     Args:
-        count: How many; see `Turns` for when there are more.
-        waiting: Calls that may wait for one.
-        memory_bytes: What each may take in addition to what it has at its start.
+        count: Number of processes; `Turns` explains when there are more.
+        waiting: Maximum number of calls that wait for a process.
+        memory_bytes: Memory that a process may use in addition to what it holds at its start, [bytes].
 
     Attributes:
-        busy: Processes at work.
-        restarts: Processes replaced after a crash, a missed deadline, a lack of memory or an abandoned call.
-        refused: Calls for which there was no room.
-        is_starting: Whether the first processes are being started.
+        busy: Number of processes that run a call.
+        restarts: Number of processes replaced after a crash, a missed deadline, a lack of memory or an abandoned call.
+        refused: Number of calls refused because the queue was full or their turn came too late.
+        is_starting: Whether the first processes are still starting.
     """
 
     def __init__(self, count: int, waiting: int, memory_bytes: int) -> None:
@@ -78,7 +78,7 @@ class WorkerPool:
 
     @property
     def queue_length(self) -> int:
-        """Calls that wait."""
+        """Number of waiting calls."""
         return len(self._turns)
 
     @property
@@ -88,24 +88,24 @@ class WorkerPool:
 
     @property
     def retry_after(self) -> int:
-        """Estimated seconds until the queue and the calls refused meanwhile are done."""
+        """Estimated time until the queued calls and the recently refused ones are done, [s]."""
         queue = self._seconds_a_call * (len(self._turns) + 1) / self.size
         return max(1, math.ceil(queue), math.ceil(min(_CROWD_SECONDS, queue + self._crowd_seconds())))
 
     @property
     def is_short(self) -> bool:
-        """Whether processes have been missing for longer than it takes to replace one."""
+        """Whether the pool has lacked processes for longer than a replacement takes."""
         return not self._seats or (bool(self._renewals) and time.monotonic() > self._whole_until + _MOMENT)
 
     async def start(self) -> None:
-        """Start all processes, and return when they are ready."""
+        """Start all processes and wait until they are ready."""
         self.is_starting = True
         self._fill()
         await asyncio.gather(*self._renewals)
         self.is_starting, self._is_begun = False, True
 
     def check_room(self, client: str = "") -> None:
-        """Check whether a call would be accepted, so that many can be refused before a task is made for each.
+        """Check that a call would be accepted, so that a caller can refuse it before creating a task.
 
         Raises:
             ServiceBusy: Too many calls wait.
@@ -116,33 +116,33 @@ class WorkerPool:
             raise ServiceBusy(self.retry_after)
 
     def _turn_away(self) -> None:
-        """Count a refused call among those that will be retried."""
+        """Count a refused call; its client is expected to retry it."""
         self.refused += 1
         self._outside = self._crowd_seconds() * self.size / max(self._seconds_a_call, 1e-6) + 1.0
         self._outside_since = time.monotonic()
 
     def _crowd_seconds(self) -> float:
-        """How long the refused calls would take one after the other, less the time that has passed."""
+        """Estimate how long the refused calls would still take, less the time since the last refusal, [s]."""
         seconds = self._outside * self._seconds_a_call / self.size
         return min(_CROWD_SECONDS, max(0.0, seconds - (time.monotonic() - self._outside_since)))
 
     async def run(
         self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float, client: str = ""
     ) -> _Result:
-        """The function's result; cancelling this ends the call.
+        """Run a function in a process and return its result; cancelling this coroutine cancels the call.
 
         Args:
-            function: Of a module, with an argument and a result that can be sent to another process.
-            argument: What it is called with.
-            seconds: How long it may wait for its turn, and how long it may then take, not counting the start.
-            client: Whose call it is.
+            function: Module-level function; its argument and its result must be picklable.
+            argument: Argument of the function.
+            seconds: Longest wait for a process, and longest run time, [s]; the start of the pool does not count.
+            client: Client that makes the call; the clients take turns.
 
         Raises:
-            ServiceBusy: Too many calls wait, or its turn does not come in time.
-            DeadlineExceeded: It takes longer.
-            WorkerCrashed: Its process has died.
-            WorkerOutOfMemory: It needs more memory than it may have.
-            ServiceStopping: The pool has been closed.
+            ServiceBusy: Too many calls wait, or no process is free in time.
+            DeadlineExceeded: The function takes too long.
+            WorkerCrashed: The process has died.
+            WorkerOutOfMemory: The function needs more memory than allowed.
+            ServiceStopping: The pool is closed.
             Exception: Whatever the function raises.
         """
         seat = await self._turn(client, seconds)
@@ -155,7 +155,7 @@ class WorkerPool:
             raise
 
     def close(self) -> None:
-        """End all processes, even during calls; later calls are refused."""
+        """End all processes, including those that run calls, and refuse later calls."""
         self._closed = True
         for renewal in self._renewals:
             renewal.cancel()
@@ -195,7 +195,7 @@ class WorkerPool:
             raise ServiceBusy(self.retry_after) from None
 
     def _hand_out(self) -> None:
-        """Give idle processes to the clients whose turn it is, and end surplus ones."""
+        """Give idle processes to the next clients in turn, and end surplus processes."""
         while self._idle and not self._closed:
             if not self._idle[-1].is_alive():
                 self._renew(self._idle.pop())
@@ -208,7 +208,7 @@ class WorkerPool:
         while len(self._idle) > 1 and len(self._seats) > self.size:
             seat = self._idle.pop(0)
             self._seats.remove(seat)
-            threading.Thread(target=seat.close, daemon=True).start()  # it waits for the process to end
+            threading.Thread(target=seat.close, daemon=True).start()  # closing waits for the process
         if self._look is not None:
             self._look.cancel()
         if self._idle and self._turns and not self._closed:
@@ -226,7 +226,7 @@ class WorkerPool:
             self._give_back(seat)
 
     def _give_back(self, seat: "_Seat") -> None:
-        """Give a process to the next client; replace it first if it is no longer fit."""
+        """Give a process to the next client; replace it first if it is broken."""
         if self._closed:
             seat.close()
             return
@@ -274,10 +274,10 @@ class _Seat:
         return None if process is None else process.pid
 
     def start(self) -> None:
-        """A new process in the place of the old one; blocks for some milliseconds, the first time for seconds.
+        """Replace the process by a new one; this blocks for milliseconds, the first time for seconds.
 
         Raises:
-            ChildProcessError: None could be started.
+            ChildProcessError: No process could be started.
         """
         self._end_process()
         self._close_stream()
@@ -290,14 +290,14 @@ class _Seat:
             self.close()
 
     def close(self) -> None:
-        """End the process for good; a running call notices, and then closes the connection."""
+        """End the process for good; a running call fails, and the connection closes."""
         self._is_closed = True
         self._end_process()
         if not self._is_asked:
             self._close_stream()
 
     def is_alive(self) -> bool:
-        """Whether an idle process is still alive: it has sent nothing and not closed its connection."""
+        """Check whether an idle process still lives, by peeking at its connection: it has neither sent nor closed."""
         if self._stream is None:
             return False
         try:
@@ -309,10 +309,10 @@ class _Seat:
         return False
 
     async def asked(self, call: Call) -> Any:
-        """The outcome of a call.
+        """Send a call to the process and return its result.
 
         Raises:
-            Exception: As `WorkerPool.run`.
+            Exception: As for `WorkerPool.run`.
         """
         stream, seconds = self._stream, call[2]
         if stream is None:
@@ -329,13 +329,13 @@ class _Seat:
         finally:
             self._is_asked = False
         self.is_broken = not goes_on
-        self.is_retired = not goes_on and kind != "memory"  # it has made room by itself, which is no fault
+        self.is_retired = not goes_on and kind != "memory"  # a worker that makes room for a fresh one is no fault
         if kind == "result":
             return value
         raise value if kind == "error" else WorkerOutOfMemory(self._memory_bytes)
 
     async def _reason(self, seconds: float) -> Exception:
-        """Why the process ended, as far as known."""
+        """Return the exception that explains why the process ended."""
         process = self._process
         if self._is_closed or process is None:
             return ServiceStopping()
@@ -358,10 +358,10 @@ class _Seat:
 
 
 async def _beside(work: Callable[[], None]) -> None:
-    """Do something in a thread of its own; the end of the service does not wait for it.
+    """Run a function in a daemon thread, which does not delay the end of the service.
 
     Raises:
-        Exception: Whatever it raises.
+        Exception: Whatever the function raises.
     """
     loop = asyncio.get_running_loop()
     done: asyncio.Future[None] = loop.create_future()
@@ -376,7 +376,7 @@ async def _beside(work: Callable[[], None]) -> None:
             work()
         except Exception as raised:
             error = raised
-        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody waits any more
+        with contextlib.suppress(RuntimeError):  # the loop is closed, so no caller waits
             loop.call_soon_threadsafe(tell, error)
 
     threading.Thread(target=run, name="crew", daemon=True).start()

@@ -1,7 +1,7 @@
-"""Messages between the service and a process of its pool: an object, and large bytes beside it that are not copied.
+"""Messages between the service and a worker process: a pickled object and large buffers, which pickle does not copy.
 
-On a stream socket, big-endian: the count of parts, the length of each, the parts. The first one is the pickled object;
-the others are the buffers that it wraps in `pickle.PickleBuffer`.
+A message on the stream socket holds the number of parts, their lengths (both big-endian) and the parts. The first part
+is the pickled object; the others are the buffers that the object wraps in `pickle.PickleBuffer`.
 """
 
 import asyncio
@@ -12,21 +12,21 @@ from collections.abc import Iterator
 from typing import Any
 
 PIECE = 256 * 1024
-"""Bytes of a large answer that the event loop sends at once."""
+"""Size of the pieces in which the event loop sends a large response, [bytes]."""
 
 _COUNT = struct.Struct("!I")
 _SMALL = 64 * 1024
-"""A shorter message is sent in one piece."""
+"""Size of the largest message that is sent in one piece, [bytes]."""
 
 
 def pieces_of(content: bytes) -> list[pickle.PickleBuffer]:
-    """Large bytes in pieces."""
+    """Split bytes into pieces of at most `PIECE` bytes, without copying them."""
     view = memoryview(content)
     return [pickle.PickleBuffer(view[i : i + PIECE]) for i in range(0, len(view), PIECE)]
 
 
 def send(connection: socket.socket, content: Any) -> None:
-    """Send an object; waits until the other side has room for it.
+    """Send an object; block until the socket has accepted it.
 
     Raises:
         OSError: The other side is gone.
@@ -36,7 +36,7 @@ def send(connection: socket.socket, content: Any) -> None:
 
 
 async def send_soon(connection: socket.socket, content: Any) -> None:
-    """The same from an event loop, on a socket that does not block; between two parts other tasks run."""
+    """Send an object from an event loop on a non-blocking socket; other tasks run between the parts."""
     loop = asyncio.get_running_loop()
     for i, part in enumerate(_parts(content)):
         if i:
@@ -45,11 +45,11 @@ async def send_soon(connection: socket.socket, content: Any) -> None:
 
 
 def receive(connection: socket.socket) -> Any:
-    """The next object; waits for it.
+    """Wait for the next object and return it.
 
     Raises:
-        EOFError: The other side is gone.
-        OSError: The same, in the middle of something.
+        EOFError: The other side has closed the connection.
+        OSError: The connection is broken.
     """
     (count,) = _COUNT.unpack(_taken(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", _taken(connection, 8 * count))
@@ -58,7 +58,7 @@ def receive(connection: socket.socket) -> Any:
 
 
 async def receive_soon(connection: socket.socket) -> Any:
-    """The same from an event loop, on a socket that does not block; between two parts other tasks run."""
+    """Receive an object in an event loop from a non-blocking socket; other tasks run between the parts."""
     (count,) = _COUNT.unpack(await _taken_soon(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", await _taken_soon(connection, 8 * count))
     parts: list[bytearray] = []

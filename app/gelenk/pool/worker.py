@@ -1,4 +1,4 @@
-"""What a process of the pool runs: one call after the other, within limits of memory and of processor time."""
+"""Main loop of a worker process: it runs one call after another, within limits on memory and processor time."""
 
 import math
 import os
@@ -18,25 +18,25 @@ from gelenk.processes.copies import load_seldom_needed
 from gelenk.processes.fork_server import SELDOM_NEEDED
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
-"""What came of a call: its result, what it has raised, or that there was not enough memory."""
+"""Outcome of a call: its kind, and the result, the exception, or None if memory ran out."""
 Reply: TypeAlias = tuple[Outcome, bool]
-"""An outcome, and whether the process continues."""
+"""An outcome, and whether the process goes on to serve calls."""
 
 _NICENESS = 5
-"""The event loops take precedence: they answer within a fraction of a millisecond, and accept nothing before."""
+"""Niceness of workers: event loops need a fraction of a millisecond, and accept no connection until they run."""
 _SPARE_SECONDS = 2
 _TIRED = 0.5
-"""A process that holds this share of its memory limit is replaced by a fresh one."""
+"""Share of the memory limit at which a fresh process replaces a worker."""
 _OWN_SECONDS = 20.0
-"""So is one that loaded modules of its own so long ago: fresh ones share theirs."""
+"""Time after which a worker that loaded modules of its own is replaced, [s]: fresh processes share theirs."""
 
 
 def serve(memory_bytes: int, connection: Connection) -> None:
-    """Answer calls until the other side is gone or memory has run out.
+    """Run calls until the other side is gone, memory runs out, or a fresh process should replace this one.
 
     Args:
-        memory_bytes: What it may take beside what it has at its start.
-        connection: To the service.
+        memory_bytes: Memory that the process may use in addition to what it holds at its start, [bytes].
+        connection: Connection to the service.
     """
     stream = socket.socket(fileno=os.dup(connection.fileno()))
     connection.close()
@@ -71,7 +71,7 @@ def serve(memory_bytes: int, connection: Connection) -> None:
 
 
 def _seldom_needed() -> set[str]:
-    """Which of the modules that few requests need are loaded."""
+    """Return which of the modules in `SELDOM_NEEDED` are loaded."""
     return sys.modules.keys() & {*SELDOM_NEEDED}
 
 
@@ -85,7 +85,7 @@ def _outcome(function: Callable[[Any], Any], argument: Any) -> Outcome:
 
 
 def _sendable(error: Exception) -> Exception:
-    """The error itself if it can be sent, with its traceback as a note, because a traceback cannot."""
+    """Return the error with its traceback as a note, or a `RuntimeError` in its place if it cannot be pickled."""
     trace = "".join(traceback.format_exception(error))
     try:
         again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
@@ -98,7 +98,7 @@ def _sendable(error: Exception) -> Exception:
 
 
 def _held_bytes() -> int:
-    """The memory that `RLIMIT_DATA` counts, where the system reports it."""
+    """Return the memory that `RLIMIT_DATA` counts, [bytes]; 0 if the system does not report it."""
     try:
         return int(Path("/proc/self/statm").read_text().split()[5]) * resource.getpagesize()
     except OSError:
@@ -106,13 +106,13 @@ def _held_bytes() -> int:
 
 
 def _limit_processor_time(seconds: float) -> None:
-    """A last resort if nothing is left to kill this process: the time of all processors during the call."""
+    """Limit processor time to what all processors have during the call, in case no pool is left to kill the process."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     most = used.ru_utime + used.ru_stime + (os.cpu_count() or 1) * seconds + _SPARE_SECONDS
     _limit(resource.RLIMIT_CPU, int(most))
 
 
 def _limit(what: int, most: int) -> None:
-    """Lower the soft limit; the hard one stays, so that it can be raised again."""
+    """Set the soft limit; the hard limit stays, so that the soft one can be raised again."""
     hard = resource.getrlimit(what)[1]
     resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))

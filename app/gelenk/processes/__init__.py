@@ -1,7 +1,7 @@
-"""The service's own processes: copies of one that has loaded everything, started within milliseconds.
+"""Processes of the service: forked from a fork server that has loaded everything, so they start within milliseconds.
 
-- `copies`: starts a process, and ends it without leftovers.
-- `fork_server`: what runs in the process that is copied.
-- `pages`: returns memory that only loading needed.
-- `turns`: whose turn it is, where clients share processes or other places.
+- `copies`: starts such processes, and ends them without leftovers.
+- `fork_server`: runs in the process that the others are copies of.
+- `pages`: returns memory to the system that only loading needed.
+- `turns`: lets clients that share processes or other places take turns.
 """

@@ -1,4 +1,4 @@
-"""Starting and ending a process at the other end of a pipe, as a copy of one that has loaded everything."""
+"""Starts and ends processes that are copies of the fork server, each connected by a pipe."""
 
 import atexit
 import contextlib
@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from gelenk.processes.fork_server import COPY, LOAD, NUMBER, WARM_UP
 
 GOODBYE_SECONDS = 1.0
-"""How long to wait for the end of a killed process."""
+"""Longest wait for the end of a killed process, [s]."""
 _BEGIN = """
 import sys
 sys.path[:] = sys.argv[3:]
@@ -27,14 +27,14 @@ fork_server.main(int(sys.argv[2]))
 
 
 class Copy:
-    """A process that has been started; safe to use from several threads.
+    """A copy of the fork server; safe to use from several threads.
 
     Args:
-        pid: Its number.
-        lifeline: Where its exit code comes from.
+        pid: Process id.
+        lifeline: Socket that delivers the exit code; closing it kills the process.
 
     Attributes:
-        exitcode: How it ended, for example -9 by signal 9; None while that is not known.
+        exitcode: Exit code, for example -9 after signal 9; None while it is unknown.
     """
 
     def __init__(self, pid: int, lifeline: socket.socket) -> None:
@@ -42,16 +42,16 @@ class Copy:
         self._lifeline, self._lock, self._is_over = lifeline, threading.Lock(), False
 
     def fileno(self) -> int:
-        """What becomes readable when it ends."""
+        """Return a file descriptor that becomes readable when the process ends."""
         return self._lifeline.fileno()
 
     def is_alive(self) -> bool:
-        """Whether it is still running."""
+        """Check whether the process is still running."""
         self.join(0.0)
         return not self._is_over
 
     def join(self, seconds: float) -> None:
-        """Wait for its end for at most this time, [s]."""
+        """Wait for the end of the process, for at most this time, [s]."""
         with self._lock:
             if self._is_over:
                 return
@@ -67,20 +67,20 @@ class Copy:
                 self.exitcode = NUMBER.unpack(told)[0]
 
     def signal(self, number: signal.Signals) -> None:
-        """Send it a signal, if it is still there."""
+        """Send a signal to the process if it still runs."""
         if self.is_alive():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
     def end(self) -> None:
-        """Kill it, wait for its end, and release it."""
+        """Kill the process, wait for its end, and close the lifeline."""
         self.signal(signal.SIGKILL)
         self.join(GOODBYE_SECONDS)
         self._lifeline.close()
 
 
 class _Original:
-    """The process that is copied, as this one knows it: started here, or inherited by a copy."""
+    """Connection to the fork server, which this process has started or is a copy of."""
 
     def __init__(self) -> None:
         self._control: socket.socket | None = None
@@ -88,14 +88,14 @@ class _Original:
         self._lock = threading.Lock()
 
     def begin(self) -> bool:
-        """Start it unless there is one, and return whether it was started."""
+        """Start the fork server unless it runs, and return whether it was started."""
         with self._lock:
             if self._process is not None and self._process.poll() is not None:
                 self.end()
             if self._control is not None:
                 return False
             control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-            # The copies ask it too: it keeps an end of its own for them.
+            # The fork server also gets this end, because its copies send requests too.
             descriptors = control.fileno(), theirs.fileno()
             command = [sys.executable, "-c", _BEGIN, *map(str, descriptors), *sys.path]
             with theirs:
@@ -126,10 +126,10 @@ atexit.register(_original.end)
 
 
 def begin() -> bool:
-    """Start the process that is copied where there is none; it does not yet load what `warm_up` is for.
+    """Start the fork server unless it runs; it loads the kernels only when `warm_up` requests that.
 
     Returns:
-        Whether there was none.
+        Whether it was started.
 
     Raises:
         OSError: It could not be started.
@@ -138,13 +138,13 @@ def begin() -> bool:
 
 
 def warm_up() -> socket.socket:
-    """Have it load what takes long, after it has made the copies requested before.
+    """Let the fork server load the kernels, after it has made the copies requested before.
 
     Returns:
-        A descriptor that becomes readable when that is done.
+        A socket that becomes readable when the kernels are loaded.
 
     Raises:
-        OSError: It is gone.
+        OSError: The fork server is gone.
     """
     ours, theirs = socket.socketpair()
     with theirs:
@@ -153,24 +153,24 @@ def warm_up() -> socket.socket:
 
 
 def load_seldom_needed() -> None:
-    """Have it load what few requests need, so that later copies share it; do not wait."""
+    """Let the fork server load the seldom needed modules, so that later copies share them; do not wait."""
     with contextlib.suppress(OSError):
         _original.ask(LOAD)
 
 
 def reach_by(control: int) -> None:
-    """Set, in the process that is copied, how its copies reach it."""
+    """Set, in the fork server, the file descriptor over which its copies send it requests."""
     _original.inherit(control)
 
 
 def started(target: Callable[[Connection], object], name: str) -> tuple[Copy, Connection]:
-    """A new process that runs a function with its end of a pipe, and our end.
+    """Start a process that runs a function with its end of a pipe; return the process and our end.
 
-    It ignores SIGINT and SIGTERM: the service ends first, and its processes with it, whatever they are doing.
+    The process ignores SIGINT and SIGTERM, because it ends together with the service, whatever it is doing.
 
     Args:
-        target: One that can be pickled.
-        name: What the system calls it, after `gelenk-`; at most 8 letters.
+        target: Function to run; must be picklable.
+        name: Name of the process in the system, after `gelenk-`; at most 8 letters.
 
     Raises:
         ChildProcessError: No process could be started.
@@ -192,7 +192,7 @@ def started(target: Callable[[Connection], object], name: str) -> tuple[Copy, Co
 
 
 def ended(process: Copy | None, connection: Connection | None) -> None:
-    """Close our end, kill the process and wait for its end."""
+    """Close our end of the pipe, kill the process and wait until it ends."""
     if connection is not None:
         connection.close()
     if process is not None:

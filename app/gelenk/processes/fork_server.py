@@ -1,11 +1,11 @@
-"""The process that others are copies of: it loads everything once, copies itself on request, and does nothing else.
+"""The fork server: a process that loads everything once, forks copies of itself on request, and does nothing else.
 
-Requests come over a socket that its parent and each of its copies hold. A request brings two sockets: the connection to
-the copy, and its lifeline, which first carries the copy's process id and at last its exit code. The requester holds the
-other end of the lifeline; when that is closed, for example because the requester is gone, the copy is killed. The
-process itself ends when its parent closes its standard input, and its copies end with it.
+Requests come over a socket that its parent and all copies share. A request for a copy brings two sockets: the copy's
+connection, and its lifeline, over which the fork server sends first the copy's process id and later its exit code. The
+requester holds the other end of the lifeline; when that closes, for example because the requester has died, the fork
+server kills the copy. It ends when its parent closes its standard input, and its copies end with it.
 
-Copies requested before the warm-up are made before it, because it may take a minute. Modules that are seldom needed are
+Copies requested before the warm-up are made before it, because the warm-up may take a minute. Seldom needed modules are
 loaded once a copy has needed one, so that later copies share them.
 """
 
@@ -27,13 +27,13 @@ from typing import Any, NoReturn
 from gelenk.processes.pages import release_code
 
 LOADED = "gelenk.preload"
-"""What is imported first.
+"""Name of the module that is imported first.
 
-Its function `warm_up` computes one of everything, `is_compiled` says whether nothing is left for other processes to
-compile, and `load` imports. `basics` computes what most requests need, and each of `PARTS` a share of the rest.
+Its function `warm_up` runs every computation once, `is_compiled` checks whether other processes have nothing left to
+compile, and `load` imports a module. `basics` compiles what most requests need, and each of `PARTS` part of the rest.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
-"""Modules that only pictures and worked solutions need: they take 50 MB, and half a second when first needed."""
+"""Modules that only pictures and worked solutions need: they take 50 MB, and half a second to load."""
 COPY, WARM_UP, LOAD = b"c", b"w", b"l"
 NUMBER = struct.Struct("!i")
 
@@ -43,10 +43,10 @@ logger = logging.getLogger("gelenk")
 
 
 def main(control: int) -> None:
-    """Load everything, then serve requests until the end.
+    """Import everything, then serve requests until the parent ends.
 
     Args:
-        control: File descriptor of the socket on which requests come.
+        control: File descriptor of the socket that requests come from.
     """
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, signal.SIG_IGN)
@@ -56,11 +56,11 @@ def main(control: int) -> None:
 
 
 class Original:
-    """Copies this process; it must have no other thread.
+    """The fork server in its own process, which must have only one thread.
 
     Args:
-        control: Where requests come from.
-        loaded: What `LOADED` names.
+        control: Socket that requests come from.
+        loaded: Module that `LOADED` names.
     """
 
     def __init__(self, control: socket.socket, loaded: Any) -> None:
@@ -73,7 +73,7 @@ class Original:
         self._goes_on = True
 
     def run(self) -> None:
-        """Serve requests until no requester is left."""
+        """Serve requests until the parent closes the standard input."""
         self._wakes.setblocking(False)
         signal.set_wakeup_fd(self._wakes.fileno())
         signal.signal(signal.SIGCHLD, lambda *_: None)
@@ -91,7 +91,7 @@ class Original:
         self._goes_on = False
 
     def _take(self) -> None:
-        """Take a request."""
+        """Receive a request and serve it."""
         content, descriptors, _, _ = socket.recv_fds(self._control, 1, 2)
         if content == WARM_UP:
             self._get_warm(socket.socket(fileno=descriptors[0]))
@@ -102,19 +102,19 @@ class Original:
                 self._try(module, partial(self._loaded.load, module))
 
     def _get_warm(self, asker: socket.socket) -> None:
-        """Load what takes long; closing its socket tells the requester that this is done."""
+        """Load the kernels, then close the requester's socket to report that."""
         if not self._compilers and (self._loaded.is_compiled() or not self._compile_apart(self._loaded.basics)):
             self._try("the kernels", self._loaded.warm_up)
             release_code()
             asker.close()
             return
         if not self._askers:
-            # A request for a copy waits until what most requests need is there.
+            # Requests for copies wait until the basics are compiled and loaded.
             self._selector.unregister(self._control)
         self._askers.append(asker)
 
     def _compile_apart(self, compute: Callable[[], None]) -> bool:
-        """Let a separate process compile: the gigabyte that this takes is freed with it, here and in all copies."""
+        """Compile in a separate process, whose end frees the gigabyte needed; return False if it cannot be started."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -123,7 +123,7 @@ class Original:
             return False
         if pid == 0:
             _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
-            if os.getppid() == parent:  # else it has ended before that could be said
+            if os.getppid() == parent:  # otherwise the parent ended before the signal was set
                 _name("compiler")
                 self._try("the kernels", compute)
             os._exit(0)
@@ -131,7 +131,7 @@ class Original:
         return True
 
     def _go_on(self) -> None:
-        """Load what was compiled: first the basics, then, when compilers have made the parts, all."""
+        """Load what was compiled: first the basics, then everything, once other processes have compiled the parts."""
         if self._control not in self._selector.get_map():
             self._try("the kernels", self._loaded.basics)
             self._selector.register(self._control, selectors.EVENT_READ, self._take)
@@ -150,7 +150,7 @@ class Original:
             logger.exception("could not be loaded: %s", what)
 
     def _copy(self, way: int, lifeline: socket.socket) -> None:
-        """Make a copy; if that fails, its lifeline just closes."""
+        """Fork a copy; if that fails, only close its lifeline."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -168,11 +168,11 @@ class Original:
         self._tell(lifeline, pid)
 
     def _become(self, way: int, parent: int) -> NoReturn:
-        """Do what the other end of the connection requests, and end."""
+        """Run, in the copy, the function that comes over its connection, then exit."""
         code = 1
         try:
             _set(_PR_SET_PDEATHSIG, signal.SIGKILL)
-            if os.getppid() == parent:  # else it has ended before that could be said
+            if os.getppid() == parent:  # otherwise the parent ended before the signal was set
                 self._forget()
                 connection = Connection(way)
                 name, target = connection.recv()
@@ -182,7 +182,7 @@ class Original:
         except SystemExit as error:
             code = error.code if isinstance(error.code, int) else 1
         except (EOFError, OSError):
-            code = 0  # nobody is there any more
+            code = 0  # the requester is gone
         except BaseException:
             logger.exception("a process has failed")
         finally:
@@ -192,7 +192,7 @@ class Original:
             os._exit(code)
 
     def _forget(self) -> None:
-        """Release, in a copy, what only the original needs."""
+        """Release, in a copy, what only the fork server needs."""
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         self._selector.close()
@@ -203,13 +203,13 @@ class Original:
         os.close(nothing)
 
     def _let_go(self, pid: int) -> None:
-        """End a copy whose lifeline was closed; `_reap` reports that if anyone still listens."""
-        if pid in self._lifelines:  # else it was reaped in this very turn
+        """Kill a copy whose lifeline was closed; `_reap` then collects it."""
+        if pid in self._lifelines:  # otherwise it was just reaped
             self._selector.unregister(self._lifelines[pid])
             os.kill(pid, signal.SIGKILL)
 
     def _reap(self) -> None:
-        """Report the copies that have ended."""
+        """Collect the processes that have ended, and report the exit codes of copies."""
         self._woken.recv(4096)
         while self._lifelines or self._compilers:
             pid, status = os.waitpid(-1, os.WNOHANG)
@@ -233,11 +233,11 @@ class Original:
 
 
 def _name(name: str) -> None:
-    """Say what this process is; at most eight letters."""
+    """Name this process `gelenk-` and the given name, which has at most eight letters."""
     _set(_PR_SET_NAME, f"gelenk-{name}".encode("ascii"))
 
 
 def _set(what: int, value: object) -> None:
-    """Tell the system something about this process, where it takes that."""
+    """Set an attribute of this process by `prctl`, on Linux only."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(what, value)

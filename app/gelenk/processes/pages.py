@@ -1,4 +1,4 @@
-"""Memory that libraries take in a process that has loaded them."""
+"""Returns memory that libraries take in a process and no longer need."""
 
 import ctypes
 import re
@@ -10,9 +10,9 @@ _MAPPING = re.compile(r"([0-9a-f]+)-([0-9a-f]+) (r-[x-]p) \S+ \S+ \S+ +/")
 
 
 def release_code() -> None:
-    """Return the memory of library code, 80 MB of which only loading the kernels needed; code that runs is read again.
+    """Return the memory of library code to the system; only loading the kernels needed 80 MB of it.
 
-    Only pages equal to their file are returned, so nothing is lost. On other systems than Linux nothing happens.
+    Only pages equal to their file are returned: code that runs again is read from it. Only Linux supports this.
     """
     try:
         mappings = Path("/proc/self/smaps").read_text()
@@ -24,7 +24,7 @@ def release_code() -> None:
 
 
 def _unchanged_code(mappings: str) -> Iterator[tuple[int, int]]:
-    """Address ranges mapped read-only from files that have no changed page."""
+    """Yield the address ranges that are mapped read-only from files and contain no changed page."""
     found: tuple[int, int] | None = None
     for line in mappings.splitlines():
         if match := _MAPPING.match(line):

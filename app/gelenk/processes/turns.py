@@ -1,4 +1,4 @@
-"""Whose turn it is, where clients share a number of places: processes, or jobs that run at a time."""
+"""A fair queue for clients that share a number of places, such as processes or concurrent jobs."""
 
 import time
 from collections import Counter, deque
@@ -9,23 +9,23 @@ from typing import Generic, TypeVar
 _Turn = TypeVar("_Turn")
 
 _PRESENT_SECONDS = 2.0
-"""A client counts as present for so long after its last turn."""
+"""How long a client counts as present after it last queued or returned a place, [s]."""
 
 
 class Turns(Generic[_Turn]):
-    """A queue for each client, and how many places each one holds.
+    """A queue for each client, and the number of places that each client holds.
 
-    Turns go round the clients: between two turns of one client each other waiting client has one. A single client has
-    all places; beside others it takes more than half of them only if one is left for these. If all places are taken, a
-    client that has none gets an extra one, up to half as many more: running work is not interrupted for others.
+    Clients take turns: between two turns of one client, each other waiting client has one. A single client may use all
+    places; beside others, it may hold more than half of them only if it leaves one free. If all places are taken, a
+    client without one gets an extra place, up to half the size in total, because running work is never interrupted.
 
     Args:
-        size: How many places there are.
+        size: Number of places.
     """
 
     def __init__(self, size: int) -> None:
         self.size, self.half = size, max(1, size // 2)
-        self._queues: dict[str, deque[_Turn]] = {}  # in the order in which their next turns come
+        self._queues: dict[str, deque[_Turn]] = {}  # in the order of their next turns
         self._held: Counter[str] = Counter()
         self._seen: dict[str, float] = {}
 
@@ -36,12 +36,12 @@ class Turns(Generic[_Turn]):
         return chain.from_iterable(self._queues.values())
 
     def add(self, client: str, turn: _Turn) -> None:
-        """Wait, behind what the client has waiting already."""
+        """Add an item to the end of the client's queue."""
         self._queues.setdefault(client, deque()).append(turn)
         self._seen[client] = time.monotonic()
 
     def remove(self, client: str, turn: _Turn) -> bool:
-        """Stop waiting; False if it did not wait."""
+        """Remove an item from the client's queue; return False if it is not there."""
         queue = self._queues.get(client)
         if queue is None or turn not in queue:
             return False
@@ -51,7 +51,7 @@ class Turns(Generic[_Turn]):
         return True
 
     def take(self) -> tuple[str, _Turn] | None:
-        """The next item to get a place, and its client; None if none may."""
+        """Give a place to the next item and return it with its client; return None if no item may have one."""
         client = next(filter(self.has_room, self._queues), None)
         if client is None:
             return None
@@ -63,18 +63,18 @@ class Turns(Generic[_Turn]):
         return client, turn
 
     def give_back(self, client: str) -> None:
-        """A client needs a place no longer."""
+        """Return a place that a client no longer needs."""
         self._held[client] -= 1
-        self._held += Counter()  # drops those that have none
+        self._held += Counter()  # drops clients without places
         now = time.monotonic()
         self._seen = {one: seen for one, seen in self._seen.items() if seen > now - _PRESENT_SECONDS} | {client: now}
 
     def is_beyond(self, client: str) -> bool:
-        """Whether a client would have a place beyond their number."""
+        """Check whether all places are taken and the client may have an extra one."""
         return self._held.total() >= self.size and self.has_room(client)
 
     def has_room(self, client: str) -> bool:
-        """Whether a client may have a place, or one more."""
+        """Check whether a client may have another place."""
         own, taken = self._held[client], self._held.total()
         if own == 0 or taken >= self.size:
             return own == 0 and taken < self.size + self.half

@@ -1,5 +1,5 @@
-"""Requests that a worker process answers.
+"""Runs requests in worker processes.
 
 - `pool_client`: sends requests to the worker pool; `blocking_pool_client`: the same for code outside coroutines.
-- `task`: what a worker runs; `context`: the robots and limits it uses. `places`: turns among costly requests.
+- `task`: runs in a worker; `context`: its robots and limits. `fair_semaphore`: lets costly requests take turns.
 """

@@ -14,7 +14,7 @@ _Result = TypeVar("_Result")
 
 
 class BlockingPoolClient:
-    """Runs functions in the worker pool for one request; create it and end it on the event loop.
+    """Runs functions in the worker pool for one request; create and end it on the event loop.
 
     Args:
         pool: Worker pool that runs them.
@@ -31,12 +31,12 @@ class BlockingPoolClient:
         """Run a function in a worker and return its result. Call it from one thread at a time, not the event loop's.
 
         Args:
-            function: Function of a module, with an argument and a result that can be sent to another process.
+            function: Module-level function; its argument and its result must be picklable.
             argument: Argument of the function.
             seconds: Longest wait for a worker and the result together, [s].
 
         Raises:
-            TimeoutError: The result takes longer.
+            TimeoutError: The result does not come in time.
             ChildProcessError: The worker died, or the result is no longer needed.
             KinematicsError: The pool accepts no more calls, as for `WorkerPool.run`.
             Exception: Whatever the function raises.

@@ -9,7 +9,7 @@ from gelenk.store.library import Library, Quota
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What a process needs to answer requests.
+    """Robots and limits that a process needs to answer requests.
 
     Attributes:
         library: All robots.
@@ -26,9 +26,9 @@ class ContextSetup:
 
     Attributes:
         catalogue: Folder of the robots that come with the project.
-        uploads: Folder of all other robots.
+        uploads: Folder of the uploaded robots.
         limits: Limits on the work for an answer.
-        quota: What one client may store.
+        quota: Limits on what one client may store.
     """
 
     catalogue: Path
@@ -41,5 +41,5 @@ class ContextSetup:
         return Library(self.catalogue, self.uploads, self.quota)
 
     def context(self) -> Context:
-        """Set up what a process needs to answer requests."""
+        """Open the library and return it with the limits."""
         return Context(self.library(), self.limits)

@@ -1,4 +1,4 @@
-"""A semaphore of an event loop on which clients take turns."""
+"""An asyncio semaphore for which clients take turns."""
 
 import asyncio
 from collections.abc import AsyncIterator
@@ -8,10 +8,10 @@ from gelenk.processes.turns import Turns
 
 
 class FairSemaphore:
-    """A limited number of places; belongs to one event loop.
+    """Semaphore that gives its places to clients in turn; belongs to one event loop.
 
     Args:
-        size: Number of places; see `Turns` for when there are more.
+        size: Number of places; `Turns` explains when there are more.
     """
 
     def __init__(self, size: int) -> None:
@@ -19,7 +19,7 @@ class FairSemaphore:
 
     @asynccontextmanager
     async def taken(self, client: str) -> AsyncIterator[None]:
-        """Hold a place while the context is open; wait for the client's turn first."""
+        """Wait for the client's turn, then hold a place while the context is open."""
         turn: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._turns.add(client, turn)
         try:

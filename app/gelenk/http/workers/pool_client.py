@@ -1,4 +1,4 @@
-"""Sends requests to the worker pool, with a deadline and for as long as the client waits for the response."""
+"""Sends requests to the worker pool, with a deadline; a request is cancelled when its client disconnects."""
 
 import asyncio
 from collections import Counter
@@ -18,13 +18,13 @@ from gelenk.store.library import Library
 from gelenk.store.records import LoadedRobot
 
 INLINE_BYTES = 4096
-"""Larger bodies are parsed by the pool: the event loop does nothing that takes longer than about 2 ms.
+"""Size of the largest body that the event loop parses: it does nothing that takes longer than about 2 ms.
 
-So it compiles nothing either: while the pool is starting, every request goes to the pool.
+For the same reason it compiles nothing: while the pool is starting, every request goes to the pool.
 """
 
 PARSED_HERE_BYTES = 512 * 1024
-"""Size of the largest body that a thread of this process parses: parsing holds up the event loop."""
+"""Size of the largest body that a thread of this process parses, [bytes]: parsing delays the event loop."""
 
 _OWN_ADDRESSES = frozenset({"127.0.0.1", "::1"})
 
@@ -37,8 +37,8 @@ class PoolClient:
     Args:
         pool: Worker pool.
         setup: Settings for the contexts of the workers.
-        library: Robots of this process.
-        seconds: Longest wait of a request for its turn, and longest time that it may then take, [s].
+        library: Library of robots of this process.
+        seconds: Longest wait of a request for a worker, and longest run time, [s].
         share: Maximum number of requests of one client that wait or run.
     """
 
@@ -51,7 +51,7 @@ class PoolClient:
         """Run a task in a worker and return its response.
 
         Raises:
-            ClientDisconnect: The client has left; the task is cancelled.
+            ClientDisconnect: The client has disconnected, which cancels the task.
             KinematicsError: As for `WorkerPool.run`, and whatever the task raises.
         """
         reply = await self._reply(request, task, task_request)
@@ -59,11 +59,11 @@ class PoolClient:
         return Passed(reply)
 
     async def content(self, request: Request, task: WorkerTask, task_request: TaskRequest) -> bytes:
-        """Run a task in a worker and return the body of its response; raises as `answer` does."""
+        """Run a task in a worker and return the body of its response; raise the same errors as `answer`."""
         return b"".join((await self._reply(request, task, task_request))[2])
 
     async def resident(self, request: Request, name: str) -> LoadedRobot:
-        """Load a robot into this process, for quick calls; a worker loads an uploaded one first, in case that crashes.
+        """Load a robot into this process, for quick calls; if it was uploaded, a worker tries first, as it may crash.
 
         Raises:
             KinematicsError: As for `answer`, and as for `Library.get`.
@@ -91,10 +91,10 @@ class PoolClient:
 
 
 def client_of(request: Request) -> str:
-    """Return the client of a request: its key, else its address.
+    """Return the client of a request: its key or, without a key, its address.
 
-    All requests without a key from this machine count as one nameless client without a share of its own, because a
-    proxy in front of the service may forward requests of others.
+    All requests without a key from this machine count as one nameless client without a maximum share, because a proxy
+    in front of the service may forward requests of many clients.
     """
     key: str | None = request.scope.get("gelenk.key")
     if key is not None:
@@ -104,17 +104,17 @@ def client_of(request: Request) -> str:
 
 
 def load(context: Context, task_request: TaskRequest) -> Response:
-    """Load a robot, to check that it can be loaded."""
+    """Load a robot in a worker, to check that this is possible; the response is empty."""
     context.library.get(task_request.robot)
     return Response()
 
 
 async def while_wanted(receive: Receive, work: Coroutine[Any, Any, _Result]) -> _Result:
-    """Return the result of some work, which is cancelled if the client leaves.
+    """Await work and return its result; cancel the work if the client disconnects.
 
     Raises:
-        ClientDisconnect: The client has left.
-        ServiceStopping: The server has cancelled the work because it can delay its shutdown no longer.
+        ClientDisconnect: The client has disconnected.
+        ServiceStopping: The server has cancelled the work because its shutdown can wait no longer.
         Exception: Whatever the work raises.
     """
     doing, leaving = asyncio.ensure_future(work), asyncio.ensure_future(_left(receive))
@@ -150,5 +150,5 @@ class Passed(Response):
         self._pieces.clear()
         while pieces:
             await send({"type": "http.response.body", "body": pieces.pop(), "more_body": bool(pieces)})
-            if pieces:  # sending does not wait as long as the system accepts data
+            if pieces:  # `send` does not yield while the system accepts data
                 await asyncio.sleep(0)

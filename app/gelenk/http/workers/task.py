@@ -1,6 +1,6 @@
-"""Tasks for the worker pool: a whole request, and the function that answers it there.
+"""Tasks for the worker pool: each is a function that answers a whole request in a worker process.
 
-A task is a function of a module, because it is sent by name.
+It must be a module-level function, because it is sent by name.
 """
 
 from collections.abc import Callable, Sequence
@@ -19,13 +19,13 @@ from gelenk.pool.wire import pieces_of
 
 @dataclass(frozen=True, slots=True)
 class TaskRequest:
-    """The parts of a request that an answer depends on.
+    """Parts of a request that its answer depends on.
 
     Attributes:
-        pieces: The body in the pieces that it arrived in.
-        robot: Robot that the path names, if any.
-        query: The query string.
-        npy: Whether the body is an array.
+        pieces: Body, in the pieces in which it arrived.
+        robot: Name of the robot in the path, or empty.
+        query: Query string of the URL.
+        npy: Whether the body is an array in the NPY format.
         wanted: Media type of the answer.
         endpoint: Name of the operation, if it is in the table of endpoints.
     """
@@ -39,22 +39,22 @@ class TaskRequest:
 
     @property
     def body(self) -> bytes:
-        """The whole body."""
+        """Body as one byte string."""
         return b"".join(self.pieces)
 
 
 def buffers(pieces: Sequence[bytes]) -> list[PickleBuffer]:
-    """Wrap a body, so that it is sent without being copied."""
+    """Wrap the pieces of a body so that they are sent without being copied."""
     return [PickleBuffer(piece) for piece in pieces]
 
 
 WorkerTask: TypeAlias = Callable[[Context, TaskRequest], Response]
 Reply: TypeAlias = tuple[int, list[tuple[bytes, bytes]], list[PickleBuffer], RequestCounts | None]
-"""Status, headers, the body in pieces, and what the metrics count."""
+"""Status code, headers, body in pieces, and counts for the metrics."""
 
 
 def answered(order: tuple[ContextSetup, WorkerTask, TaskRequest]) -> Reply:
-    """Run a task in a worker process."""
+    """Run a task in this worker process and return the parts of its response."""
     setup, task, task_request = order
     REQUEST_COUNTS.set(None)
     response = task(_context(setup), task_request)
