@@ -274,7 +274,7 @@ class _Seat:
         return None if process is None else process.pid
 
     def start(self) -> None:
-        """Replace the process by a new one; this blocks for milliseconds, the first time for seconds.
+        """Replace the process with a new one; this blocks for milliseconds, the first time for seconds.
 
         Raises:
             ChildProcessError: No process could be started.
