@@ -22,9 +22,9 @@ from gelenk.store import folders
 
 NAMED = "SELECT * FROM jobs WHERE id = ?"
 _FILES = "jobs.sqlite", "jobs.sqlite-wal", "jobs.sqlite-shm", "jobs.sqlite-journal"
-"""The file, and those that SQLite keeps beside it."""
+"""Names of the file, and of those that SQLite keeps beside it."""
 _BUSY_SECONDS = 20.0
-"""How long to wait for a transaction of another process, which takes milliseconds, [s]."""
+"""Longest wait for a transaction of another process, which normally takes milliseconds, [s]."""
 _TABLE = """
 CREATE TABLE IF NOT EXISTS jobs (
     number INTEGER PRIMARY KEY, id TEXT NOT NULL UNIQUE, kind TEXT NOT NULL, digest TEXT NOT NULL, owner TEXT NOT NULL,
@@ -39,7 +39,7 @@ INSERT OR REPLACE INTO jobs VALUES (
 )
 """
 _ERRORS = sqlite3.Error, TypeError, ValueError
-"""SQLite's errors, and Python's about values and messages that damage has made unreadable."""
+"""Errors of SQLite, and of Python if damage has made values or messages unreadable."""
 _DAMAGE = {sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR}
 
 logger = logging.getLogger("gelenk")
@@ -49,7 +49,7 @@ class Database:
     """The table of jobs; safe to use from many threads and processes.
 
     Args:
-        folder: Of the file and its lock; made when first written to.
+        folder: Folder of the file and its lock; created on the first write.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -66,10 +66,10 @@ class Database:
             self._connection = None
 
     def read(self, query: str, *values: str) -> list[JobRecord]:
-        """Return the jobs that a SELECT finds; `values` are those of its question marks.
+        """Return the jobs that a SELECT finds; `values` replace its question marks.
 
         Raises:
-            StorageFailed: It cannot be read.
+            StorageFailed: The file cannot be read.
         """
         if _inode(self._path) is None:
             return []
@@ -85,10 +85,10 @@ class Database:
         """Run the context as one transaction, which excludes all other writers.
 
         Args:
-            is_durable: Whether it is on disk when the context ends; otherwise the system decides when.
+            is_durable: Whether the changes are on disk when the context ends; otherwise the system decides when.
 
         Raises:
-            StorageFailed: It cannot be written; `StorageFull` if there is no room.
+            StorageFailed: The file cannot be written; `StorageFull` if the disk has no room.
         """
         with self._lock, self._translating():
             connection = self._open()
@@ -98,15 +98,15 @@ class Database:
                 yield
 
     def put(self, job: JobRecord) -> JobRecord:
-        """Within a transaction, insert a job or replace the one of its name; a new job gets its number."""
+        """Insert a job within a transaction, or replace the one with its id; return it with its number."""
         return replace(job, number=self._open().execute(_PUT, job.to_row()).lastrowid or 0)
 
     def delete(self, job_id: str) -> None:
-        """Within a transaction, delete a job."""
+        """Delete a job within a transaction."""
         self._open().execute("DELETE FROM jobs WHERE id = ?", (job_id,))
 
     def _open(self) -> sqlite3.Connection:
-        """Return a connection to the file, which is created if missing; it may have been removed or moved meanwhile."""
+        """Return a connection to the file; create the file if missing, and reopen it if it was removed or moved."""
         if self._connection is not None and self._inode == _inode(self._path):
             return self._connection
         self.close()
@@ -145,14 +145,14 @@ class Database:
         return sqlite3.connect(f"{self._path.absolute().as_uri()}?{how}", uri=True)
 
     def _check_plain(self) -> None:
-        """Raise an error if a pipe, a link or the like is in the place of a file: SQLite might wait for it."""
+        """Raise an error if a pipe, a link or the like replaces one of the files: SQLite might block on it."""
         for name in _FILES:
             with suppress(FileNotFoundError):
                 if not stat.S_ISREG((self._folder / name).lstat().st_mode):
                     raise sqlite3.DatabaseError(f"{name} is not a plain file")
 
     def _set_aside(self, error: Exception) -> None:
-        """Move the files into a folder of their own; other processes that have them open notice, see `_open`."""
+        """Move the files into a new folder; other processes that have them open notice this in `_open`."""
         aside = self._folder / f"damaged-{uuid.uuid4().hex}"
         logger.warning("the jobs in %s are lost, and the file is moved to %s: %s", self._path, aside, error)
         aside.mkdir()
@@ -162,14 +162,14 @@ class Database:
 
     @contextmanager
     def _translating(self) -> Iterator[None]:
-        """Turn SQLite's errors into ours, and close the file: the next use opens it again and checks it for damage."""
+        """Convert errors to `StorageFailed` and close the file: the next use reopens it and checks it for damage."""
         try:
             yield
         except _ERRORS as error:
             self.close()
             if _code(error) == sqlite3.SQLITE_FULL:
                 raise StorageFull(os.strerror(errno.ENOSPC)) from error
-            folders.probe(self._folder)  # the system says more of what is wrong with the disk
+            folders.probe(self._folder)  # raises the system's more specific error if the disk is at fault
             raise StorageFailed(str(error)) from error
 
 
@@ -180,12 +180,12 @@ def _jobs(connection: sqlite3.Connection, query: str, values: tuple[str, ...]) -
 
 
 def _code(error: Exception) -> int:
-    """Return SQLite's code of an error; an error of ours or of Python means damage."""
+    """Return SQLite's primary code of an error; an error without a code means damage."""
     return getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF
 
 
 def _inode(path: Path) -> int | None:
-    """Return the inode of a file, which a later file of the same name does not share; None if there is none."""
+    """Return the inode of a file, which differs from that of its replacement; None if the file is missing."""
     try:
         return path.lstat().st_ino
     except (FileNotFoundError, NotADirectoryError):

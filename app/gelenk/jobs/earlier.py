@@ -1,4 +1,4 @@
-"""Imports the jobs of earlier versions, which kept each in a file `job.json` of its folder."""
+"""Import of jobs from earlier versions, which kept the record of each job in a file `job.json` in its folder."""
 
 from contextlib import suppress
 from dataclasses import replace
@@ -14,12 +14,12 @@ _FILE = "job.json"
 
 
 def import_earlier(root: Path, database: Database) -> None:
-    """Move the jobs below a folder into the table; requests, parts and results stay where they are."""
+    """Move the records of the jobs below a folder into the table; requests, parts and results stay where they are."""
     jobs = [job for path in root.glob(f"*/{_FILE}") if (job := _read(path)) is not None]
     if jobs:
         with database.transaction():
             for job in sorted(jobs, key=lambda job: (job.number, job.created)):
-                if not database.read(NAMED, job.id):  # else its file was to be removed, and the machine stopped
+                if not database.read(NAMED, job.id):  # else an earlier import ended before it removed the file
                     database.put(replace(job, number=0))
     for job in jobs:
         folders.sweep(root / job.id)
@@ -27,7 +27,7 @@ def import_earlier(root: Path, database: Database) -> None:
 
 
 def _read(path: Path) -> JobRecord | None:
-    """Return the job of a file; None if it has none."""
+    """Return the job in a file; None if the file holds no valid job."""
     with suppress(OSError, ValueError, TypeError, KeyError):
         row = orjson.loads(folders.read_plain(path))
         job = JobRecord.from_row({**row, "failure": row["failure"] and orjson.dumps(row["failure"])})

@@ -1,4 +1,4 @@
-"""What a job is, from its beginning to its end."""
+"""The record of a job, and why it failed, in forms that can be stored."""
 
 import dataclasses
 from dataclasses import asdict, dataclass, field, replace
@@ -12,17 +12,17 @@ from gelenk.errors import JobFailed, KinematicsError
 State: TypeAlias = Literal["queued", "running", "succeeded", "failed", "cancelled"]
 
 FINAL: frozenset[State] = frozenset({"succeeded", "failed", "cancelled"})
-"""States that never change again."""
+"""States that a job never leaves."""
 
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why a job failed, as it can be kept on disk.
+    """The error with which a job failed, in a form that can be stored.
 
     Attributes:
-        error: Name of the class of the error.
-        detail: Its sentence.
-        facts: Its typed data.
+        error: Class name of the error.
+        detail: Message of the error.
+        facts: Typed fields of the error, by name.
     """
 
     error: str
@@ -31,11 +31,11 @@ class Failure:
 
     @classmethod
     def of(cls, error: KinematicsError) -> "Failure":
-        """Keep an error."""
+        """Create the failure of an error."""
         return cls(type(error).__name__, error.detail, error.facts())
 
     def error_again(self) -> KinematicsError:
-        """The error as it was raised; only its sentence if its class no longer exists."""
+        """Return the original error; a `JobFailed` with its message if its class or fields no longer exist."""
         cls = getattr(errors, self.error, None)
         if isinstance(cls, type) and issubclass(cls, KinematicsError):
             names = {entry.name for entry in dataclasses.fields(cls)}
@@ -45,29 +45,29 @@ class Failure:
 
     @classmethod
     def because(cls, reason: str) -> "Failure":
-        """A failure that no error of the core explains."""
+        """Create the failure of a `JobFailed` with a reason, where the core has no error."""
         return cls.of(JobFailed(reason))
 
 
 @dataclass(frozen=True, slots=True)
 class JobRecord:
-    """A job.
+    """The stored record of a job.
 
     Attributes:
-        id: Its name.
-        kind: What it computes.
-        digest: Of the request, which tells whether another one of the same name is the same.
-        owner: Which process of the service does it.
-        created: When it was submitted, [s] since 1970.
-        state: Where it is.
-        progress: From 0 to 1.
-        started: When it was started, [s] since 1970.
-        finished: When it came to a final state, likewise.
-        failure: Why it failed, where it did.
-        attempts: How often it was started without getting further than the time before.
-        robot_digest: SHA-256 of the description of the robot that it is about.
-        number: Its place among all jobs in the order in which they came, from 1 on: clocks are set, also back.
-        client: The client that requested it; empty where clients are not distinguished.
+        id: Unique id, chosen by the client or random.
+        kind: Kind of computation.
+        digest: Digest of the request, to recognize a repeated request with the same id.
+        owner: Name of the process of the service that runs the job, see `Owners`.
+        created: Time of submission, [s] since 1970.
+        state: Current state.
+        progress: Completed share, from 0 to 1.
+        started: Time of the first start, [s] since 1970.
+        finished: Time at which it reached a final state, [s] since 1970.
+        failure: The error, if the job failed.
+        attempts: Number of starts, counted from the last one that made progress.
+        robot_digest: SHA-256 of the URDF of the job's robot, if it has one.
+        number: Position in the order of submission, from 1; times cannot give it, because clocks can be set back.
+        client: Client that submitted the job; empty if clients are not distinguished.
     """
 
     id: str
@@ -87,7 +87,7 @@ class JobRecord:
 
     @property
     def is_final(self) -> bool:
-        """Whether it will never change again."""
+        """Whether the state is final."""
         return self.state in FINAL
 
     def to_row(self) -> dict[str, Any]:
@@ -97,6 +97,6 @@ class JobRecord:
 
     @classmethod
     def from_row(cls, row: dict[str, Any]) -> "JobRecord":
-        """Return the job of a row made by `to_row`; any other row raises TypeError or ValueError."""
+        """Create the job from a row made by `to_row`; any other row raises TypeError or ValueError."""
         job = cls(**row)
         return job if job.failure is None else replace(job, failure=Failure(**orjson.loads(row["failure"])))

@@ -1,9 +1,9 @@
-"""The finished parts of a job, beside its request in its folder: what it need not do again after a restart.
+"""The finished parts of a job, in its folder, so that the job does not compute them again after a restart.
 
-A part is one file, whose name has a digest of the request: a process that still computes one of a job that was removed
-leaves it to no other job of that name. It has a digest before its content, written beside and renamed: a kill at any
-moment leaves all of it or nothing. It is not synced, which would cost more than many a part; where the machine itself
-has lost one, or a half of it, the digest tells, and the part is computed again.
+A part is one file. Its name contains a digest of the request, so that a part of a removed job, computed too late, does
+not end up in a new job of the same name. The file is written beside its target and renamed: a kill at any moment leaves
+all of it or nothing. It is not synced, which would take longer than computing many a part. Instead it starts with a
+digest of its content, which reveals what a crash of the machine has damaged; such a part is computed again.
 """
 
 import hashlib
@@ -23,19 +23,19 @@ _PREFIX = "part-"
 _BESIDE = ".part-"
 _DIGEST = 32
 _KEY = 16
-"""Of the digest of a request, in the names of its parts."""
+"""Number of characters of the request's digest in the names of its parts."""
 
 
 class Parts:
-    """Parts by name; each to be written to by one thread or process at a time.
+    """The finished parts of a job by name; only one thread or process at a time may write the same part.
 
     Args:
-        folder: The job's.
-        digest: Of its request.
-        most_bytes: How much all of them may take.
+        folder: Folder of the job.
+        digest: Digest of the job's request.
+        most_bytes: Largest allowed size of all parts, [bytes].
 
     Attributes:
-        bytes: How much they take: those that were there, and those that are counted since.
+        bytes: Size of all parts, [bytes]: those found at first, and those that the caller has added since.
     """
 
     def __init__(self, folder: Path, digest: str, most_bytes: int) -> None:
@@ -46,7 +46,7 @@ class Parts:
         self.bytes = sum(path.stat().st_size for path in folder.glob(f"{_PREFIX}*"))
 
     def read(self, name: str) -> bytes | None:
-        """A part; None where it is not there as a whole."""
+        """Return the content of a part; None if it is missing or damaged."""
         try:
             content = folders.read_plain(self.folder / f"{self._prefix}{name}")
         except FileNotFoundError:
@@ -55,10 +55,10 @@ class Parts:
         return content if digest == _digest(content) else None
 
     def of(self, stage: str, count: int) -> Iterator[bytes]:
-        """The parts of a stage in their order, all of which have been kept.
+        """Yield the parts of a finished stage in order.
 
         Raises:
-            FileNotFoundError: One of them no longer exists.
+            FileNotFoundError: A part is missing or damaged.
         """
         for k in range(count):
             part = self.read(f"{stage}-{k}")
@@ -67,15 +67,15 @@ class Parts:
             yield part
 
     def write(self, name: str, content: bytes) -> int:
-        """Keep a part.
+        """Write a part.
 
         Returns:
-            How much more they take now, to be added to `bytes` in the process that counts.
+            Size of its file, [bytes], which the process that counts must add to `bytes`.
 
         Raises:
-            TooLarge: All of them would take too much.
-            UnknownJob: The job was removed meanwhile.
-            StorageFailed: The disk does not take it.
+            TooLarge: The parts would exceed `most_bytes`.
+            UnknownJob: The job has been removed.
+            StorageFailed: The disk cannot store the part.
         """
         if self.bytes + _DIGEST + len(content) > self._most_bytes:
             raise TooLarge("bytes of the parts of a job", self.bytes + len(content), self._most_bytes)
@@ -94,14 +94,14 @@ class Parts:
         return _DIGEST + len(content)
 
     def clear(self) -> None:
-        """Remove all of them."""
+        """Remove all parts."""
         for path in self.folder.glob(f"{_PREFIX}*"):
             path.unlink(missing_ok=True)
         self.bytes = 0
 
 
 def computed(job: tuple[Callable[[Any], bytes], Any, Parts, str]) -> int:
-    """Compute a part by a function and its argument, and keep it under a name; see `Parts.write`."""
+    """Compute a part, given as (function, argument, parts, name), and write it; see `Parts.write`."""
     function, argument, parts, name = job
     return parts.write(name, function(argument))
 
@@ -111,13 +111,13 @@ def _digest(content: bytes) -> bytes:
 
 
 def packed(**arrays: Any) -> bytes:
-    """Return numbers and arrays of numbers by their names as bytes that hold no code; None is left out."""
+    """Pack named numbers and arrays of numbers, except None, into bytes that cannot contain code (npz)."""
     target = BytesIO()
     np.savez(target, allow_pickle=False, **{name: array for name, array in arrays.items() if array is not None})
     return target.getvalue()
 
 
 def unpacked(content: bytes) -> dict[str, NDArray[Any]]:
-    """Return the arrays that `packed` was given, to the last bit; a number is an array of shape ()."""
+    """Return the arrays packed by `packed`, bit for bit; a number becomes an array of shape ()."""
     with np.load(BytesIO(content), allow_pickle=False) as arrays:
         return dict(arrays)

@@ -1,4 +1,4 @@
-"""A job while it is done: its parts handed out, kept when they are finished, and never done twice."""
+"""A job while it runs: it hands out its parts, keeps the finished ones, and does not compute them again."""
 
 import time
 from collections import deque
@@ -20,46 +20,46 @@ _Result = TypeVar("_Result")
 _LOOK = 0.1
 """How often to check whether a job was cancelled, [s]."""
 _WRITE = 0.3
-"""How often to write how far a job is, [s]."""
+"""How often to write the progress of a job, [s]."""
 _AHEAD = 2
-"""Parts a process that are handed out at once: while one is computed the next one waits."""
+"""Number of parts handed out per process: the next one waits while one is computed."""
 
 Files: TypeAlias = Mapping[str, Callable[[IO[bytes]], object]]
-"""What a job leaves behind: what writes each file, by its name."""
+"""Result files of a job: for each file name, a function that writes the file."""
 
 
 class Executor(Protocol):
-    """Where parts are computed."""
+    """A place that computes parts: the processes of this machine, or a cluster."""
 
     @property
     def count(self) -> int:
-        """How many at once."""
+        """Number of parts that it computes at the same time."""
 
     @property
     def failure(self) -> str | None:
-        """Why none can be computed, where that is so."""
+        """Reason why it cannot compute parts now, or None."""
 
     def prepare(self) -> None:
-        """Be ready for parts, if that is possible now."""
+        """Become ready for parts, if that is possible now."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Compute a part; see `Workers.submit`. A cancelled part is not started, or is ended."""
+        """Submit a part; see `Workers.submit`. Cancelling the future keeps the part from starting, and may stop it."""
 
     def close(self) -> None:
-        """End whatever is under way; later parts are refused."""
+        """Stop all parts under way, and reject later ones."""
 
 
 @dataclass(eq=False)
 class Run:
-    """A job while it is done: hands out its parts, and says how far they are.
+    """A job while it runs: hands out its parts and reports its progress.
 
     Attributes:
-        job: As it was when it was started.
-        order: What its parts have in common.
-        executor: Computes them.
+        job: Record of the job when it was started.
+        order: Deadline and cancellation of its parts.
+        executor: Computes the parts.
         workers: The processes of this machine.
-        store: Where the job is kept.
-        parts: Those that are finished.
+        store: The store that contains the job.
+        parts: The finished parts.
     """
 
     job: JobRecord
@@ -82,23 +82,23 @@ class Run:
         span: tuple[float, float] = (0.0, 1.0),
         size: int = 1,
     ) -> None:
-        """Compute the parts of a stage, all that are not kept already; `parts.of` has them then.
+        """Compute the parts of a stage that are not on disk yet; afterwards, `parts.of` yields them all.
 
         Args:
-            stage: The name of the stage; a job has each but once.
-            function: Of a module, what computes a part; its result depends on the argument alone.
-            argument: Of each part, by its number.
-            count: How many parts there are.
-            span: From where to where the job's progress goes meanwhile.
-            size: What the stage is about comes so many a part; for the name of one that fails.
+            stage: Name of the stage, unique within the job.
+            function: Module-level function that computes a part; its result must depend on the argument alone.
+            argument: Returns the argument of a part, given the part's number.
+            count: Number of parts.
+            span: Progress of the job at the start and at the end of the stage.
+            size: Number of items per part, such as samples; used in the message about a failed part.
 
         Raises:
-            Cancelled: The job is no longer wanted.
-            OutOfTime: It has taken too long.
-            TooLarge: The parts take more room than a job may.
-            StorageFailed: A part cannot be kept.
-            JobFailed: The processes that computed a part have died.
-            Exception: Whatever the function raises.
+            Cancelled: The job was cancelled or removed.
+            OutOfTime: The job has exceeded its time limit.
+            TooLarge: The parts take more room than a job may use.
+            StorageFailed: A part cannot be written.
+            JobFailed: The processes that computed a part died.
+            Exception: Any exception of the function.
         """
         waiting: deque[Future[bytes | int] | None] = deque()
         try:
@@ -124,21 +124,21 @@ class Run:
                     part.cancel()
 
     def _submit(self, function: Callable[[_Argument], bytes], argument: _Argument, name: str) -> "Future[bytes | int]":
-        """A part that is handed out: where the disk is at hand it is written there, and only its size comes back."""
+        """Submit a part; processes of this machine write its result to disk and return only the size."""
         if self.executor is self.workers:
             return self.workers.submit(computed, (function, argument, self.parts, name), self.order)
         return self.executor.submit(function, argument, self.order)
 
     def apart(self, function: Callable[[_Argument], _Result], argument: _Argument) -> _Result:
-        """What a function of a module makes of its argument, in a process of this machine.
+        """Run a module-level function in a process of this machine, and return its result.
 
-        It has the disk, and it does not take turns with the event loop, as a thread of the service would.
+        The process has access to the disk and, unlike a thread of the service, does not delay the event loop.
 
         Raises:
-            Cancelled: The job is no longer wanted.
-            OutOfTime: It has taken too long.
-            JobFailed: The process has died.
-            Exception: Whatever the function raises.
+            Cancelled: The job was cancelled or removed.
+            OutOfTime: The job has exceeded its time limit.
+            JobFailed: The process died.
+            Exception: Any exception of the function.
         """
         future = self.workers.submit(function, argument, self.order)
         try:
@@ -148,10 +148,11 @@ class Run:
         return result
 
     def report(self, progress: float) -> None:
-        """Say how far the job is, and look whether it is still wanted.
+        """Report the progress of the job, and check from time to time whether the job may continue.
 
         Raises:
-            Cancelled: It is not.
+            Cancelled: The job was cancelled or removed.
+            OutOfTime: The job has exceeded its time limit.
         """
         self._progress = max(self._progress, progress)
         if time.monotonic() > self._looked + _LOOK:
@@ -176,7 +177,7 @@ class Run:
             raise OutOfTime
 
     def _news(self) -> dict[str, Any]:
-        """What to write of the job, from time to time; once it gets further, the attempts before do not count."""
+        """Return the fields to write, if it is time to; after progress, earlier attempts no longer count."""
         if self._looked < self._written + _WRITE:
             return {}
         self._written = self._looked

@@ -1,4 +1,4 @@
-"""Takes jobs in and up again, has them done part by part, and cancels them."""
+"""Accepts jobs, runs them part by part, resumes them after a restart, and cancels them."""
 
 import contextlib
 import logging
@@ -27,34 +27,34 @@ from gelenk.processes.turns import Turns
 
 _RENDERING_SECONDS = 60.0
 _LOOK_SECONDS = 0.5
-"""How often to check whether a job may start that waited for clients who have left, [s]."""
+"""How often to check whether a waiting job may start because other clients have left, [s]."""
 _GOODBYE_SECONDS = 2.0
-"""How long the jobs' threads are waited for at the end, [s]."""
+"""Longest wait for the threads of the jobs at shutdown, [s]."""
 _LOOK_FOR_LEFT = 5.0
-"""How often the jobs of processes that are gone are looked for, [s]."""
+"""How often to look for jobs of processes that have ended, [s]."""
 _ATTEMPTS = 3
-"""How often a job is started without progress: one that brings the service down does so at most this often."""
+"""How often a job may start without progress: a job that crashes the service does so at most this often."""
 
 logger = logging.getLogger("gelenk")
 
 Work: TypeAlias = Callable[[Run], Files]
-"""Does a job: all that it computes it hands out part by part."""
+"""Function that runs a job, handing out all computation as parts, and returns its result files."""
 
 Kind: TypeAlias = Callable[[Path], Work]
-"""What does a job of some kind, by the folder that its request is kept in: the same at any time, in any process."""
+"""Function that returns the work of a job, given the folder of its request; the same at any time, in any process."""
 
 
 class Runner:
-    """The jobs of this process of the service, and the results of all.
+    """Runs the jobs of this process of the service, and gives access to the results of all jobs.
 
     Args:
-        store: Where jobs are kept.
-        kinds: What does a job, by its kind.
-        workers: Processes of this machine, which put results together and draw pictures of them.
-        running: How many jobs are done at a time; see `Turns` for when there are more.
-        seconds: How long a job may take from when it is started.
-        executor: Computes their parts; the processes of this machine if left out.
-        is_local: Whether these compute if the executor is lost; jobs wait otherwise.
+        store: Store of the jobs.
+        kinds: Kinds of jobs by name.
+        workers: Processes of this machine, which combine results and draw pictures of them.
+        running: Number of jobs that run at the same time; see `Turns` for when more may run.
+        seconds: Time limit of a job, from its start or resumption, [s].
+        executor: Computes the parts of jobs; `workers` if omitted.
+        is_local: Whether `workers` compute parts while the executor is unavailable; otherwise jobs wait.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class Runner:
         self._closed = threading.Event()
 
     def start(self) -> None:
-        """Take up what was left by processes that are gone, now and whenever there is something."""
+        """Start a thread that resumes the jobs of processes that have ended, now and later."""
         self.store.prepare()
         thread = threading.Thread(target=self._take_up, name="jobs-left", daemon=True)
         thread.start()
@@ -88,26 +88,26 @@ class Runner:
 
     @property
     def failure(self) -> str | None:
-        """Why no job can be done at present, where that is so."""
+        """Reason why no job can run at present, or None."""
         return None if self._is_local else self._executor.failure
 
     def submit(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> JobRecord:
-        """Start a job, or find the same one submitted before.
+        """Submit a job, or return the existing one with the same id and request.
 
         Args:
-            kind: One of the kinds.
-            digest: Of the request.
-            request: Files that describe the request to the kind of job.
-            job_id: Its name; one is made up if left out.
-            client: The client that requests it.
+            kind: Name of the kind of job.
+            digest: Digest of the request.
+            request: Files of the request by name, for the kind of job to read.
+            job_id: Id of the job; random if omitted.
+            client: Client that submits the job.
 
         Raises:
-            JobExists: A job with another request uses the name.
-            TooManyJobs: Too many wait.
-            ServiceStopping: It takes no more jobs.
-            StorageFailed: It cannot be kept.
+            JobExists: A job with another request has this id.
+            TooManyJobs: Too many jobs are unfinished.
+            ServiceStopping: The service is shutting down.
+            StorageFailed: The job cannot be written.
         """
         if self._closed.is_set():
             raise ServiceStopping
@@ -117,18 +117,18 @@ class Runner:
         return job
 
     def cancel(self, job_id: str, *, remove: bool = False) -> JobRecord:
-        """End a job that is not finished, in whichever process it is.
+        """Cancel an unfinished job, whichever process runs it.
 
         Args:
-            job_id: Its name.
-            remove: Whether one that is finished goes, with its result.
+            job_id: Id of the job.
+            remove: Whether to remove the job with its results if it is finished.
 
         Returns:
-            The job: cancelled, or as it was before it was removed.
+            The cancelled job, or the removed job as it was before.
 
         Raises:
-            UnknownJob: There is none of this name.
-            JobFinished: It is finished, if only in this moment, and stays.
+            UnknownJob: No job has this id.
+            JobFinished: The job was already finished, or finished at this moment, and is kept.
         """
         was_final = self.store.get(job_id).is_final
         job = self.store.change(job_id, state="cancelled")
@@ -142,13 +142,13 @@ class Runner:
         return job
 
     def result(self, job_id: str, name: str) -> Path:
-        """A file that a job has left behind.
+        """Return the path of a result file.
 
         Raises:
-            UnknownJob: There is none of this name.
-            JobNotFinished: It is not done.
-            JobCancelled: It never will be.
-            KinematicsError: It failed: what it has failed with.
+            UnknownJob: No job has this id.
+            JobNotFinished: The job is queued or running.
+            JobCancelled: The job was cancelled.
+            KinematicsError: The job failed with this error.
         """
         job = self.store.get(job_id)
         match job.state:
@@ -161,11 +161,11 @@ class Runner:
         return self.store.folder(job_id) / name
 
     def rendered(self, function: Callable[[Any], bytes], argument: Any) -> bytes:
-        """What a function makes of a result, in another process because it takes long.
+        """Render a result by a module-level function in another process, because that takes long.
 
         Raises:
-            JobTookTooLong: It takes very long.
-            JobFailed: The process has died.
+            JobTookTooLong: The function exceeded its time limit.
+            JobFailed: The process died.
             ServiceStopping: The service is shutting down.
         """
         order = Order(time.monotonic() + _RENDERING_SECONDS)
@@ -180,7 +180,7 @@ class Runner:
         return found
 
     def close(self) -> None:
-        """End all that is under way; what is not finished waits for the next process of the service."""
+        """Stop all work; unfinished jobs wait for the next process of the service."""
         with self._lock:
             self._closed.set()
         for executor in {self._executor, self.workers}:
@@ -196,7 +196,7 @@ class Runner:
         while True:
             self._executor.prepare()
             try:
-                # Where none can be done now, another process may, or this one later.
+                # If no job can run here now, another process may run them, or this one later.
                 if self.failure is None:
                     for job in self.store.take_up():
                         logger.warning("job %s resumes: the service process that ran it has ended", job.id)
@@ -232,7 +232,7 @@ class Runner:
                 self._turned.notify_all()
 
     def _next(self) -> tuple[str, JobRecord] | None:
-        """The job whose turn it is, once there is one; None at the end."""
+        """Wait for the next job that may run, and return it with its client; None at shutdown."""
         with self._turned:
             while not self._closed.is_set():
                 if (found := self._turns.take()) is not None:
@@ -241,7 +241,7 @@ class Runner:
         return None
 
     def _do(self, job: JobRecord) -> None:
-        """A job from where it is to its end; nothing that goes wrong in it leaves it."""
+        """Run a job to its end; record any error in the job instead of raising it."""
         order = Order(time.monotonic() + self._seconds)
         self._orders[job.id] = order
         try:
@@ -286,7 +286,7 @@ class Runner:
         self.store.change(job, state="succeeded", progress=1.0)
 
     def _clear(self, job: JobRecord) -> None:
-        """Remove what a job needs no more, if it is over."""
+        """Remove the request and the parts of a job if the job has ended."""
         with contextlib.suppress(KinematicsError, OSError):
             now = self.store.get(job.id)
             if now.is_final and now.created == job.created:
@@ -302,14 +302,14 @@ class Runner:
             self._waiting.append(job)
 
     def _leave(self, job: JobRecord) -> None:
-        """Leave a job to the next process of the service; this shutdown does not count as a failed attempt."""
+        """Set a job back to queued, for a later run; the interrupted run does not count as an attempt."""
         with contextlib.suppress(KinematicsError):
             self.store.change(job, state="queued", attempts=0)
 
     def _fail(self, job: JobRecord, failure: Failure) -> None:
-        """Say that a job has failed; where the disk does not even take that, as soon as it does."""
+        """Mark a job as failed; if the disk cannot store even that, retry later."""
         with contextlib.suppress(KinematicsError, OSError):
-            self.store.parts(job).clear()  # it is room that may be lacking
+            self.store.parts(job).clear()  # the disk may be full
         try:
             self.store.change(job, state="failed", failure=failure)
         except UnknownJob:
@@ -319,7 +319,7 @@ class Runner:
             self._unsaid[job.id] = job, failure
 
     def _say_again(self) -> None:
-        """Say of those jobs that they have failed of which it could not be said before."""
+        """Retry to mark jobs as failed that could not be marked before."""
         for job, failure in list(self._unsaid.values()):
             with contextlib.suppress(UnknownJob):
                 self.store.change(job, state="failed", failure=failure)

@@ -34,24 +34,24 @@ _FINISHED = "SELECT * FROM jobs WHERE finished IS NOT NULL ORDER BY number"
 _UNFINISHED = "SELECT * FROM jobs WHERE finished IS NULL ORDER BY number"
 _REQUEST = "request"
 _SURE_SECONDS = 24 * 3600.0
-"""How long a job must have seemed to be too old, by a clock that cannot be set, before it is removed for that, [s]."""
+"""How long a job must have been too old, by the monotonic clock, before it is removed for its age, [s]."""
 _AT_REST = 60.0
-"""How long a job must be over before others than the process that did it put its folder in order, [s]."""
+"""How long after the end of a job other processes than its owner may tidy its folder, [s]."""
 _PAUSE = 5
-"""After how many seconds it is worth while to ask again where too many jobs wait."""
+"""Delay after which a client should retry if too many jobs are unfinished, [s]."""
 
 logger = logging.getLogger("gelenk")
 
 
 @dataclass(frozen=True, slots=True)
 class JobLimits:
-    """How much is kept, and waits.
+    """Limits on the jobs of a store.
 
     Attributes:
-        kept: Jobs, finished ones included; the oldest finished ones go first.
-        kept_bytes: Of all of them.
-        unfinished: Jobs of one client that wait or run; see `JobStore.check_room` where there are several.
-        job_bytes: Of the finished parts of one job.
+        kept: Number of jobs, including finished ones; the oldest finished ones are removed first.
+        kept_bytes: Size of the folders of all jobs, [bytes].
+        unfinished: Number of unfinished jobs of one client; see `JobStore.check_room` for several clients.
+        job_bytes: Size of the finished parts of one job, [bytes].
         kept_seconds: How long a finished job is kept, [s].
     """
 
@@ -66,8 +66,8 @@ class JobStore:
     """All jobs below a folder; safe to use from many threads and processes.
 
     Args:
-        root: The folder, on a disk of this machine; made when first written to.
-        limits: How much it holds.
+        root: The folder, on a local disk; created on the first write.
+        limits: Limits on the jobs.
     """
 
     def __init__(self, root: Path, limits: JobLimits) -> None:
@@ -77,7 +77,7 @@ class JobStore:
         self._too_old: dict[tuple[str, float], float] = {}
 
     def prepare(self) -> None:
-        """Remove what interrupted writers and dead processes have left, and import jobs of earlier versions."""
+        """Remove what interrupted writers and dead processes left behind, and import jobs of earlier versions."""
         if not self._root.is_dir():
             return
         try:
@@ -89,31 +89,31 @@ class JobStore:
             logger.warning("jobs cannot be written: %s", error.reason)
 
     def close(self) -> None:
-        """Close the table, and give up the lock that says that this process lives."""
+        """Close the table, and release the lock that shows that this process is alive."""
         self._database.close()
         self._owners.release()
 
     def add(
         self, kind: str, digest: str, request: Mapping[str, bytes], job_id: str | None = None, client: str = ""
     ) -> tuple[JobRecord, bool]:
-        """Add a job, on disk when this returns, or find the existing one with the same name and request.
+        """Add a job, on disk when this returns, or find the existing one with the same id and request.
 
-        One that was given up because its service kept ending starts afresh.
+        A new job replaces an existing one that failed with `JobInterrupted`.
 
         Args:
-            kind: What it computes.
-            digest: Of the request.
-            request: Files of the job's folder, from which it can be done at any time.
-            job_id: Its name; one is made up if left out.
-            client: The client that requests it.
+            kind: Name of the kind of job.
+            digest: Digest of the request.
+            request: Files of the request by name, from which the job can be run at any time.
+            job_id: Id of the job; random if omitted.
+            client: Client that submits the job.
 
         Returns:
             The job, and whether it is new.
 
         Raises:
-            JobExists: A job with another request uses the name.
-            TooManyJobs: The queue is full.
-            StorageFailed: It cannot be written.
+            JobExists: A job with another request has this id.
+            TooManyJobs: Too many jobs are unfinished.
+            StorageFailed: The job cannot be written.
         """
         with folders.exclusive(self._root):
             folders.sweep(self._root)
@@ -135,7 +135,7 @@ class JobStore:
         return job, True
 
     def take_up(self) -> list[JobRecord]:
-        """Make the unfinished jobs of processes that are gone this process's own, and return them, the oldest first.
+        """Take over the unfinished jobs of processes that have ended, and return them, the oldest first.
 
         Raises:
             StorageFailed: Nothing can be written.
@@ -149,10 +149,10 @@ class JobStore:
                 return [self._database.put(replace(job, owner=self._owners.own_name, state="queued")) for job in left]
 
     def tidy(self) -> None:
-        """Remove finished jobs that are older than they may be, and what others no longer need.
+        """Remove finished jobs that are too old, and files that other finished jobs no longer need.
 
-        A clock that is set forward by mistake makes all jobs old in a moment: none goes before they have been so for a
-        day, during which the clock may be set right.
+        A clock set forward by mistake would make all jobs too old at once. So a job is removed only after it has been
+        too old for a day, which leaves time to correct the clock.
         """
         now, since = time.time(), self._too_old
         self._too_old = {}
@@ -169,44 +169,44 @@ class JobStore:
         self._forget_removed()
 
     def clear(self, job: JobRecord) -> None:
-        """Remove the request and the parts of a job that is over; its results stay."""
+        """Remove the request and the parts of a job that has ended; its results stay."""
         self.parts(job).clear()
         shutil.rmtree(self.request(job.id), ignore_errors=True)
 
     def get(self, job_id: str) -> JobRecord:
-        """Return the current state of a job.
+        """Return the current record of a job.
 
         Raises:
-            UnknownJob: There is none of this name.
+            UnknownJob: No job has this id.
         """
         return self._as_seen(self._same(job_id))
 
     def start(self, job: JobRecord) -> JobRecord:
-        """Count an attempt at a job, on disk before this returns; a finished one stays as it is.
+        """Record the start of a job, on disk when this returns; a finished job is not changed.
 
         Raises:
-            UnknownJob: It was removed meanwhile, or is another process's.
-            StorageFailed: It cannot be written.
+            UnknownJob: The job was removed, or another process owns it now.
+            StorageFailed: The table cannot be written.
         """
         return self.change(
             job, state="running", started=job.started or max(time.time(), job.created), attempts=job.attempts + 1
         )
 
     def change(self, which: JobRecord | str, **changes: Any) -> JobRecord:
-        """Change fields of a job that is not finished; a finished one stays as it is.
+        """Change fields of an unfinished job; a finished job is not changed.
 
-        A new state is on disk when this returns; how far a job is need not outlive the machine.
+        A new state is on disk when this returns; a crash of the machine may lose other changes.
 
         Args:
-            which: The job by its name; or that very job, and not one that has its name by now.
-            changes: The fields.
+            which: Id of the job; or its record, to exclude a new job that has the same id.
+            changes: New values of the fields.
 
         Returns:
-            The job after that.
+            The job after the change.
 
         Raises:
-            UnknownJob: It was removed meanwhile.
-            StorageFailed: It cannot be written.
+            UnknownJob: The job does not exist, or another process owns it now.
+            StorageFailed: The table cannot be written.
         """
         job = self._same(which)
         if job.is_final or job == replace(job, **changes):
@@ -223,8 +223,8 @@ class JobStore:
         """Remove a job and its results.
 
         Raises:
-            UnknownJob: There is none of this name.
-            StorageFailed: It cannot be removed.
+            UnknownJob: No job has this id.
+            StorageFailed: The job cannot be removed.
         """
         with folders.exclusive(self._root):
             self._remove(self._same(job_id))
@@ -246,13 +246,13 @@ class JobStore:
         return Counter(self._as_seen(job).state for job in self._jobs())
 
     def check_room(self, client: str) -> None:
-        """Refuse a client another job where too many are unfinished, before much is done for it.
+        """Check that a client may submit another job, before any costly work for it.
 
-        A client alone may have as many unfinished ones as there may be, beside others half as many; there may be half
-        as many more for those who came later.
+        If no other client has unfinished jobs, the client may have `unfinished` of them, otherwise half as many. All
+        clients together may have one and a half times `unfinished`, which leaves room for clients that come later.
 
         Raises:
-            TooManyJobs: There are too many.
+            TooManyJobs: The client, or all clients together, have too many unfinished jobs.
         """
         clients = [job.client for job in self._jobs(_UNFINISHED)]
         own, half = clients.count(client), max(1, self._limits.unfinished // 2)
@@ -263,15 +263,15 @@ class JobStore:
             raise TooManyJobs(len(clients), self._limits.unfinished + half, _PAUSE, "service")
 
     def _as_seen(self, job: JobRecord) -> JobRecord:
-        """Return a job as others see it: if its process is gone, it is queued."""
+        """Return a job as others see it: queued if its process has ended."""
         return replace(job, state="queued") if self._is_left(job) else job
 
     def _is_left(self, job: JobRecord) -> bool:
-        """Return whether a job is unfinished and its process is gone."""
+        """Return whether a job is unfinished and its process has ended."""
         return not (job.is_final or self._owners.is_alive(job.owner))
 
     def _jobs(self, query: str = _ALL, *values: str) -> list[JobRecord]:
-        """Return the jobs that a query finds, without those whose folder is gone or whose name is damaged."""
+        """Return the jobs that a query finds, except those without a folder or with a damaged id."""
         found = self._database.read(query, *values)
         return [job for job in found if _NAME.fullmatch(job.id) and self.folder(job.id).is_dir()]
 
@@ -279,7 +279,7 @@ class JobStore:
         return next(iter(self._jobs(NAMED, job_id)), None) if _NAME.fullmatch(job_id) else None
 
     def _same(self, which: JobRecord | str) -> JobRecord:
-        """Return a job as it is now, by name; if a `JobRecord` is given, another one of its name raises UnknownJob."""
+        """Return the current record of a job; UnknownJob if it is missing or, given a record, is not the same job."""
         job_id, known = (which, None) if isinstance(which, str) else (which.id, which)
         found = self._find(job_id)
         if found is None or (known and (found.owner, found.created) != (known.owner, known.created)):
@@ -287,13 +287,13 @@ class JobStore:
         return found
 
     def _remove(self, job: JobRecord) -> None:
-        """Remove a job, on a full disk too: without its folder it no longer exists, whatever becomes of the row."""
+        """Remove a job, even on a full disk: without its folder it no longer exists, whatever happens to its row."""
         folders.remove_folder(self._root, job.id)
         with suppress(StorageFailed), self._database.transaction(is_durable=False):
             self._database.delete(job.id)
 
     def _remove_oldest(self) -> None:
-        """Make room for a job: remove the oldest finished ones beyond what is kept."""
+        """Remove the oldest finished jobs until the limits allow one more job."""
         jobs = self._jobs()
         sizes = {job.id: _size(self.folder(job.id)) for job in jobs}
         count, total = len(jobs), sum(sizes.values())
@@ -305,20 +305,20 @@ class JobStore:
                 count, total = count - 1, total - sizes[job.id]
 
     def _forget_removed(self) -> None:
-        """Delete the rows of jobs whose folder a person has removed."""
+        """Delete the rows of jobs whose folders were removed by hand."""
         for job in self._database.read(_ALL):
             if not self.folder(job.id).is_dir():
                 with folders.exclusive(self._root), self._database.transaction(is_durable=False):
-                    if not self.folder(job.id).is_dir():  # else it was just being made
+                    if not self.folder(job.id).is_dir():  # else `add` was just creating it
                         self._database.delete(job.id)
 
 
 def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]) -> None:
-    """Write a result into the folder of a job; on disk when this returns, and not read before the job has succeeded.
+    """Write a result file, on disk when this returns; it is not read before the job has succeeded.
 
     Raises:
-        UnknownJob: The job was removed meanwhile.
-        StorageFailed: It cannot be written.
+        UnknownJob: The job has been removed.
+        StorageFailed: The file cannot be written.
     """
     with folders.writing():
         try:
@@ -334,14 +334,14 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
 
 
 def _was_interrupted(job: JobRecord) -> bool:
-    """Return whether a job was given up because its process ended each time it was started."""
+    """Return whether a job failed with `JobInterrupted`."""
     return job.failure is not None and job.failure.error == JobInterrupted.__name__
 
 
 def _size(folder: Path) -> int:
-    """Return the bytes of the files below a folder."""
+    """Return the total size of the files below a folder, [bytes]."""
     total = 0
-    for parent, _, names in os.walk(folder):  # takes no harm where a folder is removed meanwhile
+    for parent, _, names in os.walk(folder):  # tolerates folders that are removed meanwhile
         for name in names:
             with suppress(OSError):
                 total += (Path(parent) / name).stat().st_size
