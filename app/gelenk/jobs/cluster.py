@@ -1,8 +1,8 @@
-"""Parts of jobs on a Ray cluster, for the service: what speaks to Ray is `driver`.
+"""Computes parts of jobs on a Ray cluster, through a process that runs `driver` at the other end of a pipe.
 
-Ray lives in a process of its own at the other end of a pipe: it ends the process that it is in when it loses its
-cluster, and that must not be the service. Where that happens, or nothing is heard of it, or no machine of the cluster
-computes any more, what is under way is `Unavailable`; it is `prepare` alone that looks for the cluster again.
+Ray terminates its own process when it loses the cluster, and that process must not be the service. If the process ends
+or falls silent, or no machine of the cluster computes any more, the parts under way fail with `Unavailable`. Only
+`prepare` connects to the cluster again.
 """
 
 import contextlib
@@ -22,9 +22,9 @@ from gelenk.jobs.workers import Cancelled, Order, Unavailable
 from gelenk.processes.copies import Copy, ended, started
 
 _ANSWER_SECONDS, _CONNECT_SECONDS = 5.0, 30.0
-"""How long the cluster's head may take to answer at all, and until one of its machines has computed something, [s]."""
+"""How long the cluster's head may take to accept a connection, and `driver` to send its first message, [s]."""
 _SILENCE_SECONDS = 15.0
-"""After how long the process that speaks to the cluster counts as hung, which tells every second that it lives, [s]."""
+"""Silence after which the process that runs `driver`, which sends a message every second, counts as hung, [s]."""
 _MESSAGES = pickle.HIGHEST_PROTOCOL
 
 
@@ -32,7 +32,7 @@ class Cluster:
     """Computes parts on a Ray cluster; safe to use from many threads.
 
     Args:
-        address: Of the cluster's head, `host:port`; this machine is one of the cluster's.
+        address: Address of the cluster's head, `host:port`; this machine belongs to the cluster.
     """
 
     def __init__(self, address: str) -> None:
@@ -49,18 +49,18 @@ class Cluster:
 
     @property
     def count(self) -> int:
-        """Processors of the machines that were last seen to compute."""
+        """Number of processors on the machines that were last known to compute; at least 1."""
         return self._count
 
     def prepare(self) -> None:
-        """Find the cluster, unless it is found; `failure` says where none of it computes. For one thread at a time."""
+        """Connect to the cluster if necessary; set `failure` if that fails. Only one thread at a time may call it."""
         if self._connection is None:
             self._connect()
         elif time.monotonic() > self._heard + _SILENCE_SECONDS:
-            self._kill()  # whoever waits for it finds it gone
+            self._kill()  # `_listen` then reports the connection as lost
 
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Have a part done; see `Workers.submit`. A cancelled future's part is ended on the cluster too.
+        """Submit a part; see `Workers.submit`. Cancelling the future stops the part on the cluster too.
 
         Raises:
             Unavailable: No machine of the cluster computes.
@@ -90,20 +90,20 @@ class Cluster:
                     self._lost()
 
     def close(self) -> None:
-        """End all that is under way, also where the other side hangs; later parts are refused."""
+        """Stop all parts, even if the other process hangs, and reject later ones."""
         self._closed.set()
         self._kill()
         with self._lock:
             self._end(Cancelled())
 
     def _kill(self) -> None:
-        """Kill the process at the other end, which ends whatever waits for it, with or without the lock."""
+        """Kill the process at the other end, so that nothing waits for it any longer; the lock is not needed."""
         if (process := self._process) is not None:
             process.signal(SIGKILL)
 
     def _connect(self) -> None:
         try:
-            # One that is not there would be waited for for minutes.
+            # Ray would wait for minutes if the head were missing.
             host, _, port = self.address.rpartition(":")
             socket.create_connection((host.strip("[]"), int(port)), _ANSWER_SECONDS).close()
             self._process, connection = started(Driver(self.address), "ray")
@@ -125,7 +125,7 @@ class Cluster:
         threading.Thread(target=self._listen, args=(connection,), name="ray", daemon=True).start()
 
     def _know(self, count: int) -> None:
-        """How many processors compute by now; where there are none, so is what was under way."""
+        """Record the number of processors that compute now; if it is zero, let the parts under way fail."""
         self._count, self._heard = max(1, count), time.monotonic()
         if count:
             self.failure = None
@@ -135,7 +135,7 @@ class Cluster:
             self._fail(Unavailable(self.failure))
 
     def _listen(self, connection: Connection) -> None:
-        """Pass on results until there are no more."""
+        """Pass on results until the connection ends."""
         while True:
             try:
                 number, succeeded, result = connection.recv()
@@ -146,7 +146,7 @@ class Cluster:
                 continue
             with self._lock:
                 future = self._futures.pop(number, None)
-            # One that was cancelled in this moment takes no result.
+            # A future that was cancelled at this moment accepts no result.
             with contextlib.suppress(InvalidStateError):
                 if future is not None and succeeded:
                     future.set_result(result)
@@ -167,7 +167,7 @@ class Cluster:
         self._fail(error)
 
     def _fail(self, error: Exception) -> None:
-        """What is under way comes to nothing."""
+        """Let all parts under way fail with an error."""
         futures, self._futures = list(self._futures.values()), {}
         for future in futures:
             with contextlib.suppress(InvalidStateError):
@@ -175,7 +175,7 @@ class Cluster:
 
 
 class _Part(Future[Any]):
-    """A part under way, which cancelling ends on the cluster too."""
+    """Future of a part; cancelling it stops the part on the cluster too."""
 
     def __init__(self, cluster: Cluster) -> None:
         super().__init__()
@@ -183,6 +183,6 @@ class _Part(Future[Any]):
         self._cluster = cluster
 
     def cancel(self) -> bool:
-        """End it."""
+        """Cancel the future and stop the part on the cluster."""
         self._cluster.drop(self.number)
         return super().cancel()

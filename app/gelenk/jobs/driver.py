@@ -1,8 +1,8 @@
-"""The process that speaks to Ray, which nothing else does: which machines of a cluster compute, and parts sent to them.
+"""The only process that talks to Ray: it finds out which machines of a cluster compute, and sends parts to them.
 
-Ray's head says for a minute that a machine is there which is not, and sends parts to one that hangs. So it is said here
-where a part goes, and only where something was computed lately: whatever comes back is proof, and a machine of which
-nothing comes gets a probe to compute, which takes no processor from a part.
+Ray's head lists a machine for a minute after it is gone, and sends parts to machines that hang. So this process chooses
+the machine of each part, and only among machines that have computed something lately. Every result is proof of that; a
+machine that sends no results gets a probe to compute, which takes no processor from a part.
 """
 
 import hashlib
@@ -25,12 +25,12 @@ from typing import Any, TypeAlias
 from gelenk.jobs.workers import ATTEMPTS, DIED
 
 SIZE = -1
-"""Instead of a part's number: how many processors compute by now. It is sent every second."""
+"""Marks the message, sent every second, with the number of processors that compute now; no part has this number."""
 
 _QUIET_SECONDS, _PROBE_SECONDS = 5.0, 12.0
-"""After how long without news a machine is probed; and how long that may take, which may be to start a process, [s]."""
+"""Silence after which a machine is probed, and how long the probe may take: it may have to start a process, [s]."""
 _LIST_SECONDS, _TELL_SECONDS = 5.0, 1.0
-"""How often the machines are listed and checked, [s]."""
+"""Intervals at which the machines are listed, and are checked and reported, [s]."""
 
 _ENVIRONMENT = {
     "RAY_USAGE_STATS_ENABLED": "0",
@@ -38,7 +38,7 @@ _ENVIRONMENT = {
     "RAY_ENABLE_UV_RUN_RUNTIME_ENV": "0",
     "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
 }
-"""Nothing is reported to anyone, and nothing is looked for."""
+"""Turns off Ray's usage reports and warnings, and its changes to the environment of its processes."""
 
 _Task: TypeAlias = tuple[Callable[[Any], Any], Any]
 
@@ -48,11 +48,11 @@ class _Machine:
     """A machine of the cluster.
 
     Attributes:
-        processors: For parts.
-        parts: Numbers of those that are there.
-        heard: When something came back from it last, [s].
+        processors: Number of processors for parts.
+        parts: Numbers of the parts that it was sent and has not finished.
+        heard: Time of its last answer, on the clock of `time.monotonic`, [s].
         is_asked: Whether a probe is under way.
-        is_proven: Whether something came back since anything went wrong there: then it is sent parts.
+        is_proven: Whether it has answered since its last failure; only then does it get parts.
     """
 
     processors: int
@@ -63,17 +63,17 @@ class _Machine:
 
     @property
     def is_lost(self) -> bool:
-        """Whether it has been silent for so long that its parts should start elsewhere."""
+        """Whether it has been silent for so long that its parts must move to other machines."""
         return time.monotonic() > self.heard + _QUIET_SECONDS + _PROBE_SECONDS
 
     def hear(self) -> None:
-        """Note that something came back."""
+        """Record an answer: the outcome of a part or a probe."""
         self.heard, self.is_proven = time.monotonic(), True
 
 
 @dataclass(eq=False)
 class _Part:
-    """A requested part: what it is, how often its process has died, and where it runs."""
+    """A requested part: its task, how often its process has died, and the machine on which it runs."""
 
     task: _Task
     deaths: int = 0
@@ -82,13 +82,13 @@ class _Part:
 
 
 class Driver:
-    """What the process that speaks to a cluster runs."""
+    """Main function of the process that talks to Ray; an instance can be pickled."""
 
     def __init__(self, address: str) -> None:
         self._address = address
 
     def __call__(self, connection: Connection) -> None:
-        """Do parts until the other side is gone; first send why there are none, or how many processors there are."""
+        """Send the number of processors, or why the cluster is unreachable, then compute parts until the pipe ends."""
         _be_quiet()
         try:
             import ray  # noqa: PLC0415 - an extra, and half a second
@@ -104,7 +104,7 @@ class Driver:
 
 
 class _Dispatcher:
-    """Sends parts to machines and results back, all in one thread: where Ray hangs in that, the other side hears it."""
+    """Sends parts to machines and results back, in one thread: if Ray hangs there, the service notices the silence."""
 
     def __init__(self, ray: Any, pinned: Any, connection: Connection) -> None:
         self._ray, self._pinned, self._connection, self._code = ray, pinned, connection, code_digest()
@@ -117,7 +117,7 @@ class _Dispatcher:
         self._began = self._told = time.monotonic()
 
     def run(self) -> None:
-        """Until the other side is gone."""
+        """Dispatch parts and results until the pipe closes."""
         for target in (self._receive, self._list):
             threading.Thread(target=target, daemon=True).start()
         while True:
@@ -136,7 +136,7 @@ class _Dispatcher:
             self._events.put(partial(self._take, number, task))
 
     def _list(self) -> None:
-        """Look which machines there are, which hangs where the head does."""
+        """List the machines at regular intervals; this hangs if the cluster's head hangs."""
         while True:
             with suppress(Exception):
                 listed = {
@@ -155,7 +155,7 @@ class _Dispatcher:
         self._look()
 
     def _look(self) -> None:
-        """Ask machines that are not heard of, give up those that do not answer, and tell what there is."""
+        """Probe silent machines, take the parts from lost ones, and report the number of processors."""
         self._told = now = time.monotonic()
         for name, machine in self._machines.items():
             if machine.is_lost:
@@ -165,7 +165,7 @@ class _Dispatcher:
                 self._begin(self._probe, name, partial(self._answered, machine))
         count = sum(machine.processors for machine in self._machines.values() if not machine.is_lost)
         if count == 0:
-            self._parts.clear()  # the other side takes them as lost
+            self._parts.clear()  # the service lets them fail
             self._waiting.clear()
         if count or now > self._began + _PROBE_SECONDS:
             self._connection.send((SIZE, True, count))
@@ -176,7 +176,7 @@ class _Dispatcher:
             machine.hear()
 
     def _lose(self, machine: _Machine) -> None:
-        """Take a machine's parts elsewhere."""
+        """Put the parts of a machine back into the queue."""
         machine.is_proven = False
         for number in machine.parts:
             self._again(number, self._parts[number])
@@ -188,7 +188,7 @@ class _Dispatcher:
         self._waiting.append(number)
 
     def _take(self, number: int, task: _Task | None) -> None:
-        """A part that is wanted, or no longer."""
+        """Queue a part; if the task is None, cancel the part instead."""
         if task is not None:
             self._parts[number] = _Part(task)
             self._waiting.append(number)
@@ -203,7 +203,7 @@ class _Dispatcher:
         return machine
 
     def _place(self) -> None:
-        """Send parts to the machines that have the fewest for each processor."""
+        """Send each waiting part to the machine with the fewest parts per processor."""
         proven = {name: machine for name, machine in self._machines.items() if machine.is_proven}
         while self._waiting and proven:
             number = self._waiting.popleft()
@@ -214,7 +214,7 @@ class _Dispatcher:
                 part.reference = self._begin(self._compute, part.place, partial(self._ended, number), *call)
 
     def _begin(self, function: Any, place: str, then: Callable[..., None], *call: Any) -> Any:
-        """Run a function on a machine; the outcome becomes an event."""
+        """Start a function on a machine; its outcome becomes an event."""
         pinned = self._pinned(place, soft=False)
         reference = function.options(scheduling_strategy=pinned).remote(*call)
 
@@ -226,7 +226,7 @@ class _Dispatcher:
         return reference
 
     def _ended(self, number: int, reference: Any, error: BaseException | None, result: Any) -> None:
-        """Report the result of a part; if its process or machine failed, start it again."""
+        """Send the result of a part; if its process or machine failed, queue it again, up to `ATTEMPTS` deaths."""
         part, lost = self._parts.get(number), self._ray.exceptions
         if part is None or part.reference is not reference:
             return
@@ -248,7 +248,7 @@ class _Dispatcher:
 
 
 def _be_quiet() -> None:
-    """Ray reports nothing to anyone, and its own lines do not go into the log, which is one of JSON."""
+    """Turn off Ray's reports, and its output, which would corrupt the service's JSON log."""
     os.environ.update(_ENVIRONMENT)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (1, 2):
@@ -257,14 +257,14 @@ def _be_quiet() -> None:
 
 
 def _probed() -> None:
-    """What a machine computes to show that it does."""
+    """Do nothing: the answer alone proves that the machine computes."""
 
 
 def _computed(code: str, function: Callable[[Any], Any], argument: Any) -> Any:
-    """A part, on some machine of the cluster.
+    """Compute a part on a machine of the cluster.
 
     Raises:
-        ChildProcessError: Another release is installed there, which might compute something else.
+        ChildProcessError: The machine has another version of the service, which might compute something else.
     """
     if code != code_digest():
         raise ChildProcessError("a machine of the Ray cluster has another version of the service")
@@ -273,7 +273,7 @@ def _computed(code: str, function: Callable[[Any], Any], argument: Any) -> Any:
 
 @cache
 def code_digest() -> str:
-    """What tells one release's code from another's."""
+    """Return a digest of the package's source code, which differs between versions."""
     digest, root = hashlib.blake2b(digest_size=16), Path(__file__).resolve().parent.parent
     for path in sorted(root.rglob("*.py")):
         digest.update(f"{path.relative_to(root)}\0".encode())

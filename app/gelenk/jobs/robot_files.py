@@ -1,4 +1,4 @@
-"""The robot of a job, kept with its request: whatever becomes of the robot meanwhile, the job goes on with this one."""
+"""The robot of a job, stored with its request, so that later changes to the robot do not affect the job."""
 
 import hashlib
 from collections.abc import Mapping
@@ -17,12 +17,12 @@ _ENCODING = "utf-8", "surrogatepass"
 
 
 class RobotText(NamedTuple):
-    """A robot as it travels to other processes.
+    """A robot in the form that is sent to other processes.
 
     Attributes:
-        name: What it is called.
-        urdf: What it is read from.
-        ends: Base and tip of its default chain.
+        name: Name of the robot.
+        urdf: Encoded URDF of the robot.
+        ends: Base and tip frames of its default chain.
     """
 
     name: str
@@ -31,26 +31,26 @@ class RobotText(NamedTuple):
 
 
 def robot_files(name: str, robot: RobotModel, urdf: str) -> dict[str, bytes]:
-    """A robot as files of a request.
+    """Return the files, by name, that store a robot in a request.
 
     Args:
-        name: What it is called.
-        robot: The robot.
-        urdf: What it was read from.
+        name: Name of the robot.
+        robot: The robot, for its default chain.
+        urdf: URDF of the robot.
     """
     return {_URDF: urdf.encode(*_ENCODING), _ABOUT: orjson.dumps([name, *robot.default_chain])}
 
 
 def robot_digest(request: Mapping[str, bytes]) -> str | None:
-    """What tells the robot of a request from others that have had its name: SHA-256 of its URDF."""
+    """Return the SHA-256 of the URDF in a request, to distinguish robots of the same name; None without a robot."""
     return hashlib.sha256(request[_URDF]).hexdigest() if _URDF in request else None
 
 
 def robot_text(folder: Path) -> RobotText:
-    """The robot that a request was kept with.
+    """Return the robot stored in the folder of a request.
 
     Raises:
-        OSError: It cannot be read.
+        OSError: A file cannot be read.
     """
     name, base_frame, tip_frame = orjson.loads(read_plain(folder / _ABOUT))
     return RobotText(name, read_plain(folder / _URDF), (base_frame, tip_frame))
@@ -58,5 +58,5 @@ def robot_text(folder: Path) -> RobotText:
 
 @lru_cache(maxsize=2)
 def robot_of(text: RobotText) -> RobotModel:
-    """The robot, ready for computation; built once for all parts of a job that a process computes."""
+    """Build the robot; a process builds it once for all its parts of a job."""
     return RobotModel(read_urdf(text.urdf.decode(*_ENCODING)), text.ends)

@@ -1,8 +1,8 @@
-"""Processes that do the parts of jobs: started when first needed, kept warm, replaced when they die or hang.
+"""Local processes that compute parts of jobs: started on first use, kept warm, replaced when they die or hang.
 
-Each process has a thread here that hands it one part after the other and waits for the result, so that a process
-which dies takes its own part with it and no other, and a job that is cancelled or out of time can have its process
-killed. Nothing of them is left when the service ends.
+A thread for each process hands it one part after the other and waits for the result. So a process that dies affects
+only its own part, and the process that computes for a cancelled or late job can be killed. No process outlives the
+service.
 """
 
 import os
@@ -19,15 +19,15 @@ from typing import Any, TypeAlias
 from gelenk.processes.copies import GOODBYE_SECONDS, Copy, ended, started
 
 _LOOK = 0.05
-"""How often a thread that waits for a result looks whether it is still wanted, [s]."""
+"""How often a thread that waits for a result checks whether it is still wanted, [s]."""
 _GRACE = 1.0
 """How long a part of a cancelled job may go on before its process is killed, [s]."""
 _IDLE = 300.0
-"""After how long without work a process is let go, [s]."""
+"""Idle time after which a process is ended, [s]."""
 _NICENESS = 10
-"""Requests whose client waits go first, before the pool too."""
+"""Niceness of the processes, above that of the pool: requests, whose clients wait, have priority."""
 ATTEMPTS = 3
-"""How often a part is started whose process dies, which may not be the part's fault."""
+"""How often to start a part whose process dies, which may not be the part's fault."""
 DIED = f"its process died {ATTEMPTS} times, the limit; possibly out of memory"
 
 
@@ -36,20 +36,20 @@ class Cancelled(Exception):
 
 
 class OutOfTime(Exception):
-    """The result has not come in time."""
+    """The result was not ready before the deadline."""
 
 
 class Unavailable(Exception):
-    """No process can compute it, through no fault of its own: it may be submitted again."""
+    """No process can compute the part now, through no fault of the part: it may be submitted again."""
 
 
 @dataclass(eq=False)
 class Order:
-    """What the parts of one job have in common.
+    """Deadline and cancellation of the parts of one job.
 
     Attributes:
-        until: When they are given up, on the clock of `time.monotonic`, [s].
-        cancelled: Set when they are no longer wanted.
+        until: Deadline, on the clock of `time.monotonic`, [s].
+        cancelled: Set when the parts are no longer wanted.
     """
 
     until: float
@@ -60,10 +60,10 @@ _Part: TypeAlias = tuple[Callable[[Any], Any], Any, Order, "Future[Any]"]
 
 
 class Workers:
-    """A number of processes; safe to use from many threads.
+    """A fixed number of local processes; safe to use from many threads.
 
     Args:
-        count: How many.
+        count: Number of processes.
     """
 
     def __init__(self, count: int) -> None:
@@ -79,22 +79,22 @@ class Workers:
         return [pid for seat in self._seats if (pid := seat.pid) is not None]
 
     failure = None
-    """They are always there."""
+    """Always None, because local processes are always available."""
 
     def prepare(self) -> None:
-        """They are started by the first part."""
+        """Do nothing, because the first part starts the processes."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Have a part done.
+        """Submit a part.
 
         Args:
-            function: Of a module, with an argument and a result that can be sent to another process.
-            argument: What it is called with.
-            order: The job that it belongs to.
+            function: Module-level function whose argument and result can be pickled.
+            argument: Argument of the function.
+            order: Deadline and cancellation of the part's job.
 
         Returns:
-            The function's result, or what it has raised; `Cancelled`, `OutOfTime`, or ChildProcessError where its
-            process has died `ATTEMPTS` times.
+            Future of the function's result. Its exception is the function's, `Cancelled`, `OutOfTime`, or
+            ChildProcessError if the process died `ATTEMPTS` times.
         """
         future: Future[Any] = Future()
         with self._lock:
@@ -106,7 +106,7 @@ class Workers:
         return future
 
     def close(self) -> None:
-        """End all processes, in the middle of a part if need be; later parts are refused."""
+        """End all processes, even in the middle of a part, and reject later parts."""
         with self._lock:
             self._closed.set()
         for _ in self._seats:
@@ -123,7 +123,7 @@ class Workers:
 
 
 class _Seat(threading.Thread):
-    """A thread, and the process that it hands its parts to."""
+    """A thread, and the process to which it hands parts."""
 
     def __init__(self, parts: "queue.SimpleQueue[_Part | None]", closed: threading.Event, number: int) -> None:
         super().__init__(name=f"jobs-{number}", daemon=True)
@@ -138,7 +138,7 @@ class _Seat(threading.Thread):
         return None if process is None else process.pid
 
     def run(self) -> None:
-        """Take parts until the end."""
+        """Have parts computed until shutdown."""
         while not self._closed.is_set():
             try:
                 part = self._parts.get(timeout=_IDLE)
@@ -186,11 +186,11 @@ class _Seat(threading.Thread):
         return connection.recv()
 
     def _look(self, order: Order, unwanted: float | None) -> None:
-        """Kill the process, if there is one at work, where its result is no longer wanted.
+        """Raise an error if the result is no longer wanted, and kill the process if it is at work on the part.
 
         Args:
-            order: The job.
-            unwanted: Since when it has been seen to be cancelled; None before a part is started.
+            order: Deadline and cancellation of the job.
+            unwanted: When the cancellation was noticed during the part, by `time.monotonic`, [s]; None if it was not.
         """
         late = time.monotonic() > order.until
         cancelled = order.cancelled.is_set() and (unwanted is None or time.monotonic() > unwanted + _GRACE)
@@ -210,7 +210,7 @@ class _Seat(threading.Thread):
 
 
 def serve(connection: Connection) -> None:
-    """Do parts until the other side is gone; what a process runs."""
+    """Compute parts until the pipe closes: the main function of a process."""
     os.nice(_NICENESS)
     while True:
         try:

@@ -1,4 +1,4 @@
-"""The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then what it all tells."""
+"""The workspace of a robot as a job: samples in parts, then dexterity voxel by voxel, then a summary."""
 
 import math
 import pickle
@@ -28,34 +28,34 @@ from gelenk.robot.robot import RobotModel
 KIND = "workspace"
 SUMMARY, ARRAY = "result.json", "result.npy"
 _SAMPLES, _VOXELS = "samples", "voxels"
-"""The stage that every kind of workspace begins with, and the one of a dexterity map."""
+"""Names of the first stage of every workspace, and of the second stage of a dexterity map."""
 MAX_POSES = 1_000_000
-"""Orientations at voxels that a job asks of inverse kinematics."""
+"""Largest number of poses that a job may pass to inverse kinematics: orientations times voxels."""
 
 _POSES_AT_ONCE = 512
-"""About a tenth of a second of inverse kinematics."""
+"""Number of poses per part: inverse kinematics takes about a tenth of a second."""
 _COUNTED_PARTS = 8
-"""So many parts of the samples are computed to count their voxels: some tenths of a second."""
+"""Number of parts of the samples computed to estimate the number of voxels: some tenths of a second."""
 _TOO_LOW = 1.25
-"""By how much the estimate of what samples meet may be too low."""
+"""Factor by which the estimated number of voxels may be too low."""
 _SAMPLING_SHARE, _DONE = 0.05, 0.99
-"""Progress when the samples of a dexterity map are there, and when nothing but the summary is missing."""
+"""Progress when the samples of a dexterity map are computed, and when only the result remains to be written."""
 
 Column: TypeAlias = Literal["x", "y", "z", "measure", "samples", "best_measure", "dexterity"]
 
 
 @dataclass(frozen=True, slots=True)
 class WorkspaceWork:
-    """A requested workspace, and how to compute it.
+    """A checked request for a workspace, and the plan for computing it.
 
     Attributes:
-        name: The robot's.
-        description: The robot.
-        chain: Base and tip.
+        name: Name of the robot.
+        description: Description of the robot.
+        chain: The chain.
         wish: The requested options.
-        plan: How the samples are computed.
-        asked: The orientations of a dexterity map.
-        excluded: Why the chain can take all of these in no region; see `dexterity.excluded`.
+        plan: Plan of the samples.
+        asked: Orientations of a dexterity map, else None.
+        excluded: Why the chain cannot reach all of these in any region, if so; see `dexterity.excluded`.
     """
 
     name: str
@@ -68,25 +68,25 @@ class WorkspaceWork:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Of the array."""
+        """Names of the columns of the result array."""
         if self.wish.kind == "cloud":
             return POINT_COLUMNS
         return VOXEL_COLUMNS if self.asked is None else (*VOXEL_COLUMNS, "dexterity")
 
 
 def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over, count: int) -> WorkspaceWork:
-    """The checked request: errors are reported before there is a job.
+    """Check a request and plan its computation, so that errors are reported before a job is created.
 
     Args:
-        name: The robot's.
+        name: Name of the robot.
         robot: The robot.
-        chain: Base and tip.
+        chain: The chain.
         wish: The requested options.
-        over: Of a dexterity map, which orientations.
-        count: How many of them.
+        over: What the orientations of a dexterity map cover.
+        count: Number of orientations of a dexterity map.
 
     Raises:
-        InvalidField: Something cannot be taken.
+        InvalidField: A value is not allowed.
     """
     work, motion = plan(chain, wish)
     asked = reason = None
@@ -99,7 +99,7 @@ def question(name: str, robot: RobotModel, chain: Chain, wish: Wish, over: Over,
 
 
 def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) -> list[str]:
-    """Why a dexterity map cannot be what it may be expected to be."""
+    """Return notes on why a dexterity map may not be what users expect."""
     missed = _missed_notes(motion, plane)
     match asked.spread:
         case "fixed":
@@ -110,7 +110,7 @@ def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) ->
 
 
 def _missed_notes(motion: TipReach, plane: Plane | None) -> list[str]:
-    """Where the middles of the voxels are not on what the tip keeps to."""
+    """Return a note if the centres of voxels may lie off the curve, surface, line or plane on which the tip moves."""
     if motion.kept_to is not None:
         note = (
             f"orientations are asked for at the middles of the voxels, and these are beside the {motion.kept_to} that "
@@ -127,7 +127,7 @@ def _missed_notes(motion: TipReach, plane: Plane | None) -> list[str]:
 
 
 def work_of(asked: WorkspaceWork) -> Work:
-    """The function that computes a request."""
+    """Return the function that runs a request as a job."""
 
     def work(run: Run) -> Files:
         end = _DONE if asked.asked is None else _SAMPLING_SHARE
@@ -139,10 +139,10 @@ def work_of(asked: WorkspaceWork) -> Work:
 
 
 def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | None:
-    """Write the files of a result from its parts, in a process of its own.
+    """Combine the parts and write the result files, in a process of its own.
 
     Returns:
-        Of a dexterity map, what it is to be computed from instead.
+        For a dexterity map, which is computed next, the workspace instead; no files are written.
     """
     asked, parts, digest = job
     survey = Survey(asked.plan)
@@ -157,7 +157,7 @@ def _put_together(job: tuple[WorkspaceWork, Parts, str | None]) -> Workspace | N
 
 
 def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robot_digest: str | None) -> Files:
-    """What the job leaves behind."""
+    """Return the result files of a job: the array and its summary."""
     table = found.points if found.points is not None else found.voxel_rows(asked.plan)
     array = table if dexterity is None else np.column_stack((table, dexterity))
     told = _summary(asked, found, dexterity) | {"robot_digest": robot_digest}
@@ -169,10 +169,10 @@ def _files(asked: WorkspaceWork, found: Workspace, dexterity: Array | None, robo
 
 
 def check_size(asked: WorkspaceWork) -> None:
-    """Refuse samples that fall into more voxels than there may be, before there is a job.
+    """Check that the samples do not fall into too many voxels, before a job is created.
 
     Raises:
-        InvalidField: There are more; it says what voxels and how many samples there may be.
+        InvalidField: They do; the message names a voxel size and a number of samples that are allowed.
     """
     plan, rotations = asked.plan, 1 if asked.asked is None else len(asked.asked.rotations)
     most = MAX_VOXELS if asked.asked is None else min(MAX_VOXELS, MAX_POSES // rotations)
@@ -193,11 +193,11 @@ def check_size(asked: WorkspaceWork) -> None:
 
 
 def _voxels_met(plan: SamplingPlan) -> int:
-    """How many voxels the samples fall into: counted where the samples are few, else estimated from the first of them.
+    """Count the voxels that the samples fall into; if there are many samples, estimate it from the first of them.
 
-    Good and Turing: the next sample meets a new voxel as probably as those so far are alone in theirs, and later ones
-    less probably. Chao: how many are still unseen follows from those met once and twice; of voxels that are not equally
-    likely that is too low, by up to a fifth where it was tried.
+    Good–Turing: the probability that the next sample falls into a new voxel is the share of samples that are alone in
+    theirs; it decreases later. Chao: the number of unseen voxels follows from the numbers of voxels with one and with
+    two samples; this is too low if voxels are not equally likely, in trials by up to a fifth.
     """
     counted = min(plan.parts, _COUNTED_PARTS)
     table = merged([sampled((plan, k)).voxels for k in range(counted)])
@@ -211,14 +211,14 @@ def _voxels_met(plan: SamplingPlan) -> int:
 
 
 def _rounded_up(length: float) -> float:
-    """Three digits of a length, not less than it."""
+    """Round a length up to three significant digits."""
     step = 10.0 ** (math.floor(math.log10(length)) - 2)
     return float(f"{math.ceil(length / step) * step:.6g}")
 
 
 def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:
-    """Of each voxel the share of the orientations that are reached at its middle; shape (M,)."""
-    assert asked.asked is not None  # noqa: S101 - what it is called for
+    """Compute the share of the orientations that are reached at the centre of each voxel; shape (M,)."""
+    assert asked.asked is not None  # noqa: S101 - called for dexterity maps only
     centres = asked.plan.grid.centres(found.voxels.keys)
     arm = pickle.dumps(_arm(asked))
     size = max(1, _POSES_AT_ONCE // len(asked.asked.rotations))
@@ -233,7 +233,7 @@ def _dexterity(run: Run, asked: WorkspaceWork, found: Workspace) -> Array:
 
 
 def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
-    """Part number k of a plan, in a process of its own; see `sampled`."""
+    """Compute a part of the samples and pack it, in a process of its own; see `sampled`."""
     part = sampled(job)
     return packed(
         numbers=(part.first, part.count, part.best),
@@ -246,7 +246,7 @@ def _sampled(job: tuple[SamplingPlan, int]) -> bytes:
 
 
 def _part(content: bytes) -> SampledPart:
-    """What `_sampled` has packed."""
+    """Unpack the result of `_sampled`."""
     values = unpacked(content)
     first, count, best = values["numbers"].tolist()
     near, far = values["distances"].tolist()
@@ -260,15 +260,15 @@ def _part(content: bytes) -> SampledPart:
 
 @dataclass(frozen=True, slots=True)
 class _Arm:
-    """What another process needs for inverse kinematics.
+    """The input of inverse kinematics in another process.
 
     Attributes:
-        description: The robot.
-        ends: Base and tip.
-        lower: Bounds of the variables; shape (n,), [rad or m].
-        upper: Likewise.
-        sampling: The configurations that have come to the voxels.
-        orientations: The requested set.
+        description: Description of the robot.
+        ends: Base and tip frames of the chain.
+        lower: Lower bounds of the variables; shape (n,), [rad or m].
+        upper: Upper bounds of the variables; shape (n,), [rad or m].
+        sampling: The samples, which include a start configuration for each voxel.
+        orientations: The requested orientations.
     """
 
     description: Description
@@ -280,7 +280,7 @@ class _Arm:
 
 
 def _arm(asked: WorkspaceWork) -> _Arm:
-    """Within the joint limits unless requested otherwise; a joint that turns freely does so here too."""
+    """Return the input of inverse kinematics; revolute joints without limits or a requested range stay unbounded."""
     assert asked.asked is not None  # noqa: S101
     chain, ranges = asked.chain, asked.plan.sampling.ranges
     sliding = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
@@ -298,7 +298,7 @@ def _arm(asked: WorkspaceWork) -> _Arm:
 
 
 def _shares(job: tuple[bytes, Array, Indices]) -> bytes:
-    """The dexterity at some voxels, in a process of its own; see `shares`."""
+    """Compute the dexterity at some voxels and pack it, in a process of its own; see `shares`."""
     pickled, centres, numbers = job
     robot, chain, arm = _unpacked(pickled)
     return packed(shares=shares(robot, chain, centres, arm.sampling.chosen(numbers), arm.orientations))
@@ -312,7 +312,7 @@ def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, _Arm]:
 
 
 def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
-    """What travels as JSON."""
+    """Return the summary of a result, to be written as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
     certificate = found.certificate
     return {

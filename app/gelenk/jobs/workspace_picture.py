@@ -1,4 +1,4 @@
-"""The picture of a workspace that a job has left behind, and what is written beside it."""
+"""Draws the workspace that a job has computed, with captions."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,8 +9,8 @@ import orjson
 
 
 def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
-    """The array and the summary of a job as a picture, in a process of its own."""
-    from gelenk.plots.workspace import Picture, picture_bytes  # noqa: PLC0415 - a third of a second, and seldom needed
+    """Draw the result of a job, given as paths of array and summary and a format; for a process of its own."""
+    from gelenk.plots.workspace import Picture, picture_bytes  # noqa: PLC0415 - takes a third of a second, and seldom needed
 
     array, summary, kind = job
     content = orjson.loads(summary.read_bytes())
@@ -30,7 +30,7 @@ def picture(job: tuple[Path, Path, Literal["svg", "png"]]) -> bytes:
 
 
 def captions(content: dict[str, Any]) -> Iterator[str]:
-    """Lines beside the picture; results of earlier versions do not name their plane."""
+    """Yield the lines of text beside the picture; results of earlier versions do not name their plane."""
     voxels, dexterity, plane = content["voxels"], content["dexterity"], content.get("plane")
     unit = {3: "m³", 2: "m²", 1: "m"}.get(voxels["dimensions"], "")
     if plane is not None:
