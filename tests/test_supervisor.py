@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import uvicorn
 
-from gelenk.supervisor import STARTUP_FAILURE, STILL_STARTING, _Seat
+from gelenk.supervisor import STARTUP_FAILURE, STILL_STARTING, Worker
 from tests.raw_http import processes
 from tests.test_faults import QUICK, called, children, is_alive, wait_for
 from tests.test_serve import HOST, free_port, get, service
@@ -52,12 +52,12 @@ def test_a_killed_worker_is_replaced_at_once(running: tuple[int, str]) -> None:
 
 
 @pytest.mark.slow
-def test_the_process_that_is_copied_is_replaced_with_all_its_copies(running: tuple[int, str]) -> None:
+def test_the_fork_server_is_replaced_with_all_its_children(running: tuple[int, str]) -> None:
     pid, url = running
-    (original,) = children(pid)
-    copies = children(original)
-    os.kill(original, signal.SIGKILL)
-    wait_for(lambda: not any(is_alive(one) for one in copies), 5.0)
+    (fork_server,) = children(pid)
+    workers = children(fork_server)
+    os.kill(fork_server, signal.SIGKILL)
+    wait_for(lambda: not any(is_alive(one) for one in workers), 5.0)
     wait_for(lambda: is_whole(pid))
     assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
 
@@ -89,22 +89,22 @@ def test_a_worker_that_hangs_is_killed_unless_the_supervisor_was_stopped_itself(
 ) -> None:
     monkeypatch.setenv("GELENK_DATA_DIR", str(tmp_path))
     config = uvicorn.Config("gelenk.main:from_environment", factory=True, log_config=None)
-    seat = _Seat()
     with socket.create_server((HOST, 0)) as listener:
-        seat.take(config, "worker")
-        seat.serve(listener)
+        worker = Worker(config, "worker", [listener])
+        worker.start()
+        worker.serve()
         try:
-            worker = seat._worker
-            assert worker is not None
-            os.kill(worker.pid, signal.SIGSTOP)
+            assert worker.process is not None
+            pid = worker.process.pid
+            os.kill(pid, signal.SIGSTOP)
             for later, is_forgiving in ((59.0, False), (61.0, True), (61.0 + 59.0, False)):
-                seat.look(time.monotonic() + later, is_forgiving)
-                assert is_alive(worker.pid)
-            seat.look(time.monotonic() + 61.0 + 61.0, is_forgiving=False)
-            assert not is_alive(worker.pid)
-            assert not seat.cannot_begin
+                worker.check(time.monotonic() + later, is_forgiving)
+                assert is_alive(pid)
+            worker.check(time.monotonic() + 61.0 + 61.0, is_forgiving=False)
+            assert not is_alive(pid)
+            assert not worker.cannot_start
         finally:
-            seat.leave(0.0)
+            worker.join(0.0)
 
 
 @pytest.mark.slow

@@ -3,13 +3,13 @@
 - `main`: builds the application from its parts; `serve` runs it; `settings` is read once, there. `keys`: creates keys.
 - `reload`: restarts it when a source file changes. `supervisor`: starts the worker processes, and replaces them.
 - `connections`: HTTP connections with bounds on time, size and number.
-- `preload`: loads what all processes share; `processes`: copies of the process that has loaded it.
+- `preload`: loads what all processes share; `processes`: processes forked from the one that has loaded it.
 - `engine`: the core as a library, `gelenk.Robot`. `client`: the service as a library.
 - `logs`: the log, as lines of JSON.
 - `prune`: removes from a container image what the service never opens.
 - `http`: the HTTP layer. `contract`: the operations and their payloads. `store`: robots on disk.
 - `jobs`: long work in processes of its own.
-- `operations`: the computation of each operation. `pool`: processes for requests that may take long or crash.
+- `operations`: the computation of each operation. `pool`: processes for long requests and parts of jobs.
 - `plots`: pictures. `trajectory`: motions in time. `course`: the course's calculators, which need no robot.
 - `ik`: from poses to configurations. `dh`: tables ↔ descriptions. `kinematics`: what a robot does. `robot`: what it is.
   These know neither HTTP nor settings. `errors`: every error, as data. `package_data`: where the package's files are.

@@ -41,7 +41,7 @@ from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner
 from gelenk.jobs.store import JobLimits, JobStore
-from gelenk.jobs.workers import Workers
+from gelenk.jobs.workers import PoolExecutor
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
 from gelenk.settings import Settings
@@ -66,17 +66,19 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
 
     Args:
         settings: Settings of the operator.
-        pool: Worker pool for long requests; created if left out.
+        pool: Worker pool for long requests and parts of jobs; created if left out.
     """
     most, seconds = settings.max_answer_numbers, settings.request_seconds
     quota = Quota(settings.client_robots, settings.client_robot_bytes)
     limits = Limits(most, seconds, settings.job_bytes)
     setup = ContextSetup(settings.catalogue_dir, settings.data_dir / "robots", limits, quota)
     library = setup.library()
-    pool = pool or WorkerPool(settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes)
+    pool = pool or WorkerPool(
+        settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes, settings.job_processes
+    )
     pool_client = PoolClient(pool, setup, library, seconds, settings.client_requests)
     derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
-    runner = _runner(settings, limits)
+    runner = _runner(settings, limits, pool)
     audit = AuditLog(settings.data_dir / "audit")
     metrics = Metrics(library.catalogue_names, pool, runner.store.states)
     readiness = Readiness(pool, settings.data_dir, lambda: runner.failure)
@@ -84,13 +86,14 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
         threading.Thread(target=library.prepare, name="sweep", daemon=True).start()
+        runner.workers.start()
         runner.start()
         starting = asyncio.create_task(_start(readiness, pool))
         async with metrics.publishing():
             yield
         starting.cancel()
+        await asyncio.to_thread(runner.close)
         pool.close()
-        runner.close()
         derivations.shutdown()
         audit.close()
 
@@ -144,7 +147,7 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     return app
 
 
-def _runner(settings: Settings, limits: Limits) -> Runner:
+def _runner(settings: Settings, limits: Limits, pool: WorkerPool) -> Runner:
     """Build the runner of the jobs."""
     kept = JobLimits(
         kept=settings.kept_jobs,
@@ -155,8 +158,8 @@ def _runner(settings: Settings, limits: Limits) -> Runner:
     )
     kinds: dict[str, Kind] = {workspace.KIND: workspace_work}
     kinds |= {name: partial(long.work, limits) for name, long in LONG_WORK.items()}
-    workers = Workers(settings.job_processes)
     store = JobStore(settings.data_dir / "jobs", kept)
+    workers = PoolExecutor(pool)
     executor = Cluster(settings.ray_address) if settings.ray_address else workers
     is_local = settings.ray_lost == "local"
     return Runner(store, kinds, workers, settings.running_jobs, settings.job_seconds, executor, is_local)

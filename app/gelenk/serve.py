@@ -74,7 +74,7 @@ def main() -> None:
     if not (settings.api_keys or settings.open_access or arguments.open or is_loopback(arguments.host)):
         sys.exit(OPEN_TO_ALL.format(host=arguments.host, keys=program.replace("serve", "keys")))
     room = _room_for_connections(settings.crew_processes + settings.job_processes)
-    listener = _listening(arguments.host, arguments.port)
+    sockets = listeners(arguments.host, arguments.port, arguments.workers)
     where = f"Gelenk at http://{arguments.host}:{arguments.port}{settings.root_path}/"
     print(f"{where}, robots of your own in {settings.data_dir}", flush=True)
     if (reason := why_not(settings.data_dir)) is not None:
@@ -86,7 +86,6 @@ def main() -> None:
         factory=True,
         host=arguments.host,
         port=arguments.port,
-        workers=arguments.workers,
         loop="uvloop",
         http=cast(type[asyncio.Protocol], partial(BoundedProtocol, gate=Gate(bounds))),
         ws="none",
@@ -99,18 +98,20 @@ def main() -> None:
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
     )
     with metrics_folder(arguments.workers):
-        Supervisor(config, listener).run()
+        Supervisor(config, sockets).run()
 
 
-def _listening(host: str, port: int) -> socket.socket:
-    """Return a listening socket; of two services started at once, one fails now and not when it serves.
+def listeners(host: str, port: int, count: int) -> list[socket.socket]:
+    """Return the listening socket of each worker process; of two services started at once, one fails now.
 
     Raises:
         SystemExit: Another program listens there, or listening is impossible.
     """
     family, both = (socket.AF_INET6, socket.has_dualstack_ipv6()) if ":" in host else (socket.AF_INET, False)
+    create = partial(socket.create_server, family=family, dualstack_ipv6=both)
     try:
-        return socket.create_server((host, port), family=family, dualstack_ipv6=both)
+        first = create((host, port))
+        return [first] * count
     except OSError as error:
         reason = "another program has it" if error.errno == errno.EADDRINUSE else error.strerror or str(error)
         is_port = error.errno in {errno.EADDRINUSE, errno.EACCES}

@@ -3,22 +3,20 @@
 import asyncio
 import contextlib
 import logging
-import os
 import signal
 import socket
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
-from multiprocessing import reduction
-from multiprocessing.connection import Connection, wait
+from itertools import chain
+from multiprocessing.connection import wait
 from typing import Any, cast
 
 import uvicorn
 
 from gelenk.connections import Gate
-from gelenk.processes import copies
-from gelenk.processes.copies import Copy
+from gelenk.processes.worker_process import FORK_SERVER, WorkerProcess
 
 LISTENERS = 8
 """Number of connections that an event loop accepts per turn; each takes less than 0.1 ms."""
@@ -26,7 +24,7 @@ LEAVING_SECONDS = 0.5
 """How long requests are still accepted after SIGTERM, [s]; each response announces that its connection closes."""
 STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
-"""Exit code of a worker that could not start serving."""
+"""Exit code of a worker that could not begin to serve."""
 _BEAT_SECONDS = 5.0
 """Interval of the heartbeats from a worker's event loop, [s]."""
 _HANGS_SECONDS = 60.0
@@ -37,6 +35,7 @@ _SOON_SECONDS = 5.0
 """If a worker ends within this time after its start, [s], its replacement has to wait, because it may do the same."""
 _LOOK_SECONDS = 0.5
 _PAUSE_SECONDS, _MOST_PAUSE_SECONDS = 0.1, 10.0
+_MOST_LISTENERS = 128
 _END_SECONDS = 1.0
 
 logger = logging.getLogger("gelenk")
@@ -46,16 +45,18 @@ class Supervisor:
     """Starts the workers, watches them and replaces them.
 
     Args:
-        config: Configuration of each worker; `workers` is their number.
-        listener: Listening socket; it queues connections until a worker accepts them.
+        config: What each of them serves, and how.
+        listeners: Where requests come in, for each worker its own. They stay open here and queue connections, so that
+            the replacement of a worker answers those that came meanwhile.
     """
 
-    def __init__(self, config: uvicorn.Config, listener: socket.socket) -> None:
-        self._config, self._listener = config, listener
-        self._seats, self._early = [_Seat() for _ in range(config.workers)], _Seat()
+    def __init__(self, config: uvicorn.Config, listeners: Sequence[socket.socket]) -> None:
+        self._listeners, self._grace = listeners, config.timeout_graceful_shutdown or 0
+        self._workers = [Worker(config, "worker", [listener]) for listener in listeners]
+        self._early = Worker(config, "early", listeners)
         self._warming: socket.socket | None = None
         self._since = 0.0
-        self._goes_on, self._has_told = True, False
+        self._is_running, self._has_announced = True, False
 
     def run(self) -> None:
         """Serve until SIGINT or SIGTERM, or until a worker cannot start serving.
@@ -70,179 +71,191 @@ class Supervisor:
         for stop in (signal.SIGINT, signal.SIGTERM):
             signal.signal(stop, self._stop)
         looked = time.monotonic()
-        while self._goes_on and not any(seat.cannot_begin for seat in self._seats):
+        while self._is_running and not any(worker.cannot_start for worker in self._workers):
             self._fill()
-            ready = wait([woken, *self._signs()], timeout=_LOOK_SECONDS)
+            ready = wait([woken, *self._watched()], timeout=_LOOK_SECONDS)
             now = time.monotonic()
             if self._warming is not None:
-                self._look_after(self._warming, self._warming in ready)
-            for seat in (*self._seats, self._early):
+                self._watch_warm_up(self._warming, self._warming in ready)
+            for worker in (*self._workers, self._early):
                 # If this process was suspended, missing heartbeats prove nothing.
-                seat.look(now, is_forgiving=now - looked > _BEAT_SECONDS)
+                worker.check(now, is_forgiving=now - looked > _BEAT_SECONDS)
             looked = now
         self._end()
-        if self._goes_on:
+        if self._is_running:
             logger.error("a worker process could not start serving: the service ends")
             sys.exit(STARTUP_FAILURE)
 
     def _stop(self, *_: object) -> None:
-        self._goes_on = False
+        self._is_running = False
 
     def _fill(self) -> None:
-        """Start a worker on each free seat as soon as the fork server has loaded everything."""
-        empty = [seat for seat in self._seats if seat.wants_worker]
-        if not empty:
+        """Start the workers that are missing, as soon as the fork server has loaded everything."""
+        missing = [worker for worker in self._workers if worker.is_due]
+        if not missing:
             return
         try:
-            if copies.begin():
+            if FORK_SERVER.start():
                 self._since = time.monotonic()
-                self._early.take(self._config, "early")
-                self._warming = copies.warm_up()
-            for seat in empty if self._warming is None else ():
-                seat.take(self._config, "worker")
-                seat.serve(self._listener)
+                self._early.start()
+                self._warming = FORK_SERVER.warm_up()
+            for worker in missing if self._warming is None else ():
+                worker.start()
+                worker.serve()
         except OSError as error:
             logger.error("no worker process could be started: %s", error)
-            for seat in empty:
-                seat.rest()
+            for worker in missing:
+                worker.back_off()
 
-    def _look_after(self, warming: socket.socket, is_over: bool) -> None:
+    def _watch_warm_up(self, warming: socket.socket, is_over: bool) -> None:
         """Let an early worker report the service's state while the kernels are compiled, which may take a minute."""
         if is_over:
             warming.close()
             self._warming = None
             self._early.stop()
         elif time.monotonic() > self._since + _PATIENCE_SECONDS:
-            if not self._has_told:
+            if not self._has_announced:
                 print(STILL_STARTING, flush=True)
-                self._has_told = True
-            self._early.serve(self._listener)
+                self._has_announced = True
+            self._early.serve()
 
-    def _signs(self) -> list[int | socket.socket]:
-        """Return what becomes readable when a worker or the warm-up needs attention."""
-        found: list[int | socket.socket] = [one for seat in (*self._seats, self._early) for one in seat.signs]
+    def _watched(self) -> list[int | socket.socket]:
+        """What becomes readable when there is something to check."""
+        found: list[int | socket.socket] = [one for worker in (*self._workers, self._early) for one in worker.watched]
         return found if self._warming is None else [*found, self._warming]
 
     def _end(self) -> None:
-        """Let running requests finish, then kill the workers that do not end by themselves."""
-        seats = [*self._seats, self._early]
-        for seat in seats:
-            seat.stop()
-        self._listener.close()  # once all workers close theirs, no connection is accepted in vain
-        until = time.monotonic() + LEAVING_SECONDS + (self._config.timeout_graceful_shutdown or 0) + _END_SECONDS
-        for seat in seats:
-            seat.leave(until)
+        """Let requests in flight finish; what does not end by itself is killed."""
+        workers = [*self._workers, self._early]
+        for worker in workers:
+            worker.stop()
+        for listener in self._listeners:
+            # When its worker has closed its own, nobody is let in whom nobody will answer.
+            listener.close()
+        until = time.monotonic() + LEAVING_SECONDS + self._grace + _END_SECONDS
+        for worker in workers:
+            worker.join(until)
 
 
-class _Seat:
-    """The place of one worker.
+class Worker:
+    """A worker, and its replacements.
+
+    Args:
+        config: What it serves, and how.
+        name: Of its process.
+        listeners: Where its requests come in.
 
     Attributes:
-        cannot_begin: Whether the worker could not start serving, and none here ever did, so a new one could not either.
+        process: The running one.
+        cannot_start: Whether the first one could not begin to serve: no other one could.
     """
 
-    def __init__(self) -> None:
-        self._worker: Copy | None = None
-        self._beats: Connection | None = None
-        self._began = self._heard = self._empty_until = 0.0
+    def __init__(self, config: uvicorn.Config, name: str, listeners: Sequence[socket.socket]) -> None:
+        self._config, self._name, self._listeners = config, name, listeners
+        self.process: WorkerProcess | None = None
+        self._started = self._heard = self._due = 0.0
         self._pause, self._has_served = _PAUSE_SECONDS, False
-        self._serves = self._is_stopped = False
-        self.cannot_begin = False
+        self._is_serving = self._is_stopped = False
+        self.cannot_start = False
 
     @property
-    def wants_worker(self) -> bool:
-        return self._worker is None and time.monotonic() >= self._empty_until
+    def is_due(self) -> bool:
+        """Whether there is no process and one may be started."""
+        return self.process is None and time.monotonic() >= self._due
 
     @property
-    def signs(self) -> list[int]:
-        """File descriptors that become readable when the worker needs attention."""
-        return [one.fileno() for one in (self._worker, self._beats) if one is not None]
+    def watched(self) -> list[int]:
+        """File descriptors that become readable when there is something to check."""
+        return [] if self.process is None else [self.process.fileno(), self.process.socket.fileno()]
 
-    def take(self, config: uvicorn.Config, name: str) -> None:
-        """Start a worker unless this seat has one; it waits until `serve` lets it serve.
+    def start(self) -> None:
+        """Start a process that waits until it may serve.
 
         Raises:
             OSError: No worker could be started.
         """
-        if self._worker is None:
-            self._worker, self._beats = copies.started(partial(work, config), name)
-            self._began = self._heard = time.monotonic()
-            self._is_stopped = self._serves = False
+        if self.process is None:
+            self.process = WorkerProcess.start(partial(work, self._config), self._name)
+            self._started = self._heard = time.monotonic()
+            self._is_stopped = self._is_serving = False
 
-    def serve(self, listener: socket.socket) -> None:
-        """Let the worker serve, by sending it the listening socket."""
-        if self._worker is not None and self._beats is not None and not self._serves:
-            self._serves = True
-            with contextlib.suppress(OSError):  # the worker has ended; `look` notices that
-                reduction.send_handle(self._beats, listener.fileno(), self._worker.pid)
+    def serve(self) -> None:
+        """Let the process serve."""
+        if self.process is not None and not self._is_serving:
+            self._is_serving = True
+            with contextlib.suppress(OSError):  # it has ended: `check` will see that
+                listeners = [listener.fileno() for listener in self._listeners]
+                socket.send_fds(self.process.socket, [b"."], listeners)
 
-    def look(self, now: float, is_forgiving: bool) -> None:
-        """Read the worker's heartbeats, and release a worker that has ended or hangs."""
-        if self._worker is None or self._beats is None:
+    def check(self, now: float, is_forgiving: bool) -> None:
+        """Listen to the process, and clear away one that has ended or hangs."""
+        process = self.process
+        if process is None:
             return
-        with contextlib.suppress(EOFError, OSError):
-            while self._beats.poll():
-                self._beats.recv_bytes()
+        with contextlib.suppress(OSError):
+            if process.socket.recv(4096, socket.MSG_DONTWAIT):
                 self._has_served, self._heard = True, now
         if is_forgiving:
             self._heard = now
         hangs = now - self._heard > _HANGS_SECONDS
-        if self._worker.is_alive() and not hangs:
+        if process.is_alive() and not hangs:
             return
-        pid, code = self._worker.pid, self._worker.exitcode
-        self._let_go()
+        code = process.exitcode
+        self._close()
         if self._is_stopped:
             return
-        self.cannot_begin = code == STARTUP_FAILURE and not self._has_served
+        self.cannot_start = code == STARTUP_FAILURE and not self._has_served
         how = "hangs" if hangs else f"has ended with code {code}"
-        logger.error("worker process %d %s; a new one replaces it", pid, how)
-        if now - self._began < _SOON_SECONDS:
-            self.rest()
+        logger.error("worker process %d %s; a new one replaces it", process.pid, how)
+        if now - self._started < _SOON_SECONDS:
+            self.back_off()
         else:
             self._pause = _PAUSE_SECONDS
 
-    def rest(self) -> None:
-        """Leave the seat empty for a while, longer each time."""
-        self._empty_until = time.monotonic() + self._pause
+    def back_off(self) -> None:
+        """Start no process for a while, longer each time."""
+        self._due = time.monotonic() + self._pause
         self._pause = min(2.0 * self._pause, _MOST_PAUSE_SECONDS)
 
     def stop(self) -> None:
-        """Let the worker end: SIGTERM if it serves, otherwise by killing it."""
+        """Tell the process to end; one that does not serve yet is killed."""
         self._is_stopped = True
-        if self._worker is not None and self._serves:
-            self._worker.signal(signal.SIGTERM)
-        elif self._worker is not None:
-            self._let_go()
+        if self.process is not None and self._is_serving:
+            self.process.signal(signal.SIGTERM)
+        else:
+            self._close()
 
-    def leave(self, until: float) -> None:
-        """Wait for the worker to end, until this time of the monotonic clock, [s]; then kill it."""
-        if self._worker is not None:
-            self._worker.join(max(0.0, until - time.monotonic()))
-            self._let_go()
+    def join(self, until: float) -> None:
+        """Wait for the end of the process until then, and kill it where it does not come."""
+        if self.process is not None:
+            self.process.join(max(0.0, until - time.monotonic()))
+            self._close()
 
-    def _let_go(self) -> None:
-        copies.ended(self._worker, self._beats)
-        self._worker = self._beats = None
+    def _close(self) -> None:
+        if self.process is not None:
+            self.process.close()
+            self.process = None
 
 
-def work(config: uvicorn.Config, connection: Connection) -> None:
+def work(config: uvicorn.Config, connection: socket.socket) -> None:
     """Serve requests; a worker process runs this function.
 
     Args:
-        config: Configuration of the server.
-        connection: Connection to the supervisor, which sends the listening socket and receives heartbeats.
+        config: What, and how.
+        connection: To the supervisor: the listening sockets come from there, and beats go there.
 
     Raises:
         SystemExit: The worker could not start serving.
     """
-    listener = socket.socket(fileno=reduction.recv_handle(connection))
-    os.set_blocking(connection.fileno(), False)
+    _, descriptors, _, _ = socket.recv_fds(connection, 1, _MOST_LISTENERS)
+    listeners = [socket.socket(fileno=descriptor) for descriptor in descriptors]
+    connection.setblocking(False)
     config.configure_logging()
     server = _Server(config, connection)
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, server.handle_exit)
     try:
-        server.run(sockets=several(listener))
+        server.run(sockets=[one for listener in listeners for one in several(listener)])
     except Exception:
         logger.exception("a worker process has failed")
     if not server.started:
@@ -270,7 +283,7 @@ def waiting(listener: socket.socket) -> Iterator[socket.socket]:
 class _Server(uvicorn.Server):
     """Server that sends heartbeats to the supervisor."""
 
-    def __init__(self, config: uvicorn.Config, connection: Connection) -> None:
+    def __init__(self, config: uvicorn.Config, connection: socket.socket) -> None:
         super().__init__(config)
         self._connection = connection
 
@@ -288,7 +301,7 @@ class _Server(uvicorn.Server):
         while gate.connections and time.monotonic() < until:
             await asyncio.sleep(0.05)
         # Connections still queued when the listener closes are cut off, so accept them right before, without an await.
-        arrived = asyncio.gather(*map(self._let_in, waiting(sockets[0]) if sockets else ()))
+        arrived = asyncio.gather(*map(self._let_in, chain.from_iterable(map(waiting, sockets or ()))))
         await super().shutdown(sockets)
         await arrived
 
@@ -300,5 +313,5 @@ class _Server(uvicorn.Server):
 
     def _beat(self) -> None:
         with contextlib.suppress(OSError):
-            self._connection.send_bytes(b".")
+            self._connection.send(b".")
         asyncio.get_running_loop().call_later(_BEAT_SECONDS, self._beat)

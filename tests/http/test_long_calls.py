@@ -213,7 +213,7 @@ class Leap:
 
 
 class Here(WorkerPool):
-    """A crew without processes."""
+    """A pool without processes."""
 
     async def run(self, function: Any, argument: Any, *_: Any) -> Any:
         return await asyncio.to_thread(function, argument)

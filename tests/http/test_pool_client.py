@@ -48,7 +48,7 @@ def test_a_client_with_its_share_at_work_is_told_so(tmp_path: Path) -> None:
         )
         slow.start()
         until = time.monotonic() + 60
-        while not one.app.state.pool.busy:  # type: ignore[attr-defined]
+        while not one.app.state.pool.requests.busy:  # type: ignore[attr-defined]
             assert time.monotonic() < until
             time.sleep(0.01)
         refused = one.post("/v1/robots/panda/ik", json={**SLOW, "time_limit": 0.1})
@@ -78,7 +78,7 @@ def test_a_key_with_slow_requests_does_not_hold_up_another(tmp_path: Path) -> No
 
         slow = [pool.submit(ask, 60.0, heavy) for _ in range(4)]
         until = time.monotonic() + 60
-        while client.app.state.pool.queue_length < 2:  # type: ignore[attr-defined]
+        while client.app.state.len(pool.requests.turns) < 2:  # type: ignore[attr-defined]
             assert time.monotonic() < until
             time.sleep(0.01)
         for _ in range(3):

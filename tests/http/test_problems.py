@@ -22,7 +22,6 @@ from gelenk.http.workers.pool_client import PoolClient
 from gelenk.jobs.job import Failure
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
-from gelenk.jobs.workers import Workers
 from gelenk.kinematics.judge.judge import certify_poses
 from gelenk.operations.outcome import Limits
 from gelenk.pool.pool import WorkerPool
@@ -37,6 +36,7 @@ from gelenk.trajectory.audit.audit import audit
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.plan import refuse_failed
+from tests.jobs.workers import Workers
 from tests.pool import calls
 from tests.robots import robot
 

@@ -24,11 +24,12 @@ from gelenk.jobs.driver import _computed, code_digest
 from gelenk.jobs.job import JobRecord
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
-from gelenk.jobs.workers import Cancelled, Order, Unavailable, Workers
+from gelenk.jobs.workers import Cancelled, Unavailable
 from gelenk.main import create_app
 from gelenk.settings import Settings
 from tests.jobs.parts import gone, made_by, of_parts, told
 from tests.jobs.ray_cluster import cluster, head, node, signalled
+from tests.jobs.workers import Workers
 from tests.test_serve import HOST, free_port
 
 NPY = "application/x-npy"
@@ -107,7 +108,7 @@ class Scripted:
     def prepare(self) -> None:
         """It is found as soon as it is there."""
 
-    def submit(self, function: Any, argument: Any, _: Order) -> "Future[Any]":
+    def submit(self, function: Any, argument: Any, _: float) -> "Future[Any]":
         if self.failure is not None:
             raise Unavailable(self.failure)
         future: Future[Any] = Future()
@@ -295,24 +296,23 @@ def test_a_cancelled_job_leaves_the_cluster_at_once(runner: Runner, tmp_path: Pa
 @with_ray
 def test_the_end_of_the_driver_fails_what_is_under_way_and_nothing_else(address: str) -> None:
     computes = Cluster(address)
-    order = Order(time.monotonic() + SOON)
+    until = time.monotonic() + SOON
     try:
         computes.prepare()
-        assert computes.submit(told, ("double", 1), order).result(SOON) == b"2"
-        under_way = computes.submit(told, ("sleep", 30.0), order)
+        assert computes.submit(told, ("double", 1), until).result(SOON) == b"2"
+        under_way = computes.submit(told, ("sleep", 30.0), until)
         assert computes._process is not None
-        assert computes._process.pid is not None
         os.kill(computes._process.pid, signal.SIGKILL)
         with pytest.raises(Unavailable, match="was lost"):
             under_way.result(SOON)
         assert computes.failure is not None
         computes.prepare()
-        assert computes.submit(told, ("double", 2), order).result(SOON) == b"4"
+        assert computes.submit(told, ("double", 2), until).result(SOON) == b"4"
         assert computes.failure is None
     finally:
         computes.close()
     with pytest.raises(Cancelled):
-        computes.submit(told, ("double", 2), order)
+        computes.submit(told, ("double", 2), until)
 
 
 @pytest.mark.slow

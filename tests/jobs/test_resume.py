@@ -15,8 +15,8 @@ import pytest
 from gelenk.errors import JobInterrupted
 from gelenk.jobs.runner import Runner
 from gelenk.jobs.store import JobLimits, JobStore
-from gelenk.jobs.workers import Order, Workers
 from tests.jobs.parts import fatal, made_by, of_parts
+from tests.jobs.workers import Workers
 
 PARTS = 16
 SERVICE = """
@@ -43,7 +43,7 @@ class Threads:
     def __init__(self) -> None:
         self._pool = ThreadPoolExecutor(self.count)
 
-    def submit(self, function: Callable[[Any], Any], argument: Any, _: Order) -> "Future[Any]":
+    def submit(self, function: Callable[[Any], Any], argument: Any, _: float) -> "Future[Any]":
         return self._pool.submit(function, argument)
 
     def close(self) -> None:

@@ -3,13 +3,16 @@
 import os
 import time
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from gelenk.jobs import workers as workers_module
-from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
+from gelenk.jobs.workers import Cancelled, OutOfTime
+from gelenk.pool.pool import BACKGROUND
 from tests.jobs.parts import double, fail, gone, killed, own_pid, sleep
+from tests.jobs.workers import Workers
 
 SOON = 20.0
 
@@ -21,16 +24,16 @@ def workers() -> Iterator[Workers]:
     pool.close()
 
 
-def order(seconds: float = SOON) -> Order:
-    return Order(time.monotonic() + seconds)
+def soon(seconds: float = SOON) -> float:
+    return time.monotonic() + seconds
 
 
 def test_nothing_runs_before_the_first_part_and_nothing_is_left_at_the_end() -> None:
     pool = Workers(2)
     assert pool.pids == []
-    assert pool.submit(double, 21, order()).result(SOON) == 42
-    pids = [pool.submit(own_pid, 0, order()).result(SOON), *pool.pids]
-    slow, waiting = pool.submit(sleep, 60.0, order(90.0)), [pool.submit(sleep, 60.0, order(90.0)) for _ in range(3)]
+    assert pool.submit(double, 21, soon()).result(SOON) == 42
+    pids = [pool.submit(own_pid, 0, soon()).result(SOON), *pool.pids]
+    slow, waiting = pool.submit(sleep, 60.0, soon(90.0)), [pool.submit(sleep, 60.0, soon(90.0)) for _ in range(3)]
     time.sleep(0.3)
     started = time.monotonic()
     pool.close()
@@ -40,11 +43,11 @@ def test_nothing_runs_before_the_first_part_and_nothing_is_left_at_the_end() -> 
             future.result(SOON)
     assert all(gone(pid) for pid in pids)
     with pytest.raises(Cancelled):
-        pool.submit(double, 1, order())
+        pool.submit(double, 1, soon())
 
 
 def test_parts_are_shared_by_the_processes_that_stay_warm(workers: Workers) -> None:
-    mine = order()
+    mine = soon()
     for future in [workers.submit(sleep, 0.3, mine) for _ in range(4)]:
         future.result(SOON)
     first = set(workers.pids)
@@ -54,56 +57,70 @@ def test_parts_are_shared_by_the_processes_that_stay_warm(workers: Workers) -> N
 
 def test_an_error_comes_back_as_it_was_raised(workers: Workers) -> None:
     with pytest.raises(ValueError, match="no such thing"):
-        workers.submit(fail, "no such thing", order()).result(SOON)
+        workers.submit(fail, "no such thing", soon()).result(SOON)
 
 
 def test_a_part_whose_process_is_killed_is_tried_three_times(workers: Workers, tmp_path: Path) -> None:
     for times in (1, 2):
-        assert workers.submit(killed, (str(tmp_path / f"{times}"), times), order()).result(SOON) == 1
+        assert workers.submit(killed, (str(tmp_path / f"{times}"), times), soon()).result(SOON) == 1
     with pytest.raises(ChildProcessError, match="died 3 times"):
-        workers.submit(killed, (str(tmp_path / "always"), 99), order()).result(SOON)
+        workers.submit(killed, (str(tmp_path / "always"), 99), soon()).result(SOON)
     assert (tmp_path / "always").read_bytes() == b"..."
-    assert workers.submit(double, 4, order()).result(SOON) == 8
+    assert workers.submit(double, 4, soon()).result(SOON) == 8
 
 
 def test_a_process_that_is_killed_from_outside_is_replaced(workers: Workers) -> None:
     for _ in range(2):
-        workers.submit(double, 1, order()).result(SOON)
+        workers.submit(double, 1, soon()).result(SOON)
     for pid in workers.pids:
         os.kill(pid, 9)
-    assert [workers.submit(double, i, order()).result(SOON) for i in range(4)] == [0, 2, 4, 6]
+    assert [workers.submit(double, i, soon()).result(SOON) for i in range(4)] == [0, 2, 4, 6]
 
 
-def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(
-    workers: Workers, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(workers_module, "_GRACE", 0.2)
-    unwanted, other = order(), order()
-    hanging, beside = workers.submit(sleep, 60.0, unwanted), workers.submit(sleep, 0.7, other)
+def test_what_hangs_is_killed_when_it_is_cancelled_and_nothing_else_is(workers: Workers) -> None:
+    for future in [workers.submit(sleep, 0.3, soon()) for _ in range(2)]:
+        future.result(SOON)
+    pids = workers.pids
+    hanging, beside = workers.submit(sleep, 60.0, soon(90.0)), workers.submit(sleep, 5.0, soon())
     time.sleep(0.2)
     started = time.monotonic()
-    unwanted.cancelled.set()
-    with pytest.raises(Cancelled):
+    hanging.cancel()
+    with pytest.raises(CancelledError):
         hanging.result(SOON)
-    assert time.monotonic() - started < 1.0
-    assert beside.result(SOON) == 0.7
+    while not any(gone(pid) for pid in pids):
+        assert time.monotonic() < started + 4.0
+        time.sleep(0.02)
+    assert time.monotonic() > started + 0.5, "it may finish within the grace time"
+    assert beside.result(SOON) == 5.0
+    assert sum(gone(pid) for pid in pids) == 1
+
+
+def test_what_is_cancelled_and_finishes_soon_costs_no_process(workers: Workers) -> None:
+    for future in [workers.submit(sleep, 0.3, soon()) for _ in range(2)]:
+        future.result(SOON)
+    pids = workers.pids
+    hanging = workers.submit(sleep, 0.5, soon())
+    time.sleep(0.2)
+    hanging.cancel()
+    time.sleep(1.5)
+    assert workers.pids == pids
 
 
 def test_what_takes_too_long_is_killed(workers: Workers) -> None:
     with pytest.raises(OutOfTime):
-        workers.submit(sleep, 60.0, order(0.6)).result(SOON)
-    assert workers.submit(double, 1, order()).result(SOON) == 2
+        workers.submit(sleep, 60.0, soon(0.6)).result(SOON)
+    assert workers.submit(double, 1, soon()).result(SOON) == 2
 
 
 def test_a_process_without_work_is_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers_module, "_IDLE", 0.2)
+    monkeypatch.setattr("gelenk.pool.pool.BACKGROUND", replace(BACKGROUND, idle_seconds=0.2))
     pool = Workers(1)
     try:
-        pid = pool.submit(own_pid, 0, order()).result(SOON)
+        pid = pool.submit(own_pid, 0, soon()).result(SOON)
         deadline = time.monotonic() + 5.0
         while not gone(pid):
             assert time.monotonic() < deadline
             time.sleep(0.02)
-        assert pool.submit(own_pid, 0, order()).result(SOON) != pid
+        assert pool.submit(own_pid, 0, soon()).result(SOON) != pid
     finally:
         pool.close()

@@ -11,7 +11,7 @@ from pickle import PickleBuffer
 
 import numpy as np
 
-from gelenk.pool.wire import pieces_of
+from gelenk.processes.wire import pieces_of
 
 
 def double(value: int) -> int:

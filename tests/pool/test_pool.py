@@ -16,8 +16,8 @@ import pytest
 
 from gelenk.errors import DeadlineExceeded, ServiceBusy, ServiceStopping, WorkerCrashed, WorkerOutOfMemory
 from gelenk.pool.pool import WorkerPool
-from gelenk.pool.wire import PIECE
-from gelenk.processes import copies
+from gelenk.processes.wire import PIECE
+from gelenk.processes.worker_process import WorkerProcess
 from tests.jobs.parts import gone
 from tests.pool import calls
 
@@ -43,7 +43,7 @@ def with_pool(
 
 async def at_work(pool: WorkerPool, count: int) -> None:
     async with asyncio.timeout(LONG):
-        while pool.busy < count:
+        while pool.requests.busy < count:
             await asyncio.sleep(0.005)
 
 
@@ -66,7 +66,7 @@ def test_processes_have_everything_loaded_and_stay() -> None:
         pids = {await pool.run(calls.own_pid, None, LONG) for _ in range(5)}
         assert pids <= set(pool.pids)
         assert os.getpid() not in pids
-        assert pool.restarts == 0
+        assert pool.requests.restarts == 0
 
     with_pool(test)
 
@@ -88,7 +88,7 @@ def test_processes_that_begin_later_have_what_is_seldom_needed_too() -> None:
 
 @pytest.mark.slow
 def test_a_process_that_loaded_modules_of_its_own_makes_room_for_one_that_shares_them() -> None:
-    """Some seconds later; in a service of its own, whose original has not loaded them yet."""
+    """Some seconds later; in a service of its own, whose fork server has not loaded them yet."""
     program = (
         "import asyncio; from gelenk.pool.pool import WorkerPool; from tests.pool import calls\n"
         "async def run():\n"
@@ -152,7 +152,7 @@ def test_a_crash_fails_its_own_call_alone(how: signal.Signals) -> None:
             await pool.run(calls.die, how, LONG)
         assert await pool.run(calls.double, 4, LONG) == 8
         assert await other == 1.0
-        assert pool.restarts == 1
+        assert pool.requests.restarts == 1
 
     with_pool(test)
 
@@ -239,7 +239,7 @@ def test_a_process_that_has_grown_makes_room_for_a_fresh_one() -> None:
         first = await pool.run(calls.keep, 100, LONG)
         assert await pool.run(calls.keep, 100, LONG) == first
         assert await pool.run(calls.keep, 1, LONG) != first
-        assert pool.restarts == 0, "it was no fault"
+        assert pool.requests.restarts == 0, "it was no fault"
 
     with_pool(test, 1)
 
@@ -282,11 +282,11 @@ def test_who_leaves_the_queue_costs_nothing() -> None:
         second = asyncio.create_task(pool.run(calls.sleep, 60.0, LONG))
         third = asyncio.create_task(pool.run(calls.double, 3, LONG))
         await asyncio.sleep(0.05)
-        assert pool.queue_length == 2
+        assert len(pool.requests.turns) == 2
         second.cancel()
         assert await third == 6
         assert await first == 0.5
-        assert (pool.queue_length, pool.restarts) == (0, 0)
+        assert (len(pool.requests.turns), pool.requests.restarts) == (0, 0)
 
     with_pool(test, 1)
 
@@ -347,7 +347,7 @@ def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
         with pytest.raises(ServiceBusy):
             await pool.run(calls.double, 1, 0.1)
         assert await running == 0.5
-        assert (pool.queue_length, pool.restarts) == (0, 0)
+        assert (len(pool.requests.turns), pool.requests.restarts) == (0, 0)
 
     with_pool(test, 1)
 
@@ -355,13 +355,13 @@ def test_a_turn_that_does_not_come_in_time_is_given_up() -> None:
 @pytest.mark.slow
 def test_what_the_start_takes_is_no_part_of_the_wait_for_a_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where kernels are compiled it takes a minute or two."""
-    begin = copies.started
+    start = WorkerProcess.start
 
     def slow(*arguments: Any) -> Any:
         time.sleep(1.0)
-        return begin(*arguments)
+        return start(*arguments)
 
-    monkeypatch.setattr("gelenk.pool.pool.started", slow)
+    monkeypatch.setattr(WorkerProcess, "start", slow)
 
     async def run() -> None:
         pool = WorkerPool(1, 10, MEMORY)
@@ -415,7 +415,7 @@ def test_a_process_that_is_kept_for_a_client_who_has_left_is_taken() -> None:
         assert await pool.run(calls.double, 1, LONG, "light") == 2
         heavy = [asyncio.create_task(pool.run(calls.sleep, 6.0, LONG, "heavy")) for _ in range(2)]
         await at_work(pool, 1)
-        assert pool.queue_length == 1
+        assert len(pool.requests.turns) == 1
         await at_work(pool, 2)
         assert not any(task.done() for task in heavy)
         for task in heavy:
@@ -431,7 +431,7 @@ def test_an_error_comes_back_with_its_trace() -> None:
         assert "in fail" in raised.value.__notes__[0]
         with pytest.raises(RuntimeError, match="Unsendable: 1 and 2"):
             await pool.run(calls.fail_unsendably, None, LONG)
-        assert pool.restarts == 0
+        assert pool.requests.restarts == 0
 
     with_pool(test, 1)
 

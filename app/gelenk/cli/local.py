@@ -23,18 +23,10 @@ _Result = TypeVar("_Result")
 
 
 class _Alone(WorkerPool):
-    """A pool without processes: a thread does the work, and Ctrl-C stops it."""
+    """A pool without processes for requests: a thread does the work, and Ctrl-C stops it."""
 
-    def __init__(self) -> None:
-        super().__init__(0, sys.maxsize, 0)
-
-    async def start(self) -> None:
-        """Start nothing: there are no processes."""
-
-    @property
-    def is_short(self) -> bool:
-        """False: no process is missing."""
-        return False
+    def __init__(self, background: int) -> None:
+        super().__init__(0, sys.maxsize, 0, background)
 
     async def run(
         self,
@@ -70,7 +62,7 @@ class InProcess(httpx2.BaseTransport):
         self._stack = ExitStack()
         folder = self._stack.enter_context(TemporaryDirectory(prefix="gelenk-"))
         settings = Settings(data_dir=Path(folder), request_seconds=seconds, job_seconds=seconds)
-        app = create_app(settings, _Alone())
+        app = create_app(settings, _Alone(settings.job_processes))
         self._portal = self._stack.enter_context(start_blocking_portal())
         lifespan = app.router.lifespan_context(app)
         self._stack.enter_context(self._portal.wrap_async_context_manager(lifespan))

@@ -39,7 +39,7 @@ class Readiness:
     """
 
     def __init__(self, pool: WorkerPool, data_dir: Path, jobs_failure: Callable[[], str | None]) -> None:
-        self._crew, self._data_dir, self._jobs_failure = pool, data_dir, jobs_failure
+        self._pool, self._data_dir, self._jobs_failure = pool, data_dir, jobs_failure
         self._has_kernels = False
         self._looked = -math.inf
         self._storage: str | None = None
@@ -50,7 +50,7 @@ class Readiness:
         found = {}
         if not self._has_kernels:
             found["kernels"] = self.failure or "they are being compiled"
-        if self._crew.is_short:
+        if self._pool.requests.is_short:
             found["crew"] = "processes are being started"
         if no_jobs := self._jobs_failure():
             found["jobs"] = no_jobs

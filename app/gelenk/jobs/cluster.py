@@ -7,25 +7,24 @@ or falls silent, or no machine of the cluster computes any more, the parts under
 
 import contextlib
 import itertools
-import pickle
 import socket
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, InvalidStateError
-from multiprocessing.connection import Connection
+from functools import partial
 from signal import SIGKILL
 from typing import Any
 
 from gelenk.jobs.driver import SIZE, Driver
-from gelenk.jobs.workers import Cancelled, Order, Unavailable
-from gelenk.processes.copies import Copy, ended, started
+from gelenk.jobs.workers import Cancelled, Unavailable
+from gelenk.processes import wire
+from gelenk.processes.worker_process import WorkerProcess
 
 _ANSWER_SECONDS, _CONNECT_SECONDS = 5.0, 30.0
 """How long the cluster's head may take to accept a connection, and `driver` to send its first message, [s]."""
 _SILENCE_SECONDS = 15.0
 """Silence after which the process that runs `driver`, which sends a message every second, counts as hung, [s]."""
-_MESSAGES = pickle.HIGHEST_PROTOCOL
 
 
 class Cluster:
@@ -39,8 +38,7 @@ class Cluster:
         self.address = address
         self.failure: str | None = f"the Ray cluster at {address} has not answered yet"
         self._lock = threading.Lock()
-        self._process: Copy | None = None
-        self._connection: Connection | None = None
+        self._process: WorkerProcess | None = None
         self._heard = 0.0
         self._futures: dict[int, Future[Any]] = {}
         self._numbers = itertools.count()
@@ -54,40 +52,43 @@ class Cluster:
 
     def prepare(self) -> None:
         """Connect to the cluster if necessary; set `failure` if that fails. Only one thread at a time may call it."""
-        if self._connection is None:
+        if self._process is None:
             self._connect()
         elif time.monotonic() > self._heard + _SILENCE_SECONDS:
             self._kill()  # `_listen` then reports the connection as lost
 
-    def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Submit a part; see `Workers.submit`. Cancelling the future stops the part on the cluster too.
+    def submit(self, function: Callable[[Any], Any], argument: Any, _: float) -> "Future[Any]":
+        """Have a part computed; see `PoolExecutor.submit`. A cancelled future's part is ended on the cluster too.
 
         Raises:
             Unavailable: No machine of the cluster computes.
             Cancelled: The service is shutting down.
         """
-        if order.cancelled.is_set() or self._closed.is_set():
+        if self._closed.is_set():
             raise Cancelled
         with self._lock:
-            if self._connection is None or self.failure is not None:
+            if self._process is None or self.failure is not None:
                 raise Unavailable(self.failure)
-            number, future = next(self._numbers), _Part(self)
-            future.number = number
+            number = next(self._numbers)
+            future: Future[Any] = Future()
             self._futures[number] = future
             try:
-                self._connection.send_bytes(pickle.dumps((number, (function, argument)), _MESSAGES))
+                wire.send(self._process.socket, (number, (function, argument)))
             except OSError as error:
-                raise self._lost() from error
+                raise self._disconnect() from error
+        future.add_done_callback(partial(self._drop, number))
         return future
 
-    def drop(self, number: int) -> None:
-        """Stop a part that is no longer needed."""
+    def _drop(self, number: int, future: "Future[Any]") -> None:
+        """Stop a part that was cancelled."""
+        if not future.cancelled():
+            return
         with self._lock:
-            if self._futures.pop(number, None) is not None and self._connection is not None:
+            if self._futures.pop(number, None) is not None and self._process is not None:
                 try:
-                    self._connection.send_bytes(pickle.dumps((number, None), _MESSAGES))
+                    wire.send(self._process.socket, (number, None))
                 except OSError:
-                    self._lost()
+                    self._disconnect()
 
     def close(self) -> None:
         """Stop all parts, even if the other process hangs, and reject later ones."""
@@ -106,12 +107,12 @@ class Cluster:
             # Ray would wait for minutes if the head were missing.
             host, _, port = self.address.rpartition(":")
             socket.create_connection((host.strip("[]"), int(port)), _ANSWER_SECONDS).close()
-            self._process, connection = started(Driver(self.address), "ray")
+            self._process = process = WorkerProcess.start(Driver(self.address), "ray")
             if self._closed.is_set():
                 self._kill()
-            if not connection.poll(_CONNECT_SECONDS):
-                raise TimeoutError
-            first = connection.recv()
+            process.socket.settimeout(_CONNECT_SECONDS)
+            first = wire.receive(process.socket)
+            process.socket.settimeout(None)
         except (OSError, EOFError) as error:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else "it does not answer"
             first = f"the Ray cluster at {self.address} cannot be reached: {reason}"
@@ -120,11 +121,10 @@ class Cluster:
                 self.failure = first
                 self._end(Unavailable(first))
                 return
-            self._connection = connection
-        self._know(first[-1])
-        threading.Thread(target=self._listen, args=(connection,), name="ray", daemon=True).start()
+        self._update_count(first[-1])
+        threading.Thread(target=self._listen, args=(process,), name="ray", daemon=True).start()
 
-    def _know(self, count: int) -> None:
+    def _update_count(self, count: int) -> None:
         """Record the number of processors that compute now; if it is zero, let the parts under way fail."""
         self._count, self._heard = max(1, count), time.monotonic()
         if count:
@@ -134,15 +134,15 @@ class Cluster:
             self.failure = f"the Ray cluster at {self.address} has no machine to compute with"
             self._fail(Unavailable(self.failure))
 
-    def _listen(self, connection: Connection) -> None:
+    def _listen(self, process: WorkerProcess) -> None:
         """Pass on results until the connection ends."""
         while True:
             try:
-                number, succeeded, result = connection.recv()
+                number, succeeded, result = wire.receive(process.socket)
             except (OSError, EOFError):
                 break
             if number == SIZE:
-                self._know(result)
+                self._update_count(result)
                 continue
             with self._lock:
                 future = self._futures.pop(number, None)
@@ -153,17 +153,18 @@ class Cluster:
                 elif future is not None:
                     future.set_exception(result)
         with self._lock:
-            if self._connection is connection:
-                self._lost()
+            if self._process is process:
+                self._disconnect()
 
-    def _lost(self) -> Unavailable:
+    def _disconnect(self) -> Unavailable:
         self.failure = f"the connection to the Ray cluster at {self.address} was lost"
         self._end(lost := Unavailable(self.failure))
         return lost
 
     def _end(self, error: Exception) -> None:
-        ended(self._process, self._connection)
-        self._process, self._connection = None, None
+        if self._process is not None:
+            self._process.close()
+            self._process = None
         self._fail(error)
 
     def _fail(self, error: Exception) -> None:
@@ -172,17 +173,3 @@ class Cluster:
         for future in futures:
             with contextlib.suppress(InvalidStateError):
                 future.set_exception(error)
-
-
-class _Part(Future[Any]):
-    """Future of a part; cancelling it stops the part on the cluster too."""
-
-    def __init__(self, cluster: Cluster) -> None:
-        super().__init__()
-        self.number = -1
-        self._cluster = cluster
-
-    def cancel(self) -> bool:
-        """Cancel the future and stop the part on the cluster."""
-        self._cluster.drop(self.number)
-        return super().cancel()

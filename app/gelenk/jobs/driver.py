@@ -8,8 +8,8 @@ machine that sends no results gets a probe to compute, which takes no processor 
 import hashlib
 import math
 import os
-import pickle
 import queue
+import socket
 import threading
 import time
 from collections import deque
@@ -18,18 +18,18 @@ from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, partial
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from gelenk.jobs.workers import ATTEMPTS, DIED
+from gelenk.processes import wire
 
 SIZE = -1
 """Marks the message, sent every second, with the number of processors that compute now; no part has this number."""
 
 _QUIET_SECONDS, _PROBE_SECONDS = 5.0, 12.0
 """Silence after which a machine is probed, and how long the probe may take: it may have to start a process, [s]."""
-_LIST_SECONDS, _TELL_SECONDS = 5.0, 1.0
+_LIST_SECONDS, _REPORT_SECONDS = 5.0, 1.0
 """Intervals at which the machines are listed, and are checked and reported, [s]."""
 
 _ENVIRONMENT = {
@@ -51,14 +51,14 @@ class _Machine:
         processors: Number of processors for parts.
         parts: Numbers of the parts that it was sent and has not finished.
         heard: Time of its last answer, on the clock of `time.monotonic`, [s].
-        is_asked: Whether a probe is under way.
+        is_being_probed: Whether a probe is under way.
         is_proven: Whether it has answered since its last failure; only then does it get parts.
     """
 
     processors: int
     parts: set[int] = field(default_factory=set)
     heard: float = -math.inf
-    is_asked: bool = False
+    is_being_probed: bool = False
     is_proven: bool = False
 
     @property
@@ -87,9 +87,9 @@ class Driver:
     def __init__(self, address: str) -> None:
         self._address = address
 
-    def __call__(self, connection: Connection) -> None:
+    def __call__(self, connection: socket.socket) -> None:
         """Send the number of processors, or why the cluster is unreachable, then compute parts until the pipe ends."""
-        _be_quiet()
+        _silence()
         try:
             import ray  # noqa: PLC0415 - an extra, and half a second
             from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy  # noqa: PLC0415
@@ -97,7 +97,7 @@ class Driver:
             ray.init(self._address, configure_logging=False, log_to_driver=False, namespace="gelenk")
         except Exception as error:
             reason = (str(error).strip() or type(error).__name__).splitlines()[0]
-            connection.send(f"the Ray cluster at {self._address} cannot be reached: {reason}")
+            wire.send(connection, f"the Ray cluster at {self._address} cannot be reached: {reason}")
             return
         with suppress(EOFError, OSError):
             _Dispatcher(ray, NodeAffinitySchedulingStrategy, connection).run()
@@ -106,7 +106,7 @@ class Driver:
 class _Dispatcher:
     """Sends parts to machines and results back, in one thread: if Ray hangs there, the service notices the silence."""
 
-    def __init__(self, ray: Any, pinned: Any, connection: Connection) -> None:
+    def __init__(self, ray: Any, pinned: Any, connection: socket.socket) -> None:
         self._ray, self._pinned, self._connection, self._code = ray, pinned, connection, code_digest()
         self._compute = ray.remote(max_retries=0, num_cpus=1)(_computed)
         self._probe = ray.remote(max_retries=0, num_cpus=0)(_probed)
@@ -114,7 +114,7 @@ class _Dispatcher:
         self._machines: dict[str, _Machine] = {}
         self._parts: dict[int, _Part] = {}
         self._waiting: deque[int] = deque()
-        self._began = self._told = time.monotonic()
+        self._started = self._reported = time.monotonic()
 
     def run(self) -> None:
         """Dispatch parts and results until the pipe closes."""
@@ -122,18 +122,18 @@ class _Dispatcher:
             threading.Thread(target=target, daemon=True).start()
         while True:
             with suppress(queue.Empty):
-                self._events.get(timeout=_TELL_SECONDS)()
-            if time.monotonic() > self._told + _TELL_SECONDS:
-                self._look()
+                self._events.get(timeout=_REPORT_SECONDS)()
+            if time.monotonic() > self._reported + _REPORT_SECONDS:
+                self._check_machines()
             self._place()
 
     def _receive(self) -> None:
         while True:
             try:
-                number, task = pickle.loads(self._connection.recv_bytes())  # noqa: S301 - from the service
+                number, task = wire.receive(self._connection)
             except (OSError, EOFError):
                 os._exit(0)
-            self._events.put(partial(self._take, number, task))
+            self._events.put(partial(self._handle_message, number, task))
 
     def _list(self) -> None:
         """List the machines at regular intervals; this hangs if the cluster's head hangs."""
@@ -144,59 +144,59 @@ class _Dispatcher:
                     for node in self._ray.nodes()
                     if node["Alive"] and (processors := int(node["Resources"].get("CPU", 0)))
                 }
-                self._events.put(partial(self._know, listed))
+                self._events.put(partial(self._update_machines, listed))
             time.sleep(_LIST_SECONDS)
 
-    def _know(self, listed: dict[str, int]) -> None:
+    def _update_machines(self, listed: dict[str, int]) -> None:
         for name in self._machines.keys() - listed.keys():
-            self._lose(self._machines.pop(name))
+            self._give_up(self._machines.pop(name))
         for name in listed.keys() - self._machines.keys():
             self._machines[name] = _Machine(listed[name])
-        self._look()
+        self._check_machines()
 
-    def _look(self) -> None:
+    def _check_machines(self) -> None:
         """Probe silent machines, take the parts from lost ones, and report the number of processors."""
-        self._told = now = time.monotonic()
+        self._reported = now = time.monotonic()
         for name, machine in self._machines.items():
             if machine.is_lost:
-                self._lose(machine)
-            if not machine.is_asked and (not machine.is_proven or now > machine.heard + _QUIET_SECONDS):
-                machine.is_asked = True
-                self._begin(self._probe, name, partial(self._answered, machine))
+                self._give_up(machine)
+            if not machine.is_being_probed and (not machine.is_proven or now > machine.heard + _QUIET_SECONDS):
+                machine.is_being_probed = True
+                self._run_on(self._probe, name, partial(self._confirm, machine))
         count = sum(machine.processors for machine in self._machines.values() if not machine.is_lost)
         if count == 0:
             self._parts.clear()  # the service lets them fail
             self._waiting.clear()
-        if count or now > self._began + _PROBE_SECONDS:
-            self._connection.send((SIZE, True, count))
+        if count or now > self._started + _PROBE_SECONDS:
+            wire.send(self._connection, (SIZE, True, count))
 
-    def _answered(self, machine: _Machine, _: Any, error: BaseException | None, __: Any) -> None:
-        machine.is_asked = False
+    def _confirm(self, machine: _Machine, _: Any, error: BaseException | None, __: Any) -> None:
+        machine.is_being_probed = False
         if error is None:
             machine.hear()
 
-    def _lose(self, machine: _Machine) -> None:
+    def _give_up(self, machine: _Machine) -> None:
         """Put the parts of a machine back into the queue."""
         machine.is_proven = False
         for number in machine.parts:
-            self._again(number, self._parts[number])
+            self._requeue(number, self._parts[number])
         machine.parts.clear()
 
-    def _again(self, number: int, part: _Part) -> None:
+    def _requeue(self, number: int, part: _Part) -> None:
         self._ray.cancel(part.reference, force=True)
         part.reference = None
         self._waiting.append(number)
 
-    def _take(self, number: int, task: _Task | None) -> None:
+    def _handle_message(self, number: int, task: _Task | None) -> None:
         """Queue a part; if the task is None, cancel the part instead."""
         if task is not None:
             self._parts[number] = _Part(task)
             self._waiting.append(number)
         elif (part := self._parts.pop(number, None)) is not None and part.reference is not None:
             self._ray.cancel(part.reference, force=True)
-            self._left(part.place, number)
+            self._leave(part.place, number)
 
-    def _left(self, place: str, number: int) -> _Machine | None:
+    def _leave(self, place: str, number: int) -> _Machine | None:
         machine = self._machines.get(place)
         if machine is not None:
             machine.parts.discard(number)
@@ -211,32 +211,32 @@ class _Dispatcher:
                 part.place = min(proven, key=lambda name: len(proven[name].parts) / proven[name].processors)
                 proven[part.place].parts.add(number)
                 call = self._code, *part.task
-                part.reference = self._begin(self._compute, part.place, partial(self._ended, number), *call)
+                part.reference = self._run_on(self._compute, part.place, partial(self._finish, number), *call)
 
-    def _begin(self, function: Any, place: str, then: Callable[..., None], *call: Any) -> Any:
+    def _run_on(self, function: Any, place: str, then: Callable[..., None], *call: Any) -> Any:
         """Start a function on a machine; its outcome becomes an event."""
         pinned = self._pinned(place, soft=False)
         reference = function.options(scheduling_strategy=pinned).remote(*call)
 
-        def tell(future: "Future[Any]") -> None:
+        def report(future: "Future[Any]") -> None:
             error = future.exception()
             self._events.put(partial(then, reference, error, None if error else future.result()))
 
-        reference.future().add_done_callback(tell)
+        reference.future().add_done_callback(report)
         return reference
 
-    def _ended(self, number: int, reference: Any, error: BaseException | None, result: Any) -> None:
+    def _finish(self, number: int, reference: Any, error: BaseException | None, result: Any) -> None:
         """Send the result of a part; if its process or machine failed, queue it again, up to `ATTEMPTS` deaths."""
         part, lost = self._parts.get(number), self._ray.exceptions
         if part is None or part.reference is not reference:
             return
-        machine = self._left(part.place, number)
+        machine = self._leave(part.place, number)
         if isinstance(error, lost.RayError) and not isinstance(error, lost.RayTaskError):
             part.deaths += not isinstance(error, lost.TaskUnschedulableError)
             if machine is not None:
                 machine.is_proven = False
             if part.deaths < ATTEMPTS:
-                self._again(number, part)
+                self._requeue(number, part)
                 return
             error = ChildProcessError(DIED)
         elif machine is not None:
@@ -244,10 +244,10 @@ class _Dispatcher:
         if isinstance(error, lost.RayTaskError):
             error = error.cause if isinstance(error.cause, Exception) else ChildProcessError(str(error.cause))
         del self._parts[number]
-        self._connection.send((number, error is None, result if error is None else error))
+        wire.send(self._connection, (number, error is None, result if error is None else error))
 
 
-def _be_quiet() -> None:
+def _silence() -> None:
     """Turn off Ray's reports, and its output, which would corrupt the service's JSON log."""
     os.environ.update(_ENVIRONMENT)
     nowhere = os.open(os.devnull, os.O_WRONLY)

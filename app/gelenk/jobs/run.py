@@ -12,7 +12,7 @@ from gelenk.errors import JobFailed, UnknownJob
 from gelenk.jobs.job import JobRecord
 from gelenk.jobs.parts import Parts, computed
 from gelenk.jobs.store import JobStore
-from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Workers
+from gelenk.jobs.workers import Cancelled, OutOfTime, PoolExecutor
 
 _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
@@ -42,8 +42,8 @@ class Executor(Protocol):
     def prepare(self) -> None:
         """Become ready for parts, if that is possible now."""
 
-    def submit(self, function: Callable[[Any], Any], argument: Any, order: Order) -> "Future[Any]":
-        """Submit a part; see `Workers.submit`. Cancelling the future keeps the part from starting, and may stop it."""
+    def submit(self, function: Callable[[Any], Any], argument: Any, until: float) -> "Future[Any]":
+        """Compute a part; see `PoolExecutor.submit`. A cancelled part is not started, or is ended."""
 
     def close(self) -> None:
         """Stop all parts under way, and reject later ones."""
@@ -54,18 +54,18 @@ class Run:
     """A job while it runs: hands out its parts and reports its progress.
 
     Attributes:
-        job: Record of the job when it was started.
-        order: Deadline and cancellation of its parts.
-        executor: Computes the parts.
+        job: As it was when it was started.
+        until: When it is given up, on the clock of `time.monotonic`, [s].
+        executor: Computes them.
         workers: The processes of this machine.
         store: The store that contains the job.
         parts: The finished parts.
     """
 
     job: JobRecord
-    order: Order
+    until: float
     executor: Executor
-    workers: Workers
+    workers: PoolExecutor
     store: JobStore
     parts: Parts
     _looked: float = field(default=0.0)
@@ -110,7 +110,7 @@ class Run:
                     waiting.append(None if kept else self._submit(function, argument(number), name))
                 if (part := waiting[0]) is not None:
                     try:
-                        found: bytes | int = self._waited(part)
+                        found: bytes | int = self._wait(part)
                     except ChildProcessError as error:
                         which = f"part {k + 1} of {count} ({stage} from {k * size:,} on)"
                         raise JobFailed(f"{which}: {error}") from error
@@ -126,8 +126,8 @@ class Run:
     def _submit(self, function: Callable[[_Argument], bytes], argument: _Argument, name: str) -> "Future[bytes | int]":
         """Submit a part; processes of this machine write its result to disk and return only the size."""
         if self.executor is self.workers:
-            return self.workers.submit(computed, (function, argument, self.parts, name), self.order)
-        return self.executor.submit(function, argument, self.order)
+            return self.workers.submit(computed, (function, argument, self.parts, name), self.until)
+        return self.executor.submit(function, argument, self.until)
 
     def apart(self, function: Callable[[_Argument], _Result], argument: _Argument) -> _Result:
         """Run a module-level function in a process of this machine, and return its result.
@@ -140,9 +140,9 @@ class Run:
             JobFailed: The process died.
             Exception: Any exception of the function.
         """
-        future = self.workers.submit(function, argument, self.order)
+        future = self.workers.submit(function, argument, self.until)
         try:
-            result: _Result = self._waited(future)
+            result: _Result = self._wait(future)
         except ChildProcessError as error:
             raise JobFailed(str(error)) from error
         return result
@@ -158,12 +158,15 @@ class Run:
         if time.monotonic() > self._looked + _LOOK:
             self._look()
 
-    def _waited(self, future: "Future[_Result]") -> _Result:
-        while True:
-            try:
-                return future.result(timeout=_LOOK)
-            except NotYet:
-                self._look()
+    def _wait(self, future: "Future[_Result]") -> _Result:
+        try:
+            while True:
+                try:
+                    return future.result(timeout=_LOOK)
+                except NotYet:
+                    self._look()
+        finally:
+            future.cancel()  # has no effect on one that is done
 
     def _look(self) -> None:
         self._looked = time.monotonic()
@@ -173,7 +176,7 @@ class Run:
             raise Cancelled from None
         if job.is_final:
             raise Cancelled
-        if self._looked > self.order.until:
+        if self._looked > self.until:
             raise OutOfTime
 
     def _news(self) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from gelenk.errors import (
 from gelenk.jobs.job import Failure, JobRecord
 from gelenk.jobs.run import Executor, Files, Run
 from gelenk.jobs.store import JobStore, write_result
-from gelenk.jobs.workers import Cancelled, Order, OutOfTime, Unavailable, Workers
+from gelenk.jobs.workers import Cancelled, OutOfTime, PoolExecutor, Unavailable
 from gelenk.processes.turns import Turns
 
 _RENDERING_SECONDS = 60.0
@@ -48,20 +48,20 @@ class Runner:
     """Runs the jobs of this process of the service, and gives access to the results of all jobs.
 
     Args:
-        store: Store of the jobs.
-        kinds: Kinds of jobs by name.
-        workers: Processes of this machine, which combine results and draw pictures of them.
-        running: Number of jobs that run at the same time; see `Turns` for when more may run.
-        seconds: Time limit of a job, from its start or resumption, [s].
-        executor: Computes the parts of jobs; `workers` if omitted.
-        is_local: Whether `workers` compute parts while the executor is unavailable; otherwise jobs wait.
+        store: Where jobs are kept.
+        kinds: What does a job, by its kind.
+        workers: The pool of this process, which puts results together and draws pictures of them.
+        running: How many jobs are done at a time; see `Turns` for when there are more.
+        seconds: How long a job may take from when it is started.
+        executor: Computes their parts; the processes of this machine if left out.
+        is_local: Whether these compute if the executor is lost; jobs wait otherwise.
     """
 
     def __init__(
         self,
         store: JobStore,
         kinds: Mapping[str, Kind],
-        workers: Workers,
+        workers: PoolExecutor,
         running: int,
         seconds: float,
         executor: Executor | None = None,
@@ -74,7 +74,6 @@ class Runner:
         self._turned = threading.Condition()
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
-        self._orders: dict[str, Order] = {}
         self._unsaid: dict[str, tuple[JobRecord, Failure]] = {}
         self._waiting: list[JobRecord] = []
         self._closed = threading.Event()
@@ -136,9 +135,6 @@ class Runner:
             if not remove:
                 raise JobFinished(job_id, job.state)
             self.store.remove(job_id)
-        order = self._orders.get(job_id)
-        if order is not None:
-            order.cancelled.set()
         return job
 
     def result(self, job_id: str, name: str) -> Path:
@@ -168,9 +164,8 @@ class Runner:
             JobFailed: The process died.
             ServiceStopping: The service is shutting down.
         """
-        order = Order(time.monotonic() + _RENDERING_SECONDS)
         try:
-            found: bytes = self.workers.submit(function, argument, order).result()
+            found: bytes = self.workers.submit(function, argument, time.monotonic() + _RENDERING_SECONDS).result()
         except OutOfTime:
             raise JobTookTooLong(_RENDERING_SECONDS) from None
         except Cancelled:
@@ -242,10 +237,8 @@ class Runner:
 
     def _do(self, job: JobRecord) -> None:
         """Run a job to its end; record any error in the job instead of raising it."""
-        order = Order(time.monotonic() + self._seconds)
-        self._orders[job.id] = order
         try:
-            self._done(job, order)
+            self._done(job, time.monotonic() + self._seconds)
         except Unavailable as reason:
             self._postpone(job, reason)
         except (Cancelled, UnknownJob):
@@ -261,12 +254,9 @@ class Runner:
             logger.exception("job %s failed", job.id)
             self._fail(job, Failure.because(f"something went wrong in the service: {type(error).__name__}"))
         finally:
-            order.cancelled.set()
-            if self._orders.get(job.id) is order:
-                del self._orders[job.id]
             self._clear(job)
 
-    def _done(self, job: JobRecord, order: Order) -> None:
+    def _done(self, job: JobRecord, until: float) -> None:
         if self.failure is not None:
             raise Unavailable(self.failure)
         job = self.store.start(job)
@@ -280,7 +270,7 @@ class Runner:
         if not request.is_dir():
             raise JobInterrupted("its request is no longer there")
         executor = self.workers if self._is_local and self._executor.failure else self._executor
-        run = Run(job, order, executor, self.workers, self.store, self.store.parts(job))
+        run = Run(job, until, executor, self.workers, self.store, self.store.parts(job))
         for name, content in self._kinds[job.kind](request)(run).items():
             write_result(self.store.folder(job.id), name, content)
         self.store.change(job, state="succeeded", progress=1.0)

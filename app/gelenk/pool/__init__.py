@@ -1,6 +1,6 @@
-"""Worker processes for requests that may take long or crash; each is isolated and replaced on its own.
+"""Worker processes for requests that may take long or crash, and for parts of jobs; each is replaced alone.
 
-- `pool`: sends calls to idle processes, with a bounded queue and deadlines; kills and replaces processes.
-- `worker`: runs in such a process: one call after another, within limits on memory and processor time.
-- `wire`: sends objects and large buffers between the service and the processes.
+- `pool`: takes calls within a bounded queue and a deadline.
+- `workers`: the workers of one priority: handed out in turns, asked, killed and replaced.
+- `worker`: what such a process runs: one call after the other, within limits of memory and processor time.
 """

@@ -9,21 +9,19 @@ import sys
 import time
 import traceback
 from collections.abc import Callable
-from multiprocessing.connection import Connection
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
-from gelenk.pool import wire
-from gelenk.processes.copies import load_seldom_needed
+from gelenk.processes import wire
 from gelenk.processes.fork_server import SELDOM_NEEDED
+from gelenk.processes.worker_process import FORK_SERVER
 
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """Outcome of a call: its kind, and the result, the exception, or None if memory ran out."""
 Reply: TypeAlias = tuple[Outcome, bool]
 """An outcome, and whether the process goes on to serve calls."""
 
-_NICENESS = 5
-"""Niceness of workers: event loops need a fraction of a millisecond, and accept no connection until they run."""
 _SPARE_SECONDS = 2
 _TIRED = 0.5
 """Share of the memory limit at which a fresh process replaces a worker."""
@@ -31,19 +29,37 @@ _OWN_SECONDS = 20.0
 """Time after which a worker that loaded modules of its own is replaced, [s]: fresh processes share theirs."""
 
 
-def serve(memory_bytes: int, connection: Connection) -> None:
+@dataclass(frozen=True, slots=True)
+class Priority:
+    """How calls of one priority are computed.
+
+    Attributes:
+        title: What the system calls their processes, after `gelenk-`.
+        niceness: Of these processes; the event loops take precedence over all.
+        grace_seconds: An abandoned call may finish within this time before its process is killed, [s].
+        idle_seconds: After how long without work a process ends, [s].
+        memory_bytes: What a process may take in addition to what it has at its start; infinite without a limit.
+    """
+
+    title: str
+    niceness: int
+    grace_seconds: float
+    idle_seconds: float = math.inf
+    memory_bytes: float = math.inf
+
+
+def serve(priority: Priority, stream: socket.socket) -> None:
     """Run calls until the other side is gone, memory runs out, or a fresh process should replace this one.
 
     Args:
-        memory_bytes: Memory that the process may use in addition to what it holds at its start, [bytes].
-        connection: Connection to the service.
+        priority: Of the calls.
+        stream: To the service.
     """
-    stream = socket.socket(fileno=os.dup(connection.fileno()))
-    connection.close()
-    os.nice(_NICENESS)
+    os.nice(priority.niceness)
     _limit(resource.RLIMIT_CORE, 0)
     at_start = _held_bytes()
-    _limit(resource.RLIMIT_DATA, at_start + memory_bytes)
+    if math.isfinite(priority.memory_bytes):
+        _limit(resource.RLIMIT_DATA, at_start + int(priority.memory_bytes))
     shared, ends = _seldom_needed(), math.inf
     while True:
         try:
@@ -57,9 +73,9 @@ def serve(memory_bytes: int, connection: Connection) -> None:
         outcome = _outcome(function, argument)
         del function, argument
         if ends == math.inf and _seldom_needed() != shared:
-            load_seldom_needed()
+            FORK_SERVER.load_seldom_needed()
             ends = time.monotonic() + _OWN_SECONDS
-        is_tired = _held_bytes() - at_start >= _TIRED * memory_bytes or time.monotonic() > ends
+        is_tired = _held_bytes() - at_start >= _TIRED * priority.memory_bytes or time.monotonic() > ends
         goes_on = outcome[0] != "memory" and not is_tired
         try:
             wire.send(stream, (outcome, goes_on))

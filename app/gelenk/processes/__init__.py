@@ -1,7 +1,8 @@
-"""Processes of the service: forked from a fork server that has loaded everything, so they start within milliseconds.
+"""The service's own processes: forked from one that has loaded everything, started within milliseconds.
 
-- `copies`: starts such processes, and ends them without leftovers.
-- `fork_server`: runs in the process that the others are copies of.
-- `pages`: returns memory to the system that only loading needed.
-- `turns`: lets clients that share processes or other places take turns.
+- `worker_process`: a child process: started, asked, killed.
+- `fork_server`: the process that forks them.
+- `wire`: messages between processes, with large bytes beside them.
+- `pages`: returns memory that only loading needed.
+- `turns`: whose turn it is, where clients share processes or other places.
 """

@@ -50,7 +50,7 @@ class Metrics:
 
     def __init__(self, robots: Sequence[str], pool: WorkerPool, jobs: Callable[[], Mapping[str, int]]) -> None:
         self._registry = CollectorRegistry()
-        self._robots, self._crew, self._jobs = set(robots[:MOST_ROBOTS]), pool, jobs
+        self._robots, self._pool, self._jobs = set(robots[:MOST_ROBOTS]), pool, jobs
         self._in_flight = 0
         self._over: deque[RequestContext] = deque()
         self._bound = cache(_labelled)
@@ -111,11 +111,11 @@ class Metrics:
         self._settle()
         self._open.set(self._in_flight)
         self._resident.set(_resident_bytes())
-        self._size.set(self._crew.size)
-        self._busy.set(self._crew.busy)
-        self._waiting.set(self._crew.queue_length)
-        self._raise_to(self._restarts, self._crew.restarts)
-        self._raise_to(self._refused, self._crew.refused)
+        self._size.set(self._pool.size)
+        self._busy.set(self._pool.requests.busy)
+        self._waiting.set(len(self._pool.requests.turns))
+        self._raise_to(self._restarts, self._pool.requests.restarts)
+        self._raise_to(self._refused, self._pool.refused)
         self._raise_to(self._cpu, time.process_time())
 
     def _raise_to(self, counter: Counter, total: float) -> None:

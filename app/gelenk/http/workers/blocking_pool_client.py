@@ -22,7 +22,7 @@ class BlockingPoolClient:
     """
 
     def __init__(self, pool: WorkerPool, client: str = "") -> None:
-        self._crew, self._client, self._loop = pool, client, asyncio.get_running_loop()
+        self._pool, self._client, self._loop = pool, client, asyncio.get_running_loop()
         self._lock = threading.Lock()
         self._under_way: Future[Any] | None = None
         self._is_over = False
@@ -43,7 +43,7 @@ class BlockingPoolClient:
         """
 
         async def call() -> _Result:
-            work = self._crew.run(function, argument, seconds, self._client)
+            work = self._pool.run(function, argument, seconds, self._client)
             return await asyncio.wait_for(work, max(0.0, seconds))
 
         with self._lock:

@@ -14,7 +14,7 @@ from starlette.responses import Response
 from gelenk.http.messages.payloads import JSON
 from gelenk.http.workers.context import Context, ContextSetup
 from gelenk.operations.request_counts import REQUEST_COUNTS, RequestCounts
-from gelenk.pool.wire import pieces_of
+from gelenk.processes.wire import pieces_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Messages between the service and a worker process: a pickled object and large buffers, which pickle does not copy.
+"""Messages between processes: an object, and large bytes beside it that are not copied.
 
 A message on the stream socket holds the number of parts, their lengths (both big-endian) and the parts. The first part
 is the pickled object; the others are the buffers that the object wraps in `pickle.PickleBuffer`.
@@ -35,7 +35,7 @@ def send(connection: socket.socket, content: Any) -> None:
         connection.sendall(part)
 
 
-async def send_soon(connection: socket.socket, content: Any) -> None:
+async def send_async(connection: socket.socket, content: Any) -> None:
     """Send an object from an event loop on a non-blocking socket; other tasks run between the parts."""
     loop = asyncio.get_running_loop()
     for i, part in enumerate(_parts(content)):
@@ -51,21 +51,21 @@ def receive(connection: socket.socket) -> Any:
         EOFError: The other side has closed the connection.
         OSError: The connection is broken.
     """
-    (count,) = _COUNT.unpack(_taken(connection, _COUNT.size))
-    lengths = struct.unpack(f"!{count}Q", _taken(connection, 8 * count))
-    parts = [_taken(connection, length) for length in lengths]
+    (count,) = _COUNT.unpack(_read(connection, _COUNT.size))
+    lengths = struct.unpack(f"!{count}Q", _read(connection, 8 * count))
+    parts = [_read(connection, length) for length in lengths]
     return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from a process of ours
 
 
-async def receive_soon(connection: socket.socket) -> Any:
+async def receive_async(connection: socket.socket) -> Any:
     """Receive an object in an event loop from a non-blocking socket; other tasks run between the parts."""
-    (count,) = _COUNT.unpack(await _taken_soon(connection, _COUNT.size))
-    lengths = struct.unpack(f"!{count}Q", await _taken_soon(connection, 8 * count))
+    (count,) = _COUNT.unpack(await _read_async(connection, _COUNT.size))
+    lengths = struct.unpack(f"!{count}Q", await _read_async(connection, 8 * count))
     parts: list[bytearray] = []
     for length in lengths:
         if parts:
             await asyncio.sleep(0)
-        parts.append(await _taken_soon(connection, length))
+        parts.append(await _read_async(connection, length))
     return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from a process of ours
 
 
@@ -81,7 +81,7 @@ def _parts(content: Any) -> Iterator[bytes | memoryview]:
     yield from parts
 
 
-def _taken(connection: socket.socket, size: int) -> bytearray:
+def _read(connection: socket.socket, size: int) -> bytearray:
     content = bytearray(size)
     view = memoryview(content)
     while view:
@@ -92,7 +92,7 @@ def _taken(connection: socket.socket, size: int) -> bytearray:
     return content
 
 
-async def _taken_soon(connection: socket.socket, size: int) -> bytearray:
+async def _read_async(connection: socket.socket, size: int) -> bytearray:
     loop = asyncio.get_running_loop()
     content = bytearray(size)
     view = memoryview(content)
