@@ -4,6 +4,7 @@ import asyncio
 import errno
 import json
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -186,6 +187,30 @@ def test_connections_that_come_at_once_are_let_in_within_few_turns() -> None:
     assert connected[-1] < at_most
 
 
+def test_connections_spread_evenly_over_the_workers() -> None:
+    """Of 5,000 a worker gets between 2,273 and 2,727, which is more than six standard deviations from the middle."""
+    counts = [0, 0]
+    with ExitStack() as stack:
+        listeners = [stack.enter_context(one) for one in serve.listeners(HOST, free_port(), 2)]
+        for _ in range(5000):
+            with socket.create_connection(listeners[0].getsockname()):
+                ready, _, _ = select.select(listeners, [], [], 20.0)
+                connection, _ = ready[0].accept()
+                connection.close()
+                counts[listeners.index(ready[0])] += 1
+    assert max(counts) <= 1.2 * min(counts), counts
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_an_address_that_several_workers_share_is_taken_for_every_other_service(workers: int) -> None:
+    port = free_port()
+    with ExitStack() as stack:
+        for one in serve.listeners(HOST, port, 2):
+            stack.enter_context(one)
+        with pytest.raises(SystemExit, match="another program has it"):
+            serve.listeners(HOST, port, workers)
+
+
 def test_what_a_killed_service_has_counted_goes_at_the_next_start(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -293,10 +318,11 @@ def test_a_taken_port_is_all_that_it_tells_of(host: str, arguments: list[str], t
 
 
 @pytest.mark.slow
-def test_of_two_that_begin_at_once_one_is_told_at_once(tmp_path: Path) -> None:
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_of_two_that_begin_at_once_one_is_told_at_once(workers: str, tmp_path: Path) -> None:
     port = free_port()
     environment = {**os.environ, "GELENK_DATA_DIR": str(tmp_path)}
-    command = [sys.executable, "-m", "gelenk.serve", "--port", str(port)]
+    command = [sys.executable, "-m", "gelenk.serve", "--port", str(port), "--workers", workers]
     with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as first:
         try:
             assert first.stdout is not None

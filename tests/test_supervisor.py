@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,23 @@ def test_a_killed_worker_is_replaced_at_once(running: tuple[int, str]) -> None:
         seconds.append(time.monotonic() - killed)
         assert get(f"{url}/v1/robots/planar_2r/fk", "POST", QUICK)[0] == 200
     assert min(seconds) < 1.0, seconds  # a busy machine takes longer than an idle one, which takes 0.3 s
+
+
+@pytest.mark.slow
+def test_connections_that_wait_for_a_worker_that_is_killed_are_answered_by_its_replacement(
+    running: tuple[int, str],
+) -> None:
+    """About half of them wait for it: the others have gone to the other worker."""
+    pid, url = running
+    victim = called("worker", pid)[0]
+    os.kill(victim, signal.SIGSTOP)
+    with ThreadPoolExecutor(40) as threads:
+        answers = [threads.submit(get, f"{url}/healthz") for _ in range(40)]
+        time.sleep(2.0)
+        assert any(not answer.done() for answer in answers)
+        os.kill(victim, signal.SIGKILL)
+        assert {answer.result()[0] for answer in answers} == {200}
+    wait_for(lambda: is_whole(pid))
 
 
 @pytest.mark.slow

@@ -102,7 +102,10 @@ def main() -> None:
 
 
 def listeners(host: str, port: int, count: int) -> list[socket.socket]:
-    """Return the listening socket of each worker process; of two services started at once, one fails now.
+    """Return a listening socket for each worker process; the system spreads connections evenly among them.
+
+    Of two services started at once, one fails now and not when it serves: the first socket listens alone before it
+    allows others at its address.
 
     Raises:
         SystemExit: Another program listens there, or listening is impossible.
@@ -111,7 +114,10 @@ def listeners(host: str, port: int, count: int) -> list[socket.socket]:
     create = partial(socket.create_server, family=family, dualstack_ipv6=both)
     try:
         first = create((host, port))
-        return [first] * count
+        if count == 1 or sys.platform != "linux":  # elsewhere one socket would get all connections
+            return [first] * count
+        first.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        return [first, *(create(first.getsockname(), reuse_port=True) for _ in range(count - 1))]
     except OSError as error:
         reason = "another program has it" if error.errno == errno.EADDRINUSE else error.strerror or str(error)
         is_port = error.errno in {errno.EADDRINUSE, errno.EACCES}

@@ -103,8 +103,6 @@ def test_packages_hold_a_docstring_and_nothing_else(package: Path) -> None:
 
 LISTS = {"contract", "operations"}
 """Folders that are lists: a module an operation."""
-SHARED_NAMES = {"MotionCertificate", "_Part", "_Seat"}
-"""Of the contract's classes one has the name of a core's, which is on the wire; the others are private to processes."""
 
 
 def test_a_folder_has_at_most_fifteen_modules() -> None:
@@ -115,4 +113,4 @@ def test_a_folder_has_at_most_fifteen_modules() -> None:
 def test_no_class_name_stands_for_two_things() -> None:
     trees = [ast.parse(file.read_text(encoding="utf-8")) for file in PACKAGE.rglob("*.py")]
     names = Counter(node.name for tree in trees for node in tree.body if isinstance(node, ast.ClassDef))
-    assert {name for name, count in names.items() if count > 1} - SHARED_NAMES == set()
+    assert {name for name, count in names.items() if count > 1} == set()
