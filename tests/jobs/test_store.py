@@ -1,5 +1,6 @@
 """Jobs on disk: one truth for all processes, bounded, and honest about jobs whose process is gone."""
 
+import os
 import shutil
 import sqlite3
 import subprocess
@@ -275,6 +276,19 @@ def test_the_oldest_finished_jobs_make_room(tmp_path: Path) -> None:
         store.change("job-3", state="succeeded")
         store.add("workspace", "x", {}, "job-4")
         assert sorted(path.name for path in tmp_path.iterdir() if not path.name.startswith(".")) == ["job-0", "job-4"]
+
+
+def test_a_result_is_on_disk_with_its_name(store: JobStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "jobs" / store.add("workspace", "digest", {}, "mine")[0].id
+    synced = {}
+
+    def noted(descriptor: int) -> None:
+        path = Path(f"/proc/self/fd/{descriptor}").readlink()
+        synced[path] = path.stat().st_size if path.is_file() else 0
+
+    monkeypatch.setattr(os, "fsync", noted)
+    write_result(folder, "result.npy", lambda target: target.write(b"x" * 20_000))
+    assert synced == {folder / "result.npy": 20_000, folder: 0}
 
 
 def test_what_is_no_job_is_left_aside(store: JobStore, tmp_path: Path) -> None:

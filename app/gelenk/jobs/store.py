@@ -326,6 +326,7 @@ def write_result(folder: Path, name: str, content: Callable[[IO[bytes]], object]
                 content(target)
                 target.flush()
                 os.fsync(target.fileno())
+            folders.sync(folder)
         except FileNotFoundError:
             raise UnknownJob(folder.name) from None
         except OSError:

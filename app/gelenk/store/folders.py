@@ -197,7 +197,7 @@ def replace_file(folder: Path, name: str, content: bytes, is_durable: bool = Tru
         write_tree(new, {name: content}, is_durable)
         (new / name).replace(folder / name)
         if is_durable:
-            _sync(folder)
+            sync(folder)
 
 
 def remove_folder(root: Path, name: str) -> None:
@@ -215,7 +215,7 @@ def set_aside(root: Path, name: str) -> Path:
 def move(source: Path, target: Path) -> None:
     """Rename a folder below the same root; the new name is on disk when this returns."""
     source.rename(target)
-    _sync(target.parent)
+    sync(target.parent)
 
 
 def discard(path: Path) -> None:
@@ -242,7 +242,7 @@ def write_tree(folder: Path, files: Mapping[str, Content], is_durable: bool = Tr
             with path.open("wb") as target:
                 target.writelines(pieces(content))
         for path in (*paths, *parents) if is_durable else ():
-            _sync(path)
+            sync(path)
 
 
 @contextmanager
@@ -278,10 +278,10 @@ def _make(folder: Path) -> None:
     if not folder.is_dir():
         _make(folder.parent)
         folder.mkdir(exist_ok=True)
-        _sync(folder.parent)
+        sync(folder.parent)
 
 
-def _sync(path: Path) -> None:
+def sync(path: Path) -> None:
     """Flush the bytes of a file, or the names in a folder, to disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
