@@ -1,6 +1,6 @@
-"""Worker processes for requests that may take long or crash, and for parts of jobs; each is replaced alone.
+"""Worker processes that run requests and parts of jobs, so that a slow or crashing call affects only its own process.
 
-- `pool`: takes calls within a bounded queue and a deadline.
-- `workers`: the workers of one priority: handed out in turns, asked, killed and replaced.
-- `worker`: what such a process runs: one call after the other, within limits of memory and processor time.
+- `pool`: the pool of processes, with a bounded queue and a deadline for each call.
+- `workers`: starts the workers of one priority, assigns them to clients in turn, and replaces them.
+- `worker`: main loop of a worker process, with limits on memory and processor time.
 """

@@ -1,9 +1,8 @@
-"""The pool of worker processes that an event loop sends calls to: each call with a deadline, none lost.
+"""Pool of worker processes that run the calls of an event loop, each call with a deadline.
 
-If a call crashes its process, misses its deadline or is abandoned, only its own process ends. A new one is there within
-milliseconds, because it is forked from one that has everything loaded. A client that comes while others occupy all
-processes gets an additional one in the same time. Parts of jobs have processes of their own, which the system runs when
-those for requests leave it time.
+If a call crashes its process, misses its deadline or is abandoned, only its own process ends. A new one starts within
+milliseconds, because it is forked from a process that has everything loaded. If other clients occupy all processes, a
+new client gets an additional one just as fast. Parts of jobs run in separate processes of lower priority.
 """
 
 import math
@@ -20,30 +19,30 @@ _Argument = TypeVar("_Argument")
 _Result = TypeVar("_Result")
 
 REQUEST = Priority("crew", niceness=5, grace_seconds=0.05)
-"""A client waits. Finishing an abandoned call soon costs less than a new process."""
+"""A client waits for the result. Letting an abandoned call finish briefly is cheaper than starting a new process."""
 BACKGROUND = Priority("jobs", niceness=10, grace_seconds=1.0, idle_seconds=300.0)
-"""Parts of jobs: nobody waits for a single one."""
+"""Parts of jobs: no client waits for an individual part."""
 
 _CROWD_SECONDS = 10.0
-"""Longest time over which retries of refused calls are spread, [s]: many clients never return."""
+"""Longest time over which to spread the retries of refused calls, [s]; limited because many clients never retry."""
 _START_SECONDS = 600.0
-"""How long the first processes may take, because they may compile; calls' waiting times do not count it."""
+"""Extra time that calls may wait while the first processes start, [s]: kernels may have to be compiled."""
 
 
 class WorkerPool:
-    """Pool of processes that run calls; belongs to one event loop.
+    """Pool of processes that run calls; use each pool in one event loop only.
 
     Args:
-        count: Processes for requests; see `Turns` for when there are more.
-        waiting: Requests that may wait for one.
-        memory_bytes: What each of these may take in addition to what it has at its start.
-        background: Processes for calls of low priority, started when first needed.
+        count: Number of processes for requests; `Turns` explains when there are more.
+        waiting: Number of requests that may wait for a process.
+        memory_bytes: Memory that each of these may allocate after its start, [bytes].
+        background: Number of processes for calls of low priority, started when first needed.
 
     Attributes:
         requests: The workers for requests.
-        background: Those for calls of low priority.
-        refused: Requests for which there was no room.
-        is_starting: Whether the first processes are being started.
+        background: The workers for calls of low priority.
+        refused: Number of requests refused because the pool was full.
+        is_starting: Whether the first processes are still starting.
     """
 
     def __init__(self, count: int, waiting: int, memory_bytes: int, background: int = 0) -> None:
@@ -60,7 +59,7 @@ class WorkerPool:
 
     @property
     def retry_after(self) -> int:
-        """Estimated seconds until the queue and the requests refused meanwhile are done."""
+        """Estimated time until the queued requests and retries of refused ones are done, [s]; at least 1."""
         queue = self.requests.seconds_a_call * (len(self.requests.turns) + 1) / self.size
         return max(1, math.ceil(queue), math.ceil(min(_CROWD_SECONDS, queue + self._crowd_seconds())))
 
@@ -71,42 +70,42 @@ class WorkerPool:
         self.is_starting = False
 
     def check_room(self, client: str = "") -> None:
-        """Check whether a request would be accepted, so that many can be refused before a task is made for each.
+        """Check that a request would be accepted, so that the caller can refuse it before creating a task.
 
         Raises:
-            ServiceBusy: Too many requests wait.
+            ServiceBusy: Too many requests are waiting.
         """
         if len(self.requests.turns) >= self.waiting and not self.requests.is_free_for(client):
             self._turn_away()
             raise ServiceBusy(self.retry_after)
 
     def _turn_away(self) -> None:
-        """Count a refused request among those that will be retried."""
+        """Count a refused request, and expect that its client retries it."""
         self.refused += 1
         self._outside = self._crowd_seconds() * self.size / max(self.requests.seconds_a_call, 1e-6) + 1.0
         self._outside_since = time.monotonic()
 
     def _crowd_seconds(self) -> float:
-        """How long the refused requests would take one after the other, less the time that has passed."""
+        """Return the remaining time that retries of refused requests would occupy the pool, [s]."""
         seconds = self._outside * self.requests.seconds_a_call / self.size
         return min(_CROWD_SECONDS, max(0.0, seconds - (time.monotonic() - self._outside_since)))
 
     async def run(
         self, function: Callable[[_Argument], _Result], argument: _Argument, seconds: float, client: str = ""
     ) -> _Result:
-        """Run a function in a process and return its result; cancelling this coroutine cancels the call.
+        """Run a function in a worker process and return its result; cancelling this coroutine cancels the call.
 
         Args:
-            function: Of a module, with an argument and a result that can be sent to another process.
-            argument: What it is called with.
-            seconds: How long it may wait for its turn, and how long it may then take, not counting the start.
-            client: Whose request it is for.
+            function: Module-level function whose argument and result can be pickled.
+            argument: Argument of the function.
+            seconds: Longest time to wait for a worker (longer while the pool starts), and then to run, [s].
+            client: Client that sent the request; clients take turns.
 
         Raises:
-            ServiceBusy: Too many requests wait, or its turn does not come in time.
-            DeadlineExceeded: It takes longer.
-            WorkerCrashed: Its process has died.
-            WorkerOutOfMemory: It needs more memory than it may have.
+            ServiceBusy: Too many requests are waiting, or no worker becomes available in time.
+            DeadlineExceeded: The function takes longer.
+            WorkerCrashed: The process died.
+            WorkerOutOfMemory: The function exceeds the memory limit.
             ServiceStopping: The pool has been closed.
             Exception: Whatever the function raises.
         """
@@ -121,11 +120,11 @@ class WorkerPool:
         return result
 
     async def run_in_background(self, function: Callable[[_Argument], Any], argument: _Argument, seconds: float) -> Any:
-        """The result of a call of low priority, as `run` has it: it waits for its turn as long as need be."""
+        """Run a function at low priority and return its result; unlike `run`, wait for a worker without limit."""
         worker = await self.background.turn("", None)
         return await self.background.run(worker, "", (function, argument, seconds))
 
     def close(self) -> None:
-        """End all processes, even during calls; later calls are refused."""
+        """Kill all processes, even during calls, and refuse later calls."""
         self.requests.close()
         self.background.close()

@@ -20,25 +20,25 @@ from gelenk.processes.worker_process import FORK_SERVER
 Outcome: TypeAlias = tuple[Literal["result", "error", "memory"], Any]
 """Outcome of a call: its kind, and the result, the exception, or None if memory ran out."""
 Reply: TypeAlias = tuple[Outcome, bool]
-"""An outcome, and whether the process goes on to serve calls."""
+"""An outcome, and whether the process accepts further calls."""
 
 _SPARE_SECONDS = 2
 _TIRED = 0.5
 """Share of the memory limit at which a fresh process replaces a worker."""
 _OWN_SECONDS = 20.0
-"""Time after which a worker that loaded modules of its own is replaced, [s]: fresh processes share theirs."""
+"""Time after which to replace a worker that loaded seldom needed modules itself, [s]: later processes share them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Priority:
-    """How calls of one priority are computed.
+    """Settings of the worker processes for calls of one priority.
 
     Attributes:
-        title: What the system calls their processes, after `gelenk-`.
-        niceness: Of these processes; the event loops take precedence over all.
+        title: Name of the processes in the system, without the prefix `gelenk-`.
+        niceness: Niceness of the processes; the event loops take precedence over all of them.
         grace_seconds: An abandoned call may finish within this time before its process is killed, [s].
-        idle_seconds: After how long without work a process ends, [s].
-        memory_bytes: What a process may take in addition to what it has at its start; infinite without a limit.
+        idle_seconds: Time without work after which a process ends, [s].
+        memory_bytes: Memory that a process may allocate after its start, [bytes]; infinite means no limit.
     """
 
     title: str
@@ -49,11 +49,11 @@ class Priority:
 
 
 def serve(priority: Priority, stream: socket.socket) -> None:
-    """Run calls until the other side is gone, memory runs out, or a fresh process should replace this one.
+    """Run calls until the service disconnects, memory runs out, or a fresh process should replace this one.
 
     Args:
-        priority: Of the calls.
-        stream: To the service.
+        priority: Priority of the calls, with the limits to set.
+        stream: Socket that calls come from and replies go to.
     """
     os.nice(priority.niceness)
     _limit(resource.RLIMIT_CORE, 0)
@@ -101,10 +101,10 @@ def _outcome(function: Callable[[Any], Any], argument: Any) -> Outcome:
 
 
 def _sendable(error: Exception) -> Exception:
-    """Return the error with its traceback as a note, or a `RuntimeError` in its place if it cannot be pickled."""
+    """Return the error, or a `RuntimeError` if it cannot be pickled, with the traceback as a note."""
     trace = "".join(traceback.format_exception(error))
     try:
-        again = pickle.loads(pickle.dumps(error))  # noqa: S301 - our own
+        again = pickle.loads(pickle.dumps(error))  # noqa: S301 - pickled here
     except Exception:
         again = None
     if type(again) is not type(error):
@@ -122,13 +122,13 @@ def _held_bytes() -> int:
 
 
 def _limit_processor_time(seconds: float) -> None:
-    """Limit processor time to what all processors have during the call, in case no pool is left to kill the process."""
+    """Limit processor time to that of all processors during the call, in case no pool is left to kill the process."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     most = used.ru_utime + used.ru_stime + (os.cpu_count() or 1) * seconds + _SPARE_SECONDS
     _limit(resource.RLIMIT_CPU, int(most))
 
 
 def _limit(what: int, most: int) -> None:
-    """Set the soft limit; the hard limit stays, so that the soft one can be raised again."""
+    """Set the soft limit only, so that it can be raised again."""
     hard = resource.getrlimit(what)[1]
     resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))

@@ -1,4 +1,4 @@
-"""The worker processes of one priority: started, handed out in turns, asked, and replaced."""
+"""Starts the worker processes of one priority, assigns them to clients in turn, and replaces them."""
 
 import asyncio
 import logging
@@ -19,32 +19,32 @@ from gelenk.processes.worker_process import WorkerProcess
 _Result = TypeVar("_Result")
 
 _END_SECONDS = 2.0
-"""How long to wait for the reason why a process ended."""
+"""How long to wait for the exit code of a process that ended, [s]."""
 _RETRY_SECONDS, _MOST_RETRY_SECONDS = 0.5, 30.0
 _SMOOTHING = 0.1
 _MOMENT = 1.0
-"""How long processes may be missing before that is reported, [s]."""
+"""How long workers may be missing before `is_short` reports it, [s]."""
 _LOOK_SECONDS = 0.5
-"""How often to check whether clients have left for whom an idle process is kept, [s]."""
+"""Interval at which to check whether an idle worker reserved for other clients may be handed out, [s]."""
 
 Call: TypeAlias = tuple[Callable[[Any], Any], Any, float]
-"""A function, its argument, and how many seconds it may take."""
+"""A function, its argument, and the longest time that it may take, [s]."""
 
 logger = logging.getLogger("gelenk")
 
 
 class Workers:
-    """The workers; belongs to one event loop.
+    """Worker processes of one priority; use each instance in one event loop only.
 
     Args:
-        count: How many; see `Turns` for when there are more.
-        priority: Of their calls.
+        count: Number of workers; `Turns` explains when there are more.
+        priority: Priority of their calls.
 
     Attributes:
-        turns: Calls that wait.
-        busy: Workers at work.
-        restarts: Workers replaced after a crash, a missed deadline, a lack of memory or an abandoned call.
-        seconds_a_call: How long a call takes, the latest counting most.
+        turns: Queue of waiting calls.
+        busy: Number of workers that are running a call.
+        restarts: Number of workers replaced after a crash, a missed deadline, lack of memory or an abandoned call.
+        seconds_a_call: Exponential moving average of the duration of a call, [s].
     """
 
     def __init__(self, count: int, priority: Priority) -> None:
@@ -53,7 +53,7 @@ class Workers:
         self.seconds_a_call = 0.0
         self._priority = priority
         self._workers: list[WorkerProcess] = []
-        self._idle: dict[WorkerProcess, asyncio.TimerHandle] = {}  # the last one to have worked is last
+        self._idle: dict[WorkerProcess, asyncio.TimerHandle] = {}  # the most recently used one is last
         self._starting: set[asyncio.Task[WorkerProcess | None]] = set()
         self._complete_until, self._is_started = -math.inf, False
         self._look: asyncio.TimerHandle | None = None
@@ -61,12 +61,12 @@ class Workers:
 
     @property
     def count(self) -> int:
-        """Workers that are there or being started."""
+        """Number of workers that are running or starting."""
         return len(self._workers) + len(self._starting)
 
     @property
     def pids(self) -> list[int]:
-        """Ids of the running processes."""
+        """Process ids of the running workers."""
         return [worker.pid for worker in self._workers]
 
     @property
@@ -76,11 +76,11 @@ class Workers:
         return is_missing and time.monotonic() > self._complete_until + _MOMENT
 
     def is_free_for(self, client: str) -> bool:
-        """Whether a call would get a worker at once."""
+        """Check whether a call could get an idle or an additional worker now."""
         return self.turns.has_room(client) if self._idle else self.turns.is_beyond(client)
 
     def fill(self) -> None:
-        """Start all workers, if there are none."""
+        """Start all workers if none is running or starting."""
         if not self.count and not self._is_closed:
             for _ in range(self.turns.size):
                 self._start()
@@ -92,10 +92,10 @@ class Workers:
         self._is_started = True
 
     async def turn(self, client: str, seconds: float | None) -> WorkerProcess:
-        """A worker for one call, once it is the client's turn; `run` gives it back.
+        """Wait for the client's turn and return a worker for one call; `run` gives the worker back.
 
         Raises:
-            TimeoutError: The turn does not come in this time, [s]; None is for ever.
+            TimeoutError: The turn does not come within `seconds`; None means no limit.
             ServiceStopping: The pool has been closed.
         """
         if self._is_closed:
@@ -115,10 +115,10 @@ class Workers:
             raise
 
     async def run(self, worker: WorkerProcess, client: str, call: Call) -> Any:
-        """The result of a call; cancelling this ends the call.
+        """Run a call and return its result; cancelling this coroutine ends the call, after a grace period.
 
         Raises:
-            Exception: As `WorkerPool.run`.
+            Exception: The same as `WorkerPool.run`.
         """
         loop = asyncio.get_running_loop()
         work = loop.create_task(self._ask(worker, client, call))
@@ -130,13 +130,13 @@ class Workers:
             raise
 
     def close(self) -> None:
-        """End all workers, even during calls; later calls are refused."""
+        """Kill all workers, even during calls, and refuse later calls."""
         self._is_closed = True
         for turn in self.turns:
             if not turn.done():
                 turn.set_exception(ServiceStopping())
         for worker in self._workers:
-            worker.close() if worker in self._idle else worker.kill()  # who waits for an answer sees the end first
+            worker.close() if worker in self._idle else worker.kill()  # `_ask` sees it end, then closes it
 
     async def _ask(self, worker: WorkerProcess, client: str, call: Call) -> Any:
         self.busy += 1
@@ -145,7 +145,7 @@ class Workers:
         try:
             async with asyncio.timeout(seconds):
                 (kind, value), is_fit = await worker.ask(call)
-            is_fault = kind == "memory"  # otherwise one that is unfit has made room by itself
+            is_fault = kind == "memory"  # otherwise an unfit worker has ended by choice
         except TimeoutError:
             raise DeadlineExceeded(seconds) from None
         except (EOFError, OSError):
@@ -161,7 +161,7 @@ class Workers:
         raise value if kind == "error" else self._out_of_memory()
 
     async def _death(self, worker: WorkerProcess, seconds: float) -> Exception:
-        """Why a worker ended, as far as known."""
+        """Return the exception that describes why a worker ended."""
         if self._is_closed:
             return ServiceStopping()
         await asyncio.wrap_future(_in_thread(partial(worker.join, _END_SECONDS)))
@@ -181,7 +181,7 @@ class Workers:
         self._hand_out()
 
     def _hand_out(self) -> None:
-        """Give idle workers to the clients whose turn it is, and end surplus ones."""
+        """Give idle workers to the clients whose turn it is, and end surplus workers."""
         while self._idle and not self._is_closed:
             worker = next(reversed(self._idle))
             if not worker.is_silent():
@@ -201,7 +201,7 @@ class Workers:
             self._look = asyncio.get_running_loop().call_later(_LOOK_SECONDS, self._hand_out)
 
     def _end(self, worker: WorkerProcess) -> None:
-        """Let a worker go that is not needed."""
+        """End a worker that is not needed."""
         self._remove(worker)
         _in_thread(worker.close)
 
@@ -218,7 +218,7 @@ class Workers:
             self._start(worker)
 
     def _start(self, old: WorkerProcess | None = None) -> None:
-        """Start a worker, in the place of an old one."""
+        """Start a worker, after closing the old one that it replaces, if any."""
         if not self._starting and self._is_started:
             self._complete_until = time.monotonic()
         task = asyncio.get_running_loop().create_task(self._new_worker(old))
@@ -232,7 +232,7 @@ class Workers:
             self._rest(worker)
 
     async def _new_worker(self, old: WorkerProcess | None) -> WorkerProcess | None:
-        """A worker, once one could be started; None at the end."""
+        """Start a worker, retrying until that succeeds, and return it; return None if the pool is closed."""
         if old is not None:
             await asyncio.wrap_future(_in_thread(old.close))
         start = partial(WorkerProcess.start, partial(serve, self._priority), self._priority.title)
@@ -255,13 +255,13 @@ class Workers:
 
 
 def _close(started: "Future[WorkerProcess]") -> None:
-    """Close a worker that nobody waits for any more."""
+    """Close a worker whose start was cancelled."""
     if started.exception() is None:
         started.result().close()
 
 
 def _in_thread(work: Callable[[], _Result]) -> "Future[_Result]":
-    """What a function returns in a thread of its own; the end of the service does not wait for it."""
+    """Run a function in a new daemon thread, which does not delay the end of the service."""
     outcome: Future[_Result] = Future()
     outcome.set_running_or_notify_cancel()
 
