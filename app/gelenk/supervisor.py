@@ -1,4 +1,4 @@
-"""Supervises several worker processes on one address, and replaces a failed one within a fraction of a second."""
+"""Supervises the worker processes that serve one address; replaces failed ones within a fraction of a second."""
 
 import asyncio
 import contextlib
@@ -21,18 +21,18 @@ from gelenk.processes.worker_process import FORK_SERVER, WorkerProcess
 LISTENERS = 8
 """Number of connections that an event loop accepts per turn; each takes less than 0.1 ms."""
 LEAVING_SECONDS = 0.5
-"""How long requests are still accepted after SIGTERM, [s]; each response announces that its connection closes."""
+"""How long to accept requests after SIGTERM, [s]; each response announces that its connection closes."""
 STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
 STARTUP_FAILURE = 3
-"""Exit code of a worker that could not begin to serve."""
+"""Exit code of a worker that could not start serving."""
 _BEAT_SECONDS = 5.0
 """Interval of the heartbeats from a worker's event loop, [s]."""
 _HANGS_SECONDS = 60.0
 """Time without a heartbeat after which a worker counts as hung, [s]."""
 _PATIENCE_SECONDS = 2.5
-"""Time to load the kernels before a worker serves without them, [s]; from the cache, they load faster."""
+"""Time to wait for the kernels before a worker serves without them, [s]; cached kernels load faster."""
 _SOON_SECONDS = 5.0
-"""If a worker ends within this time after its start, [s], its replacement has to wait, because it may do the same."""
+"""If a worker ends within this time after its start, [s], its replacement starts with a delay, as it may fail too."""
 _LOOK_SECONDS = 0.5
 _PAUSE_SECONDS, _MOST_PAUSE_SECONDS = 0.1, 10.0
 _MOST_LISTENERS = 128
@@ -45,9 +45,9 @@ class Supervisor:
     """Starts the workers, watches them and replaces them.
 
     Args:
-        config: What each of them serves, and how.
-        listeners: Where requests come in, for each worker its own. They stay open here and queue connections, so that
-            the replacement of a worker answers those that came meanwhile.
+        config: Configuration of the server that each worker runs.
+        listeners: Listening sockets, one for each worker. They stay open here and queue connections, which the
+            replacement of a failed worker then answers.
     """
 
     def __init__(self, config: uvicorn.Config, listeners: Sequence[socket.socket]) -> None:
@@ -90,7 +90,7 @@ class Supervisor:
         self._is_running = False
 
     def _fill(self) -> None:
-        """Start the workers that are missing, as soon as the fork server has loaded everything."""
+        """Start missing workers if the fork server has loaded everything; start the fork server first if necessary."""
         missing = [worker for worker in self._workers if worker.is_due]
         if not missing:
             return
@@ -108,7 +108,7 @@ class Supervisor:
                 worker.back_off()
 
     def _watch_warm_up(self, warming: socket.socket, is_over: bool) -> None:
-        """Let an early worker report the service's state while the kernels are compiled, which may take a minute."""
+        """Let an early worker report the service's state while kernels are compiled, which may take a minute."""
         if is_over:
             warming.close()
             self._warming = None
@@ -120,17 +120,17 @@ class Supervisor:
             self._early.serve()
 
     def _watched(self) -> list[int | socket.socket]:
-        """What becomes readable when there is something to check."""
+        """Return the descriptors and sockets that become readable when there is something to check."""
         found: list[int | socket.socket] = [one for worker in (*self._workers, self._early) for one in worker.watched]
         return found if self._warming is None else [*found, self._warming]
 
     def _end(self) -> None:
-        """Let requests in flight finish; what does not end by itself is killed."""
+        """Let requests in flight finish, then kill the workers that have not ended in time."""
         workers = [*self._workers, self._early]
         for worker in workers:
             worker.stop()
         for listener in self._listeners:
-            # When its worker has closed its own, nobody is let in whom nobody will answer.
+            # Once its worker closes it too, clients are refused instead of waiting for an answer in vain.
             listener.close()
         until = time.monotonic() + LEAVING_SECONDS + self._grace + _END_SECONDS
         for worker in workers:
@@ -138,16 +138,16 @@ class Supervisor:
 
 
 class Worker:
-    """A worker, and its replacements.
+    """A worker process and its replacements.
 
     Args:
-        config: What it serves, and how.
-        name: Of its process.
-        listeners: Where its requests come in.
+        config: Configuration of the server that it runs.
+        name: Name of the process in the system, without the prefix `gelenk-`.
+        listeners: Its listening sockets.
 
     Attributes:
-        process: The running one.
-        cannot_start: Whether the first one could not begin to serve: no other one could.
+        process: The running process, or None.
+        cannot_start: Whether a process failed to start serving before any had served; a replacement would fail too.
     """
 
     def __init__(self, config: uvicorn.Config, name: str, listeners: Sequence[socket.socket]) -> None:
@@ -160,7 +160,7 @@ class Worker:
 
     @property
     def is_due(self) -> bool:
-        """Whether there is no process and one may be started."""
+        """Whether no process is running and one may be started now."""
         return self.process is None and time.monotonic() >= self._due
 
     @property
@@ -169,10 +169,10 @@ class Worker:
         return [] if self.process is None else [self.process.fileno(), self.process.socket.fileno()]
 
     def start(self) -> None:
-        """Start a process that waits until it may serve.
+        """Start a process, unless one is running; it waits until `serve` is called.
 
         Raises:
-            OSError: No worker could be started.
+            OSError: No process could be started.
         """
         if self.process is None:
             self.process = WorkerProcess.start(partial(work, self._config), self._name)
@@ -180,15 +180,15 @@ class Worker:
             self._is_stopped = self._is_serving = False
 
     def serve(self) -> None:
-        """Let the process serve."""
+        """Send the process its listening sockets, so that it starts serving."""
         if self.process is not None and not self._is_serving:
             self._is_serving = True
-            with contextlib.suppress(OSError):  # it has ended: `check` will see that
+            with contextlib.suppress(OSError):  # the process has ended; `check` handles that
                 listeners = [listener.fileno() for listener in self._listeners]
                 socket.send_fds(self.process.socket, [b"."], listeners)
 
     def check(self, now: float, is_forgiving: bool) -> None:
-        """Listen to the process, and clear away one that has ended or hangs."""
+        """Receive heartbeats, and close the process if it has ended or hangs; `is_forgiving` ignores missing ones."""
         process = self.process
         if process is None:
             return
@@ -213,12 +213,12 @@ class Worker:
             self._pause = _PAUSE_SECONDS
 
     def back_off(self) -> None:
-        """Start no process for a while, longer each time."""
+        """Delay the next start; double the delay each time, up to a limit."""
         self._due = time.monotonic() + self._pause
         self._pause = min(2.0 * self._pause, _MOST_PAUSE_SECONDS)
 
     def stop(self) -> None:
-        """Tell the process to end; one that does not serve yet is killed."""
+        """Send SIGTERM to the process, or kill it if it is not serving yet."""
         self._is_stopped = True
         if self.process is not None and self._is_serving:
             self.process.signal(signal.SIGTERM)
@@ -226,7 +226,7 @@ class Worker:
             self._close()
 
     def join(self, until: float) -> None:
-        """Wait for the end of the process until then, and kill it where it does not come."""
+        """Wait for the process to end; kill it at the time `until`, on the clock of `time.monotonic`, [s]."""
         if self.process is not None:
             self.process.join(max(0.0, until - time.monotonic()))
             self._close()
@@ -241,8 +241,8 @@ def work(config: uvicorn.Config, connection: socket.socket) -> None:
     """Serve requests; a worker process runs this function.
 
     Args:
-        config: What, and how.
-        connection: To the supervisor: the listening sockets come from there, and beats go there.
+        config: Configuration of the server.
+        connection: Socket to the supervisor, which sends the listening sockets and receives heartbeats.
 
     Raises:
         SystemExit: The worker could not start serving.
@@ -268,7 +268,7 @@ def several(listener: socket.socket) -> list[socket.socket]:
     The event loop accepts one connection per turn from each socket. With a single one, the last of a thousand
     simultaneous connections would wait a thousand turns, and in each turn, earlier requests are answered.
     """
-    # All duplicates in all workers share the blocking mode: a blocking one would block the workers that already serve.
+    # All duplicates in all workers share the blocking mode; a blocking socket would block workers that already serve.
     listener.setblocking(False)
     return [listener, *(listener.dup() for _ in range(LISTENERS - 1))]
 
@@ -288,7 +288,7 @@ class _Server(uvicorn.Server):
         self._connection = connection
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Start serving, and then the heartbeats."""
+        """Start serving, then start the heartbeats."""
         await super().startup(sockets=sockets)
         if self.started:
             self._beat()
@@ -300,7 +300,7 @@ class _Server(uvicorn.Server):
         until = time.monotonic() + LEAVING_SECONDS
         while gate.connections and time.monotonic() < until:
             await asyncio.sleep(0.05)
-        # Connections still queued when the listener closes are cut off, so accept them right before, without an await.
+        # Closing a listener resets the connections in its queue, so accept them just before, without an await between.
         arrived = asyncio.gather(*map(self._let_in, chain.from_iterable(map(waiting, sockets or ()))))
         await super().shutdown(sockets)
         await arrived

@@ -1,8 +1,8 @@
-"""The service's own processes: forked from one that has loaded everything, started within milliseconds.
+"""Child processes of the service, forked within milliseconds from a process that has loaded everything.
 
-- `worker_process`: a child process: started, asked, killed.
-- `fork_server`: the process that forks them.
-- `wire`: messages between processes, with large bytes beside them.
-- `pages`: returns memory that only loading needed.
-- `turns`: whose turn it is, where clients share processes or other places.
+- `worker_process`: handle of a child process, and client of the fork server.
+- `fork_server`: the process that forks the child processes.
+- `wire`: messages between processes, without copies of large buffers.
+- `pages`: gives memory that only loading needed back to the system.
+- `turns`: a fair queue for clients that share processes or other places.
 """

@@ -1,12 +1,12 @@
-"""The fork server: a process that loads everything once, forks on request, and does nothing else.
+"""The fork server: a process that loads everything once and forks itself on request.
 
-Requests come over a socket that its parent and each of its children hold. A request brings two sockets: the connection
-to the child, and its lifeline, which first carries the child's process id and at last its exit code. The requester
-holds the other end of the lifeline; when that is closed, for example because the requester is gone, the child is
-killed. The fork server itself ends when its parent closes its standard input, and its children end with it.
+Requests come over a socket that its parent and each of its children hold. A request to fork passes two sockets: the
+child's connection to the requester, and the lifeline, which carries first the child's process id and finally its exit
+code. When the requester closes its end of the lifeline or dies, the fork server kills the child. The fork server itself
+ends when its parent closes its standard input, and its children end with it.
 
-Children requested before the warm-up are forked before it, because it may take a minute. Modules that are seldom needed
-are loaded once a child has needed one, so that later children share them.
+Children requested before the warm-up, which may take a minute, are forked before it. Seldom needed modules are loaded
+once a child has needed one, so that later children share them.
 """
 
 import contextlib
@@ -29,11 +29,11 @@ from gelenk.processes.pages import release_code
 LOADED = "gelenk.preload"
 """Name of the module that is imported first.
 
-Its function `warm_up` runs every computation once, `is_compiled` checks whether other processes have nothing left to
-compile, and `load` imports a module. `basics` compiles what most requests need, and each of `PARTS` part of the rest.
+Its function `warm_up` runs every computation once, `is_compiled` checks whether compiler processes have nothing to do, and
+`load` imports a module. `basics` compiles what most requests need, and each function in `PARTS` a part of the rest.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
-"""Modules that only pictures and worked solutions need: they take 50 MB, and half a second to load."""
+"""Modules that only pictures and worked solutions need; they take 50 MB and half a second to load."""
 FORK, WARM_UP, LOAD = b"f", b"w", b"l"
 NUMBER = struct.Struct("!i")
 
@@ -56,11 +56,11 @@ def main(control: int) -> None:
 
 
 class ForkServer:
-    """Forks this process; it must have no other thread.
+    """Forks the process that it runs in, which must have no other threads.
 
     Args:
         control: Socket that requests come from.
-        loaded: Module that `LOADED` names.
+        loaded: The imported module `LOADED`.
     """
 
     def __init__(self, control: socket.socket, loaded: Any) -> None:
@@ -91,7 +91,7 @@ class ForkServer:
         self._is_running = False
 
     def _handle_request(self) -> None:
-        """Handle the next request."""
+        """Receive and handle one request."""
         content, descriptors, _, _ = socket.recv_fds(self._control, 1, 2)
         if content == WARM_UP:
             self._start_warm_up(socket.socket(fileno=descriptors[0]))
@@ -102,19 +102,19 @@ class ForkServer:
                 self._try(module, partial(self._loaded.load, module))
 
     def _start_warm_up(self, requester: socket.socket) -> None:
-        """Load the kernels, then close the requester's socket to report that."""
+        """Load the kernels, if necessary after compiling them; close the requester's socket when done."""
         if not self._compilers and (self._loaded.is_compiled() or not self._compile_in_child(self._loaded.basics)):
             self._try("the kernels", self._loaded.warm_up)
             release_code()
             requester.close()
             return
         if not self._waiting:
-            # A request for a child waits until what most requests need is there.
+            # Fork no children until the kernels that most requests need are compiled.
             self._selector.unregister(self._control)
         self._waiting.append(requester)
 
     def _compile_in_child(self, compute: Callable[[], None]) -> bool:
-        """Let a separate process compile: the gigabyte that this takes is freed with it, here and in all children."""
+        """Compile in a separate process, so that its end frees the gigabyte used; return False if it cannot start."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -131,7 +131,7 @@ class ForkServer:
         return True
 
     def _continue_warm_up(self) -> None:
-        """Load what was compiled: first the basics, then everything, once other processes have compiled the parts."""
+        """Load the compiled kernels: first the basics, then the rest, once other processes have compiled it."""
         if self._control not in self._selector.get_map():
             self._try("the kernels", self._loaded.basics)
             self._selector.register(self._control, selectors.EVENT_READ, self._handle_request)
@@ -150,7 +150,7 @@ class ForkServer:
             logger.exception("could not be loaded: %s", what)
 
     def _fork(self, connection: int, lifeline: socket.socket) -> None:
-        """Fork a child; if that fails, its lifeline just closes."""
+        """Fork a child; if that fails, close its lifeline without sending a process id."""
         parent = os.getpid()
         try:
             pid = os.fork()
@@ -168,7 +168,7 @@ class ForkServer:
         self._report(lifeline, pid)
 
     def _run_child(self, connection: int, parent: int) -> NoReturn:
-        """Run, in the copy, the function that comes over its connection, then exit."""
+        """In the child: receive a function over the connection, run it, and exit."""
         code = 1
         try:
             _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -182,7 +182,7 @@ class ForkServer:
         except SystemExit as error:
             code = error.code if isinstance(error.code, int) else 1
         except (EOFError, OSError):
-            code = 0  # the requester is gone
+            code = 0  # the requester has disconnected
         except BaseException:
             logger.exception("a process has failed")
         finally:
@@ -192,7 +192,7 @@ class ForkServer:
             os._exit(code)
 
     def _release(self) -> None:
-        """Release, in a child, what only the fork server needs."""
+        """In a child: close the files and reset the signals that only the fork server needs."""
         signal.set_wakeup_fd(-1)
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         self._selector.close()
@@ -203,13 +203,13 @@ class ForkServer:
         os.close(nothing)
 
     def _kill_child(self, pid: int) -> None:
-        """Kill a child whose lifeline was closed; `_reap` reports that if anyone still listens."""
-        if pid in self._lifelines:  # else it was reaped in this very turn
+        """Kill a child whose lifeline was closed; `_reap` then reports its exit code if possible."""
+        if pid in self._lifelines:  # otherwise `_reap` removed it in the same turn of the loop
             self._selector.unregister(self._lifelines[pid])
             os.kill(pid, signal.SIGKILL)
 
     def _reap(self) -> None:
-        """Report the children that have ended."""
+        """Report the exit codes of the children that have ended, and continue the warm-up after the last compiler."""
         self._woken.recv(4096)
         while self._lifelines or self._compilers:
             pid, status = os.waitpid(-1, os.WNOHANG)
@@ -233,7 +233,7 @@ class ForkServer:
 
 
 def _set_title(name: str) -> None:
-    """Name this process `gelenk-` and the given name, which has at most eight letters."""
+    """Set the name of this process to `gelenk-` and the given name, at most eight letters."""
     _prctl(_PR_SET_NAME, f"gelenk-{name}".encode("ascii"))
 
 

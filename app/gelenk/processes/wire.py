@@ -1,7 +1,7 @@
-"""Messages between processes: an object, and large bytes beside it that are not copied.
+"""Messages between processes: a pickled object, and large buffers that are sent without copying.
 
-A message on the stream socket holds the number of parts, their lengths (both big-endian) and the parts. The first part
-is the pickled object; the others are the buffers that the object wraps in `pickle.PickleBuffer`.
+A message on the stream socket contains the number of parts (4 bytes), the length of each (8 bytes), both big-endian,
+and the parts. The first part is the pickled object; the others are the buffers that it wraps in `pickle.PickleBuffer`.
 """
 
 import asyncio
@@ -29,14 +29,14 @@ def send(connection: socket.socket, content: Any) -> None:
     """Send an object; block until the socket has accepted it.
 
     Raises:
-        OSError: The other side is gone.
+        OSError: The other side has closed the connection.
     """
     for part in _parts(content):
         connection.sendall(part)
 
 
 async def send_async(connection: socket.socket, content: Any) -> None:
-    """Send an object from an event loop on a non-blocking socket; other tasks run between the parts."""
+    """Send an object over a non-blocking socket in an event loop; other tasks run between the parts."""
     loop = asyncio.get_running_loop()
     for i, part in enumerate(_parts(content)):
         if i:
@@ -54,11 +54,11 @@ def receive(connection: socket.socket) -> Any:
     (count,) = _COUNT.unpack(_read(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", _read(connection, 8 * count))
     parts = [_read(connection, length) for length in lengths]
-    return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from a process of ours
+    return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from our own process
 
 
 async def receive_async(connection: socket.socket) -> Any:
-    """Receive an object in an event loop from a non-blocking socket; other tasks run between the parts."""
+    """Receive an object from a non-blocking socket in an event loop; other tasks run between the parts."""
     (count,) = _COUNT.unpack(await _read_async(connection, _COUNT.size))
     lengths = struct.unpack(f"!{count}Q", await _read_async(connection, 8 * count))
     parts: list[bytearray] = []
@@ -66,7 +66,7 @@ async def receive_async(connection: socket.socket) -> Any:
         if parts:
             await asyncio.sleep(0)
         parts.append(await _read_async(connection, length))
-    return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from a process of ours
+    return pickle.loads(parts[0], buffers=parts[1:])  # noqa: S301 - from our own process
 
 
 def _parts(content: Any) -> Iterator[bytes | memoryview]:

@@ -1,4 +1,4 @@
-"""A child process and the socket to it: started within milliseconds by the fork server, asked, and killed."""
+"""Handle of a child process, which the fork server starts within milliseconds, and the client of that server."""
 
 import atexit
 import contextlib
@@ -16,7 +16,7 @@ from gelenk.processes import wire
 from gelenk.processes.fork_server import FORK, LOAD, NUMBER, WARM_UP
 
 KILL_SECONDS = 1.0
-"""How long to wait for the end of a killed process."""
+"""How long to wait for a killed process to end, [s]."""
 _PROGRAM = """
 import sys
 sys.path[:] = sys.argv[3:]
@@ -27,14 +27,14 @@ fork_server.main(int(sys.argv[2]))
 
 
 class WorkerProcess:
-    """A child process; safe to use from several threads.
+    """Handle of a child process; safe to use from several threads.
 
-    It ignores SIGINT and SIGTERM: the service ends first, and its processes with it, whatever they are doing.
+    The process ignores SIGINT and SIGTERM unless it sets handlers; it is killed when the service ends.
 
     Attributes:
-        pid: Its process id.
-        socket: To the process; carries the messages of `wire`.
-        exitcode: How it ended, for example -9 by signal 9; None while that is unknown.
+        pid: Process id.
+        socket: Connection to the process, for messages of `wire`.
+        exitcode: Exit code, or minus the number of the signal that ended the process; None while unknown.
     """
 
     def __init__(self, pid: int, to_process: socket.socket, lifeline: socket.socket) -> None:
@@ -44,11 +44,11 @@ class WorkerProcess:
 
     @classmethod
     def start(cls, target: Callable[[socket.socket], object], name: str) -> "WorkerProcess":
-        """Start a process that calls a function with its end of the socket; takes seconds for the very first one.
+        """Start a process that calls a function with its end of the socket; the very first start takes seconds.
 
         Args:
-            target: One that can be pickled.
-            name: What the system calls the process, after `gelenk-`; at most 8 letters.
+            target: Function to call; it must be picklable.
+            name: Name of the process in the system, without the prefix `gelenk-`; at most 8 letters.
 
         Raises:
             ChildProcessError: No process could be started.
@@ -69,21 +69,21 @@ class WorkerProcess:
 
     @property
     def exit_reason(self) -> str:
-        """How it ended: the name of a signal, or its exit code."""
+        """Name of the signal that ended the process, or its exit code as text."""
         code = self.exitcode
         return signal.Signals(-code).name if code is not None and code < 0 else f"exit code {code}"
 
     def fileno(self) -> int:
-        """A file descriptor that becomes readable when the process ends."""
+        """Return a file descriptor that becomes readable when the process ends."""
         return self._lifeline.fileno()
 
     def is_alive(self) -> bool:
-        """Whether it is still running."""
+        """Check whether the process is still running."""
         self.join(0.0)
         return not self._has_ended
 
     def is_silent(self) -> bool:
-        """Whether it has neither sent anything nor closed its end, which shows sooner than its end."""
+        """Check that no data is pending and the other end is open; it closes before `is_alive` returns False."""
         try:
             self.socket.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
         except BlockingIOError:
@@ -93,7 +93,7 @@ class WorkerProcess:
         return False
 
     def join(self, seconds: float) -> None:
-        """Wait for its end for at most this time, [s]."""
+        """Wait at most `seconds` for the process to end."""
         with self._lock:
             if self._has_ended:
                 return
@@ -109,35 +109,35 @@ class WorkerProcess:
                 (self.exitcode,) = NUMBER.unpack(content)
 
     async def ask(self, message: Any) -> Any:
-        """The answer to a message, on an event loop; the socket must not block.
+        """Send a message and return the answer, in an event loop; the socket must be non-blocking.
 
         Raises:
             EOFError: The process has ended.
-            OSError: The same, in the middle of something.
+            OSError: The process has ended, and the connection is broken.
         """
         await wire.send_async(self.socket, message)
         return await wire.receive_async(self.socket)
 
     def signal(self, number: signal.Signals) -> None:
-        """Send it a signal, if it is still there."""
+        """Send the process a signal if it is still running."""
         if self.is_alive():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self.pid, number)
 
     def kill(self) -> None:
-        """Kill it and wait for its end; whoever waits for a message sees the socket closed."""
+        """Kill the process and wait for its end; a pending `ask` then raises an error, because the other end closes."""
         self.signal(signal.SIGKILL)
         self.join(KILL_SECONDS)
 
     def close(self) -> None:
-        """Kill it and release the sockets; nobody may be waiting for a message."""
+        """Kill the process and close the sockets; no `ask` may be pending."""
         self.kill()
         self.socket.close()
         self._lifeline.close()
 
 
 class ForkServerClient:
-    """The fork server as this process knows it: started here, or inherited from it."""
+    """Client of the fork server, which this process either started or was forked from."""
 
     def __init__(self) -> None:
         self._control: socket.socket | None = None
@@ -145,13 +145,13 @@ class ForkServerClient:
         self._lock = threading.Lock()
 
     def start(self) -> bool:
-        """Start the fork server where there is none; it does not yet load what `warm_up` is for.
+        """Start the fork server if it is not running; only `warm_up` loads the kernels.
 
         Returns:
-            Whether there was none.
+            Whether this call started it.
 
         Raises:
-            OSError: It could not be started.
+            OSError: The fork server could not be started.
         """
         with self._lock:
             if self._process is not None and self._process.poll() is not None:
@@ -159,7 +159,7 @@ class ForkServerClient:
             if self._control is not None:
                 return False
             control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-            # Its children use it too: it keeps an end of its own for them.
+            # The fork server also gets this end, for its children to send requests.
             descriptors = control.fileno(), theirs.fileno()
             command = [sys.executable, "-c", _PROGRAM, *map(str, descriptors), *sys.path]
             with theirs:
@@ -168,17 +168,17 @@ class ForkServerClient:
             return True
 
     def inherit(self, control: int) -> None:
-        """Set, in the fork server, how its children reach it."""
+        """Set, in the fork server, the socket over which its children send it requests."""
         self._control = socket.socket(fileno=control)
 
     def warm_up(self) -> socket.socket:
-        """Have it load what takes long, after it has started the processes requested before.
+        """Let the fork server load the kernels, after it has started the processes requested earlier.
 
         Returns:
-            A socket that becomes readable when that is done.
+            A socket that becomes readable when the kernels are loaded.
 
         Raises:
-            OSError: It is gone.
+            OSError: The fork server has ended.
         """
         ours, theirs = socket.socketpair()
         with theirs:
@@ -186,22 +186,22 @@ class ForkServerClient:
         return ours
 
     def load_seldom_needed(self) -> None:
-        """Have it load what few requests need, so that later processes share it; do not wait."""
+        """Let the fork server load modules that few requests need, for later processes to share; do not wait for it."""
         with contextlib.suppress(OSError):
             self.request(LOAD)
 
     def request(self, what: bytes, *descriptors: int) -> None:
-        """Send a request.
+        """Send a request, and file descriptors with it, to the fork server.
 
         Raises:
-            OSError: It is gone.
+            OSError: The fork server has ended or was never started.
         """
         if self._control is None:
             raise ChildProcessError("there is no fork server")
         socket.send_fds(self._control, [what], descriptors)
 
     def close(self) -> None:
-        """End it, and all processes that it has started."""
+        """End the fork server if this process started it, and with it all its children."""
         if self._control is not None:
             self._control.close()
         if self._process is not None and self._process.stdin is not None:
