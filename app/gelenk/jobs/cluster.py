@@ -1,8 +1,8 @@
 """Computes parts of jobs on a Ray cluster, through a process that runs `driver` at the other end of a pipe.
 
 Ray terminates its own process when it loses the cluster, and that process must not be the service. If the process ends
-or falls silent, or no machine of the cluster computes any more, the parts under way fail with `Unavailable`. Only
-`prepare` connects to the cluster again.
+or falls silent, or no machine of the cluster computes any more, the parts in progress fail with `Unavailable`. Only
+`prepare` reconnects to the cluster.
 """
 
 import contextlib
@@ -58,10 +58,10 @@ class Cluster:
             self._kill()  # `_listen` then reports the connection as lost
 
     def submit(self, function: Callable[[Any], Any], argument: Any, _: float) -> "Future[Any]":
-        """Have a part computed; see `PoolExecutor.submit`. A cancelled future's part is ended on the cluster too.
+        """Submit a part; see `PoolExecutor.submit`, but there is no deadline. Cancelling the future stops the part.
 
         Raises:
-            Unavailable: No machine of the cluster computes.
+            Unavailable: The cluster is not connected, or none of its machines computes.
             Cancelled: The service is shutting down.
         """
         if self._closed.is_set():
@@ -98,7 +98,7 @@ class Cluster:
             self._end(Cancelled())
 
     def _kill(self) -> None:
-        """Kill the process at the other end, so that nothing waits for it any longer; the lock is not needed."""
+        """Kill the process that runs `driver`, so that no thread waits for it any longer; this needs no lock."""
         if (process := self._process) is not None:
             process.signal(SIGKILL)
 
@@ -125,7 +125,7 @@ class Cluster:
         threading.Thread(target=self._listen, args=(process,), name="ray", daemon=True).start()
 
     def _update_count(self, count: int) -> None:
-        """Record the number of processors that compute now; if it is zero, let the parts under way fail."""
+        """Record the number of processors that compute now; if it is zero, let the parts in progress fail."""
         self._count, self._heard = max(1, count), time.monotonic()
         if count:
             self.failure = None
@@ -135,7 +135,7 @@ class Cluster:
             self._fail(Unavailable(self.failure))
 
     def _listen(self, process: WorkerProcess) -> None:
-        """Pass on results until the connection ends."""
+        """Pass results to the futures until the connection ends."""
         while True:
             try:
                 number, succeeded, result = wire.receive(process.socket)
@@ -168,7 +168,7 @@ class Cluster:
         self._fail(error)
 
     def _fail(self, error: Exception) -> None:
-        """Let all parts under way fail with an error."""
+        """Let all parts in progress fail with an error."""
         futures, self._futures = list(self._futures.values()), {}
         for future in futures:
             with contextlib.suppress(InvalidStateError):

@@ -1,8 +1,8 @@
-"""The only process that talks to Ray: it finds out which machines of a cluster compute, and sends parts to them.
+"""The only process that talks to Ray: it checks which machines of a cluster compute, and sends parts to them.
 
-Ray's head lists a machine for a minute after it is gone, and sends parts to machines that hang. So this process chooses
-the machine of each part, and only among machines that have computed something lately. Every result is proof of that; a
-machine that sends no results gets a probe to compute, which takes no processor from a part.
+Ray's head lists a machine for a minute after it has failed, and sends parts to machines that hang. So this process
+itself assigns each part, and only to machines that have computed something recently. Every result proves that; a
+machine that sends no results gets a probe, a task that takes no processor from a part.
 """
 
 import hashlib
@@ -28,9 +28,9 @@ SIZE = -1
 """Marks the message, sent every second, with the number of processors that compute now; no part has this number."""
 
 _QUIET_SECONDS, _PROBE_SECONDS = 5.0, 12.0
-"""Silence after which a machine is probed, and how long the probe may take: it may have to start a process, [s]."""
+"""Silence after which to probe a machine, and how long a probe may take, as it may have to start a process, [s]."""
 _LIST_SECONDS, _REPORT_SECONDS = 5.0, 1.0
-"""Intervals at which the machines are listed, and are checked and reported, [s]."""
+"""Interval at which to list the machines, and interval at which to check and report them, [s]."""
 
 _ENVIRONMENT = {
     "RAY_USAGE_STATS_ENABLED": "0",
@@ -49,9 +49,9 @@ class _Machine:
 
     Attributes:
         processors: Number of processors for parts.
-        parts: Numbers of the parts that it was sent and has not finished.
+        parts: Numbers of the parts that it has received and not finished.
         heard: Time of its last answer, on the clock of `time.monotonic`, [s].
-        is_being_probed: Whether a probe is under way.
+        is_being_probed: Whether a probe is in progress.
         is_proven: Whether it has answered since its last failure; only then does it get parts.
     """
 
@@ -73,7 +73,7 @@ class _Machine:
 
 @dataclass(eq=False)
 class _Part:
-    """A requested part: its task, how often its process has died, and the machine on which it runs."""
+    """A submitted part: its task, how often its process has died, its machine, and Ray's reference to its result."""
 
     task: _Task
     deaths: int = 0
@@ -88,10 +88,10 @@ class Driver:
         self._address = address
 
     def __call__(self, connection: socket.socket) -> None:
-        """Send the number of processors, or why the cluster is unreachable, then compute parts until the pipe ends."""
+        """Send the number of processors, or why the cluster is unreachable; dispatch parts until the pipe closes."""
         _silence()
         try:
-            import ray  # noqa: PLC0415 - an extra, and half a second
+            import ray  # noqa: PLC0415 - optional, and slow to import
             from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy  # noqa: PLC0415
 
             ray.init(self._address, configure_logging=False, log_to_driver=False, namespace="gelenk")
@@ -104,7 +104,7 @@ class Driver:
 
 
 class _Dispatcher:
-    """Sends parts to machines and results back, in one thread: if Ray hangs there, the service notices the silence."""
+    """Sends parts to machines and returns results, in one thread: if Ray hangs, the service notices the silence."""
 
     def __init__(self, ray: Any, pinned: Any, connection: socket.socket) -> None:
         self._ray, self._pinned, self._connection, self._code = ray, pinned, connection, code_digest()
@@ -155,7 +155,7 @@ class _Dispatcher:
         self._check_machines()
 
     def _check_machines(self) -> None:
-        """Probe silent machines, take the parts from lost ones, and report the number of processors."""
+        """Probe silent machines, requeue the parts of lost ones, and report the number of processors."""
         self._reported = now = time.monotonic()
         for name, machine in self._machines.items():
             if machine.is_lost:
@@ -176,7 +176,7 @@ class _Dispatcher:
             machine.hear()
 
     def _give_up(self, machine: _Machine) -> None:
-        """Put the parts of a machine back into the queue."""
+        """Move the parts of a machine back to the queue, and send it no more until it answers."""
         machine.is_proven = False
         for number in machine.parts:
             self._requeue(number, self._parts[number])
@@ -214,7 +214,7 @@ class _Dispatcher:
                 part.reference = self._run_on(self._compute, part.place, partial(self._finish, number), *call)
 
     def _run_on(self, function: Any, place: str, then: Callable[..., None], *call: Any) -> Any:
-        """Start a function on a machine; its outcome becomes an event."""
+        """Start a function on a machine; queue its outcome as an event that calls `then`."""
         pinned = self._pinned(place, soft=False)
         reference = function.options(scheduling_strategy=pinned).remote(*call)
 
@@ -248,7 +248,7 @@ class _Dispatcher:
 
 
 def _silence() -> None:
-    """Turn off Ray's reports, and its output, which would corrupt the service's JSON log."""
+    """Turn off Ray's usage reports, and its output, which would corrupt the service's JSON log."""
     os.environ.update(_ENVIRONMENT)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (1, 2):

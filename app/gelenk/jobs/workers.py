@@ -1,4 +1,4 @@
-"""Parts of jobs for the worker pool, from threads: tried again where their process dies, ended when time is up."""
+"""Computes parts of jobs in the worker pool, from threads; retries a part whose process dies, up to a deadline."""
 
 import asyncio
 import time
@@ -11,7 +11,7 @@ from gelenk.errors import DeadlineExceeded, ServiceStopping, WorkerCrashed
 from gelenk.pool.pool import WorkerPool
 
 ATTEMPTS = 3
-"""How often to start a part whose process dies, which may not be the part's fault."""
+"""Number of times to start a part whose process dies: the part may not be the cause."""
 DIED = f"its process died {ATTEMPTS} times, the limit; possibly out of memory"
 
 
@@ -28,38 +28,38 @@ class Unavailable(Exception):
 
 
 class PoolExecutor:
-    """Computes parts in the background of a pool; safe to use from many threads, but not from its event loop's.
+    """Computes parts in a pool's background processes; safe in all threads except that of the pool's event loop.
 
     Args:
-        pool: The processes.
+        pool: The worker pool.
     """
 
     failure = None
-    """They are always there."""
+    """Always None: unlike a cluster, the pool is always available."""
 
     def __init__(self, pool: WorkerPool) -> None:
         self._pool = pool
         self._loop: asyncio.AbstractEventLoop | None = None
 
     def start(self) -> None:
-        """Learn the event loop of the pool, which is the running one."""
+        """Store the running event loop, which must be the pool's."""
         self._loop = asyncio.get_running_loop()
 
     @property
     def count(self) -> int:
-        """Parts computed at a time."""
+        """Number of parts computed at the same time."""
         return self._pool.background.turns.size
 
     def prepare(self) -> None:
-        """The first part starts the processes."""
+        """Do nothing: the first part starts the processes."""
 
     def submit(self, function: Callable[[Any], Any], argument: Any, until: float) -> "Future[Any]":
-        """Have a part computed; cancelling the future ends it.
+        """Submit a part to the pool; cancelling the future cancels the part.
 
         Args:
-            function: Of a module, with an argument and a result that can be sent to another process.
-            argument: What it is called with.
-            until: When it is given up, on the clock of `time.monotonic`, [s].
+            function: Module-level function whose argument and result can be pickled.
+            argument: Argument of the function.
+            until: Deadline on the clock of `time.monotonic`, [s].
 
         Returns:
             Future of the function's result. Its exception is the function's, `Cancelled`, `OutOfTime`, or
@@ -73,7 +73,7 @@ class PoolExecutor:
         return asyncio.run_coroutine_threadsafe(self._compute(function, argument, until), self._loop)
 
     def close(self) -> None:
-        """End all parts, and the pool with them."""
+        """Close the pool, which stops all parts."""
         if self._loop is not None and not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._pool.close)
 
