@@ -29,8 +29,8 @@ from gelenk.processes.pages import release_code
 LOADED = "gelenk.preload"
 """Name of the module that is imported first.
 
-Its function `warm_up` runs every computation once, `is_compiled` checks whether compiler processes have nothing to do, and
-`load` imports a module. `basics` compiles what most requests need, and each function in `PARTS` a part of the rest.
+Its function `warm_up` runs every computation once, `is_compiled` checks whether compiler processes have nothing to do,
+and `load` imports a module. `basics` compiles what most requests need, and each function in `PARTS` a part of the rest.
 """
 SELDOM_NEEDED = ("matplotlib.figure", "gelenk.plots.profiles", "sympy")
 """Modules that only pictures and worked solutions need; they take 50 MB and half a second to load."""
