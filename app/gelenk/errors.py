@@ -328,7 +328,7 @@ class UnknownJob(NotFound):
     """No job has this name, or it has been removed."""
 
     job: str
-    template = "there is no job {job!q}; the oldest are removed when there are too many"
+    template = "there is no job {job!q}; the oldest jobs are removed when there are too many"
 
 
 class TooLarge(KinematicsError):
@@ -537,7 +537,7 @@ class AuditFailed(KinematicsError):
     """A motion violates its limits or tolerances, so the answer is withheld."""
 
     reason: str
-    template = "the motion was withheld: it failed its audit: {reason}"
+    template = "the motion was withheld because it failed its audit: {reason}"
 
 
 def kinds() -> dict[str, type[KinematicsError]]:

@@ -22,7 +22,7 @@ LISTENERS = 8
 """Number of connections that an event loop accepts per turn; each takes less than 0.1 ms."""
 LEAVING_SECONDS = 0.5
 """How long to accept requests after SIGTERM, [s]; each response announces that its connection closes."""
-STILL_STARTING = "still getting ready; where kernels must be compiled, once for a processor, it takes a minute or two"
+STILL_STARTING = "still starting; if kernels must be compiled, once per processor, this takes a minute or two"
 STARTUP_FAILURE = 3
 """Exit code of a worker that could not start serving."""
 _BEAT_SECONDS = 5.0
@@ -83,7 +83,7 @@ class Supervisor:
             looked = now
         self._end()
         if self._is_running:
-            logger.error("a worker process could not start serving: the service ends")
+            logger.error("a worker process could not start serving: stopping the service")
             sys.exit(STARTUP_FAILURE)
 
     def _stop(self, *_: object) -> None:

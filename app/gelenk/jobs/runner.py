@@ -252,7 +252,7 @@ class Runner:
             self._fail(job, Failure.because(str(error)))
         except Exception as error:
             logger.exception("job %s failed", job.id)
-            self._fail(job, Failure.because(f"something went wrong in the service: {type(error).__name__}"))
+            self._fail(job, Failure.because(f"internal error: {type(error).__name__}"))
         finally:
             self._clear(job)
 
@@ -268,7 +268,7 @@ class Runner:
             )
         request = self.store.request(job.id)
         if not request.is_dir():
-            raise JobInterrupted("its request is no longer there")
+            raise JobInterrupted("its request is missing")
         executor = self.workers if self._is_local and self._executor.failure else self._executor
         run = Run(job, until, executor, self.workers, self.store, self.store.parts(job))
         for name, content in self._kinds[job.kind](request)(run).items():

@@ -103,9 +103,9 @@ def _spread_notes(motion: TipReach, plane: Plane | None, asked: Orientations) ->
     missed = _missed_notes(motion, plane)
     match asked.spread:
         case "fixed":
-            return [*missed, "the tip never turns: only its one orientation is tried"]
+            return [*missed, "the tip never turns: only this orientation is tested"]
         case "turns":
-            return [*missed, "the tip turns about one direction only: only turns about it are tried"]
+            return [*missed, "the tip rotates about one direction only: only rotations about it are tested"]
     return missed
 
 

@@ -245,7 +245,7 @@ class Workers:
                 starting.add_done_callback(_close)
                 raise
             except ChildProcessError as error:
-                logger.error("%s; once more in %g s", error, pause)
+                logger.error("%s; retrying in %g s", error, pause)
                 await asyncio.sleep(pause)
                 pause = min(2.0 * pause, _MOST_RETRY_SECONDS)
             else:

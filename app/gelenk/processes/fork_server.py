@@ -147,7 +147,7 @@ class ForkServer:
         try:
             load()
         except Exception:
-            logger.exception("could not be loaded: %s", what)
+            logger.exception("could not load %s", what)
 
     def _fork(self, connection: int, lifeline: socket.socket) -> None:
         """Fork a child; if that fails, close its lifeline without sending a process id."""

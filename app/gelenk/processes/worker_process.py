@@ -197,7 +197,7 @@ class ForkServerClient:
             OSError: The fork server has ended or was never started.
         """
         if self._control is None:
-            raise ChildProcessError("there is no fork server")
+            raise ChildProcessError("the fork server is not running")
         socket.send_fds(self._control, [what], descriptors)
 
     def close(self) -> None:
