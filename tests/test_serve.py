@@ -348,7 +348,7 @@ def started_with(monkeypatch: pytest.MonkeyPatch, *arguments: str, **settings: s
 
     monkeypatch.setattr("sys.argv", ["serve", *arguments])
     monkeypatch.setattr(serve, "Supervisor", catch)
-    monkeypatch.setattr("socket.create_server", lambda *_, **__: None)
+    monkeypatch.setattr(serve, "listeners", lambda *_: [])
     monkeypatch.setattr("logging.config.dictConfig", lambda _: None)
     for variable, value in settings.items():
         monkeypatch.setenv(variable, value)
