@@ -22,6 +22,7 @@ from gelenk.http.access.request_context import RequestContext
 from gelenk.http.access.route_table import Route
 from gelenk.http.messages.scopes import Scope
 from gelenk.store import folders
+from gelenk.supervisor import STILL_STARTING
 from tests.http.access import asking
 from tests.http.access.asking import HOST, application, ask, bearer, keys_for
 from tests.test_serve import get, service
@@ -230,5 +231,5 @@ def test_a_hostile_client_leaves_no_control_character_in_the_log(tmp_path: Path)
     assert all(" " <= character <= "~" or character == "\n" for character in text)
     told = [json.loads(line) for line in lines if line.startswith("{")]
     assert len([each for each in told if each["logger"] == "gelenk.requests"]) >= 6
-    assert [line for line in lines if not line.startswith("{")] == []
+    assert {line for line in lines if not line.startswith("{")} <= {STILL_STARTING}
     assert any("\x1b[2J" in each.get("path", "") for each in told)
