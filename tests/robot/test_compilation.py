@@ -84,6 +84,7 @@ def test_what_is_compiled_is_told_once() -> None:
 def test_where_nothing_can_be_written_it_says_so_and_goes_on(is_set: bool, tmp_path: Path) -> None:
     """A tree and a home that nobody can write to: files are where folders would have to be."""
     shutil.copytree("app/gelenk/robot", tmp_path / "gelenk" / "robot", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy("app/gelenk/errors.py", tmp_path / "gelenk")
     (tmp_path / "gelenk" / "__init__.py").touch()
     nowhere = tmp_path / "gelenk" / "__pycache__"
     for file in (nowhere, tmp_path / "gelenk" / "robot" / "__pycache__"):
