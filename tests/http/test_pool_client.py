@@ -78,7 +78,7 @@ def test_a_key_with_slow_requests_does_not_hold_up_another(tmp_path: Path) -> No
 
         slow = [pool.submit(ask, 60.0, heavy) for _ in range(4)]
         until = time.monotonic() + 60
-        while client.app.state.len(pool.requests.turns) < 2:  # type: ignore[attr-defined]
+        while len(client.app.state.pool.requests.turns) < 2:  # type: ignore[attr-defined]
             assert time.monotonic() < until
             time.sleep(0.01)
         for _ in range(3):
