@@ -45,7 +45,7 @@ class WorkerPool:
         is_starting: Whether the first processes are still starting.
     """
 
-    def __init__(self, count: int, waiting: int, memory_bytes: int, background: int = 0) -> None:
+    def __init__(self, count: int, waiting: int, memory_bytes: int, background: int = 1) -> None:
         self.size, self.waiting = count, waiting
         self.requests = Workers(count, replace(REQUEST, memory_bytes=memory_bytes))
         self.background = Workers(background, BACKGROUND)
