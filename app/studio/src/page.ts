@@ -55,9 +55,12 @@ function tabs({ tabs: host, panel }: Places, studio: Studio): void {
   host.append(...made);
   let close: () => void = () => {};
   store.watch(["panel"], ({ panel: wanted }) => {
-    const chosen = PANELS.find(({ id }) => id === wanted) ?? PANELS[0]!;
     close();
+    close = () => {};
     panel.replaceChildren();
+    // Without a name none opens: a panel that is opened twice would do twice what it does at once, such as an upload.
+    if (wanted === "") return;
+    const chosen = PANELS.find(({ id }) => id === wanted) ?? PANELS[0]!;
     panel.scrollTop = 0;
     panel.setAttribute("aria-labelledby", `tab-${chosen.id}`);
     for (const [index, tab] of made.entries()) {
