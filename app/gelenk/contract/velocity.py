@@ -9,7 +9,7 @@ from gelenk.contract.endpoint import RobotEndpoint
 from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
-from gelenk.kinematics.velocity.words import InverseName, InverseStatus
+from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
 
 MAX_MAGNITUDE = 1e6
 """Largest entry of a twist, or of a derivative of one."""
@@ -175,15 +175,6 @@ class VelocityRequest(VelocityOptions):
     null_space: NullSpace | None = Field(
         default=None, description="How to use a redundant arm's freedom; with `pseudo_inverse` and `damped`."
     )
-
-
-class ExceededLimit(Answer):
-    """A joint that is faster than its description allows."""
-
-    joint: str = Field(description="Whose limit it is.")
-    velocity: float = Field(description="Of the joint, [rad/s or m/s].")
-    limit: float = Field(description="Of this joint and of those in the chain that mimic it, [rad/s or m/s].")
-    ratio: float = Field(description="Speed over limit, above 1; no unit.")
 
 
 class VelocitySingularity(Answer):

@@ -17,6 +17,7 @@ from gelenk.kinematics.velocity.linear_inverse import InverseRule, Inversion, de
 from gelenk.kinematics.velocity.subspaces import rounding
 from gelenk.kinematics.velocity.task_space import FULL_SPACE, TaskSpace, hessians_in_reference, jacobians_with_terms
 from gelenk.kinematics.velocity.velocity import TipMotion, in_reference, jacobian_derivatives, product_rule, tip_motion
+from gelenk.kinematics.velocity.words import ExceededLimit
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain, crossed_joints
 from gelenk.robot.poses import Poses
@@ -26,16 +27,6 @@ _SLACK = 1e-9
 """Relative excess over a velocity limit that is tolerated."""
 _EDGE = 0.05
 """Distance from a limit, as a share of the joint's range, within which the limit objective pushes no harder."""
-
-
-@dataclass(frozen=True, slots=True)
-class Exceeded:
-    """A joint that exceeds its velocity limit; velocities in [rad/s or m/s]."""
-
-    joint: str
-    velocity: float
-    limit: float
-    ratio: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +128,10 @@ def velocity_limits(robot: RobotModel, chain: Chain) -> Array:
     return limits
 
 
-def exceeded(chain: Chain, speeds: Array, limits: Array) -> list[Exceeded]:
+def exceeded(chain: Chain, speeds: Array, limits: Array) -> list[ExceededLimit]:
     """Return the joints of one configuration that exceed their limits; speeds of shape (n,), [rad/s or m/s]."""
     return [
-        Exceeded(chain.joint_names[i], float(speeds[i]), float(limits[i]), float(abs(speeds[i]) / limits[i]))
+        ExceededLimit(chain.joint_names[i], float(speeds[i]), float(limits[i]), float(abs(speeds[i]) / limits[i]))
         for i in np.flatnonzero(np.abs(speeds) > limits * (1.0 + _SLACK))
     ]
 
