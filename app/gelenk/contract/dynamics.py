@@ -1,17 +1,13 @@
 """Dynamics: request, answer, operation."""
 
-from typing import Annotated, Literal
+from typing import Annotated, get_args
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
-from gelenk.kinematics.judge.words import DynamicsCertificate
-
-Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
-_ALL: list[Term] = ["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
+from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 
 
 class DynamicsOptions(WrenchOptions):
@@ -27,7 +23,8 @@ class DynamicsOptions(WrenchOptions):
         examples=[[0.0, 0.0, -9.81]],
     )
     terms: Annotated[list[Term], Field(max_length=5)] = Field(
-        default=_ALL, description="Terms to compute in addition to what `joint_accelerations` or `torques` ask for."
+        default=list(get_args(Term)),
+        description="Terms to compute in addition to what `joint_accelerations` or `torques` ask for.",
     )
 
 
@@ -52,12 +49,9 @@ class DynamicsRequest(DynamicsOptions, WrenchRequest):
     )
 
 
-class DynamicsAnswer(Answer):
+class DynamicsAnswer(AboutChain):
     """M q̈ + C q̇ + g + Jᵀγ = τ, one entry per configuration, in order; rows and columns as `joint_names`."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
     root_frame: str = Field(description="The root link, which is fixed and in whose axes gravity is given.")
     gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
     mass_matrices: list[Matrix] | None = Field(

@@ -5,16 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.contract.singularities import (
-    MAX_NEAREST,
-    MAX_PATH,
-    MAX_PLACES,
-    MAX_REPORTS,
-    SingularityRequest,
-)
-from gelenk.errors import InvalidField, TooLarge, counted
+from gelenk.contract.singularities import MAX_NEAREST, MAX_PATH, MAX_PLACES, MAX_REPORTS, SingularityRequest
+from gelenk.errors import TooLarge, counted
 from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_jacobians
 from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians
@@ -23,7 +16,7 @@ from gelenk.kinematics.singularity.path import PathMinimum, places_along
 from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
-from gelenk.operations.chains import chain_and_positions, check_numbers
+from gelenk.operations.chains import chain_and_positions, check_numbers, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -39,12 +32,12 @@ _ENTRY = 120
 def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcome:
     """Report the singularities at configurations, the nearest ones, and those along a path."""
     chain, qs = chain_and_positions(loaded.robot, call)
-    space = _space(call)
+    space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
     certificate = _certificate(loaded.robot, chain, qs)
     fits = not (call.nearest or call.path)
     return Outcome(
-        lambda: _content(loaded.robot, chain, call, qs, certificate),
+        lambda: _content(loaded.robot, chain, call, qs, space, certificate),
         (lambda: (singular_values(space.jacobians(chain, qs)), {})) if fits else None,
     )
 
@@ -89,13 +82,6 @@ def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
     return [chain.joint_names[j] for j in joints]
 
 
-def _space(call: SingularityRequest) -> TaskSpace:
-    directions = DIRECTIONS if call.task is None else tuple(call.task)
-    if len(set(directions)) < len(directions):
-        raise InvalidField("task", "each direction may appear only once")
-    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
-
-
 def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limits) -> None:
     if count > MAX_REPORTS:
         raise TooLarge("configurations with singularity reports", count, MAX_REPORTS)
@@ -104,8 +90,7 @@ def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limit
     most = max(1, MAX_NEAREST * 49 // max(joints, 7) ** 2)
     if call.nearest and count > most:
         raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
-    numbers = count * (_ENTRY + joints * (joints + 4)) * (1 + call.path)
-    check_numbers(numbers, limits)
+    check_numbers(count * (_ENTRY + joints * (joints + 4)) * (1 + call.path), limits)
 
 
 def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertificate:
@@ -113,17 +98,19 @@ def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertific
 
 
 def _content(
-    robot: RobotModel, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
+    robot: RobotModel,
+    chain: Chain,
+    call: SingularityRequest,
+    qs: Array,
+    space: TaskSpace,
+    certificate: JacobianCertificate,
 ) -> dict[str, Any]:
-    space = _space(call)
     reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
     products = [certify_reports(robot, chain, space, qs, reports)]
     certified = [certificate]
     entries = [singularity_info(chain, report) for report in reports]
     answer: dict[str, Any] = {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "reference": space.reference,
         "task": space.task.directions,
         "rank_tolerance": call.rank_tolerance,

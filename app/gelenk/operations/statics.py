@@ -22,7 +22,7 @@ from gelenk.kinematics.force.statics import (
 )
 from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces
-from gelenk.operations.chains import check_numbers, positions
+from gelenk.operations.chains import check_numbers, head, positions, task_of
 from gelenk.operations.loads import (
     MECHANISM,
     chain_of,
@@ -112,13 +112,8 @@ def _wants_subspaces(call: StaticsRequest) -> bool:
 
 
 def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
-    """Refuse combinations of fields that exclude each other.
-
-    Raises:
-        InvalidField: A field needs another that is missing, or excludes one that is given.
-    """
-    if len(set(_task(call))) < len(_task(call)):
-        raise InvalidField("task", "each direction may appear only once")
+    """Refuse combinations of fields that exclude each other; raises InvalidField."""
+    task = task_of(call.task).directions
     if call.wrenches is not None and call.torques is not None:
         raise InvalidField("torques", "they are given instead of `wrenches`, not beside them")
     if call.payload is not None and not weighs:
@@ -131,7 +126,7 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
         if field is not None:
             raise InvalidField(field, "only allowed with `wrenches`, `torques` or `subspaces`")
     for name, vectors in _tests(call).items():
-        size = len(_task(call)) if name in _OF_THE_TIP else len(chain)
+        size = len(task) if name in _OF_THE_TIP else len(chain)
         for i, vector in enumerate(vectors):
             if len(vector) != size:
                 raise InvalidField(f"test_{name}", f"entry {i} has {counted(len(vector), 'number')}, not {size}")
@@ -168,9 +163,7 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict
     still, splits = found.still, found.splits
     robot, chain, weighs = still.robot, still.chain, still.gravity is not None
     return {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "root_frame": robot.description.root,
         "gravity": still.gravity,
         "task": _task(call),

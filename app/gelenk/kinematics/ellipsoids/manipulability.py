@@ -11,35 +11,37 @@ found at random configurations. A configuration is singular where one of the rem
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import lru_cache
+from dataclasses import asdict, dataclass
 from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
 from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.kinematics.judge.judge import certify_jacobians
 from gelenk.kinematics.judge.words import EllipsoidCertificate, JacobianCertificate, Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.kinematics.velocity.subspaces import rounding
-from gelenk.kinematics.velocity.task_space import hessians_in_reference, jacobians_with_terms, random_configurations
+from gelenk.kinematics.velocity.task_space import (
+    STRUCTURAL_TOLERANCE,
+    aligned_basis,
+    hessians_in_reference,
+    jacobians_with_terms,
+    structure,
+)
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 
 Part: TypeAlias = Literal["translation", "rotation", "combined"]
 
-STRUCTURAL_TOLERANCE = 1e-9
-"""A direction counts as one of motion if some random configuration moves more than this, relative to the largest."""
 ELLIPSOID_TOLERANCE = 10.0 * STRUCTURAL_TOLERANCE
 """Allowed relative difference between JJᵀ and its ellipsoids, including motion in directions that do not count."""
 WITHIN = 1e-9
 """Largest distance of a unit vector from a space that still counts as lying in it."""
 _ROUNDING = 1e-14
 """A torque up to this share of the largest counts as zero."""
-
-_SAMPLES = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,41 +207,12 @@ def space_of(
         reference: Reference of the Jacobian.
         components: Number of components of a vector, 3 or 6.
     """
-    space = _structure(chain, rows, reference)
-    if length == 1.0 or space.basis.shape[1] == len(rows):
-        return replace(space, components=components)
-    stretched = _stretches(rows, length)[:, None] * space.basis
-    left = np.linalg.svd(stretched, full_matrices=False)[0]
-    return Space(rows, _aligned_basis(left @ left.T, left.shape[1]), space.dimension, components)
-
-
-@lru_cache(maxsize=1024)
-def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Space:
-    """Directions of motion at random configurations: revolute joints over a full turn, prismatic ones within ±1 m."""
-    whole, terms = jacobians_with_terms(chain, random_configurations(chain, _SAMPLES), reference)
-    Js, least = whole[:, rows], float(rounding(terms).max())
-    sigmas = np.linalg.svd(Js, compute_uv=False)
-    largest = float(sigmas.max(initial=0.0))
-    if largest <= least:
-        return Space(rows, np.zeros((len(rows), 0)), 0)
-    dimension = int(np.sum(sigmas > STRUCTURAL_TOLERANCE * largest, axis=1).max())
-    left, sizes, _ = np.linalg.svd(np.concatenate(list(Js), axis=1), full_matrices=False)
-    span = left[:, sizes > STRUCTURAL_TOLERANCE * sizes[0]]
-    return Space(rows, _aligned_basis(span @ span.T, span.shape[1]), dimension)
-
-
-def _aligned_basis(projector: Array, dimension: int) -> Array:
-    """Orthonormal basis of a projector's range, as close to the coordinate axes as possible; shape (k, dimension)."""
-    whole = np.rint(projector)
-    left = whole if np.abs(projector - whole).max() < STRUCTURAL_TOLERANCE else projector
-    columns = []
-    for _ in range(dimension):
-        pivot = int(np.argmax(np.round(np.diag(left), 9)))
-        column = left[:, pivot] / math.sqrt(left[pivot, pivot])
-        columns.append(column)
-        left = left - np.outer(column, column)
-    # Adding zero turns -0.0 into 0.0.
-    return np.array(columns).reshape(dimension, len(projector)).T + 0.0
+    fixed = structure(chain, Task(tuple(DIRECTIONS[row] for row in rows)), reference)
+    basis = fixed.moving
+    if length != 1.0 and basis.shape[1] < len(rows):
+        stretched = _stretches(rows, length)[:, None] * basis
+        basis = aligned_basis(np.linalg.svd(stretched, full_matrices=False)[0], STRUCTURAL_TOLERANCE)
+    return Space(rows, basis, fixed.rank, components)
 
 
 def _stretches(rows: tuple[int, ...], length: float) -> Array:

@@ -4,7 +4,7 @@ A wrench and its dual twist refer to the same point and axes, so γᵀv is a pow
 relative to the base, at the body point that coincides with the given point, so τ = Jᵀγ for any point.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +33,7 @@ class WrenchFrame:
 
     reference: Reference = "local_world_aligned"
     expressed_in: str | None = None
-    point: tuple[float, float, float] | None = None
+    point: Sequence[float] | None = None
     point_frame: str | None = None
 
     def check(self) -> None:

@@ -10,6 +10,9 @@ Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]
 View: TypeAlias = Reference | Literal["zyz", "rpy"]
 """Reference frame of a Jacobian, or the Euler angles whose rates its angular rows give."""
 
+Term: TypeAlias = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
+"""A term of the equations of motion."""
+
 
 @dataclass(frozen=True, slots=True)
 class PoseCertificate(Result):

@@ -73,15 +73,6 @@ class Decomposition:
     row_scales: Array
     column_scales: Array
 
-    @property
-    def condition_numbers(self) -> list[float | None]:
-        """Ratios σ_max / σ_min; None where the rank is not full."""
-        full = self.sigmas.shape[1]
-        return [
-            float(sigma[0] / sigma[-1]) if full and rank == full else None
-            for sigma, rank in zip(self.sigmas, self.ranks, strict=True)
-        ]
-
     def lost_directions(self, row: int) -> Array:
         """Return unit vectors, in the rows of J, along which the tip cannot move; shape (lost, k)."""
         lost = self.left[row, :, self.ranks[row] :].T / self.row_scales

@@ -51,12 +51,6 @@ class Subspaces:
         """Basis of ker(J), the joint velocities that leave the tip at rest; shape (n, n - rank)."""
         return self.right[:, self.rank :]
 
-    @property
-    def pseudo_inverse(self) -> Array:
-        """Pseudo-inverse J# = Σ v_i uᵢᵀ / σ_i over the singular values that count [Penrose1955]; shape (n, m)."""
-        inverse: Array = (self.row_space / self.sigmas[: self.rank]) @ self.range.T
-        return inverse
-
 
 def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspaces:
     """Compute the four subspaces of a matrix.
