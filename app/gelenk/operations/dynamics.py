@@ -131,8 +131,7 @@ def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
         return found.accelerations
     if call.terms[0] == "energies":
         return np.column_stack((found.kinetic_energies, found.potential_energies))  # type: ignore[arg-type]
-    array: Array = getattr(found, _FIELDS[call.terms[0]])
-    return array
+    return np.asarray(getattr(found, _FIELDS[call.terms[0]]))
 
 
 def _content(

@@ -35,15 +35,13 @@ def unit_scales(Ms: Array) -> Array:
     """Return the square roots of M's diagonal, zero where an entry is rounding; shape (N, n, n) → (N, n)."""
     diagonals = np.diagonal(Ms, axis1=1, axis2=2)
     least = _ROUNDING * diagonals.max(axis=1, initial=0.0, keepdims=True)
-    scales: Array = np.sqrt(np.where(diagonals > least, diagonals, 0.0))
-    return scales
+    return np.asarray(np.sqrt(np.where(diagonals > least, diagonals, 0.0)))
 
 
 def scaled(Ms: Array, scales: Array) -> Array:
     """Divide rows and columns of M by scales, with zero where a scale is zero; shapes (N, n, n), (N, n)."""
     inverses = np.divide(1.0, scales, out=np.zeros_like(scales), where=scales > 0.0)
-    quotient: Array = Ms * inverses[:, :, None] * inverses[:, None, :]
-    return quotient
+    return np.asarray(Ms * inverses[:, :, None] * inverses[:, None, :])
 
 
 class Lagrangian:

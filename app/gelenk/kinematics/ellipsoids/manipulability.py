@@ -93,7 +93,7 @@ class Ellipsoids:
     @property
     def measures(self) -> Array:
         """Yoshikawa's measure, the product of the semi-axes: √det(JJᵀ) if all k rows are independent; shape (N,)."""
-        return cast(Array, np.prod(self.sigmas, axis=1))
+        return np.asarray(np.prod(self.sigmas, axis=1))
 
     @property
     def volumes(self) -> Array:
@@ -104,7 +104,7 @@ class Ellipsoids:
     @property
     def ranks(self) -> Indices:
         """Number of axes that do not vanish; shape (N,)."""
-        return cast(Indices, np.count_nonzero(self.sigmas, axis=1))
+        return np.asarray(np.count_nonzero(self.sigmas, axis=1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,7 +246,7 @@ def _pseudo_inverses(left: Array, sigmas: Array, right: Array) -> Array:
     """J# of J = Σ u_i σ_i v_iᵀ; NaN where a σ_i vanishes; shape (N, n, k)."""
     with np.errstate(divide="ignore"):
         inverted = np.where(sigmas > 0.0, 1.0 / sigmas, np.nan)
-    return cast(Array, np.einsum("bdi,bd,bkd->bik", right, inverted, left))
+    return np.asarray(np.einsum("bdi,bd,bkd->bik", right, inverted, left))
 
 
 def _signed(axes: Array) -> Array:
@@ -275,7 +275,7 @@ def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> flo
 
 def is_within_task(space: Space, directions: Array) -> Flags:
     """Return whether each unit vector lies in the rows that count; shape (D, 3) → (D,)."""
-    return cast(Flags, np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
+    return np.asarray(np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
 
 
 def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: float) -> tuple[Array, Array]:

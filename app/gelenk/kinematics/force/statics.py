@@ -19,8 +19,6 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-ALL_ROWS: Indices = np.arange(6)
-AT_TIP = WrenchFrame()
 _NUMBERS_AT_ONCE = 1_000_000
 """Largest number of entries of the bodies' Jacobians held in memory at once."""
 
@@ -59,8 +57,7 @@ class Statics:
 
     def wrench_torques(self, wrenches: Array) -> Array:
         """Compute Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
-        torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
-        return torques
+        return np.asarray(np.einsum("kij,ki->kj", self.Js, wrenches))
 
     def subspaces(self, tolerance: float) -> list[Subspaces]:
         """Compute the four subspaces at each configuration."""
@@ -86,9 +83,9 @@ def statics(
     robot: RobotModel,
     chain: Chain,
     qs: Array,
-    frame: WrenchFrame = AT_TIP,
+    frame: WrenchFrame | None = None,
     *,
-    rows: Indices = ALL_ROWS,
+    rows: Indices | None = None,
     gravity: Array | None = None,
     load: Load | None = None,
 ) -> Statics:
@@ -98,8 +95,8 @@ def statics(
         robot: The robot; joints off the chain are at zero, and their links have weight too.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
-        frame: Axes and point of the wrench.
-        rows: Indices of the wrench components that count; shape (m,).
+        frame: Axes and point of the wrench; at the tip if None.
+        rows: Indices of the wrench components that count; shape (m,). All if None.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²]. None to ignore weight.
         load: A payload on the tip; ignored without gravity.
 
@@ -107,6 +104,7 @@ def statics(
         UnknownFrame: The robot has no such frame.
         InvalidField: The fields of the frame are contradictory.
     """
+    frame, rows = frame or WrenchFrame(), np.arange(6) if rows is None else rows
     places, Js, sums = frame_jacobians(robot, chain, qs, frame)
     torques, scale = np.zeros_like(qs), 0.0
     if gravity is not None and len(chain):
@@ -201,13 +199,10 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
         for k, row in enumerate(rows):
             q_dot = rng.uniform(-1.0, 1.0, len(chain))
             expected, power = judge.static_torques(qs[row], q_dot, places.positions[k], in_base[k])
-            scale = max(_largest_term(still.Js[row], given[k], places.positions[k]), still.gravity_scale)
+            # The largest terms of the torques: here, or through the wrench's moment about the base's origin.
+            by_wrench = largest(np.abs(still.Js[row].T) @ np.abs(given[k]))
+            scale = max(by_wrench, largest(given[k]) * (1.0 + largest(places.positions[k])), still.gravity_scale)
             worst.add("max_torque_error", "a torque", held[k] - expected, scale)
             work = (held[k] - still.gravity_torques[row]) @ q_dot - power
             worst.add("max_virtual_work_error", "the virtual work", work, scale * len(chain))
     return StaticsCertificate(samples=len(rows), seed=seed, **worst)
-
-
-def _largest_term(J: Array, wrench: Array, point: Array) -> float:
-    """Largest term in computing torques from a wrench, here or through its moment about the base origin."""
-    return max(largest(np.abs(J.T) @ np.abs(wrench)), largest(wrench) * (1.0 + largest(point)))

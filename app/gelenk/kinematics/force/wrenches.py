@@ -107,5 +107,4 @@ def in_base_axes(places: Poses, rows: Indices, wrenches: Array) -> Array:
     """Expand wrenches to six components and rotate them into the base's axes; shape (N, m) → (N, 6)."""
     full = np.zeros((len(wrenches), 6))
     full[:, rows] = wrenches
-    turned: Array = np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6)
-    return turned
+    return np.asarray(np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6))

@@ -96,15 +96,13 @@ def motion_scales(robot: RobotModel, chain: Chain, qs: Array, rates: Array) -> A
     """
     extents = 1.0 + np.abs(chain.flat.placements[:, 9:]).sum() + np.abs(qs).sum(axis=1)
     orders = np.arange(1, len(rates) + 1)[:, None]
-    scales: Array = extents * _paces(robot, chain, rates) ** orders
-    return scales
+    return np.asarray(extents * _paces(robot, chain, rates) ** orders)
 
 
 def _paces(robot: RobotModel, chain: Chain, rates: Array) -> Array:
     """Combined rate of all joints, the largest k-th root of a k-th derivative; shape (N,), [1/s]."""
     totals = np.abs(rates @ robot.expansion(chain).matrix.T).sum(axis=2)
-    paces: Array = (totals ** (1.0 / np.arange(1, len(rates) + 1)[:, None])).max(axis=0)
-    return paces
+    return np.asarray((totals ** (1.0 / np.arange(1, len(rates) + 1)[:, None])).max(axis=0))
 
 
 def _pinocchio_derivatives(
@@ -136,8 +134,7 @@ def _snap(robot: RobotModel, chain: Chain, q: Array, rates: Array, point: Array)
     estimates = [(jerk(step) - jerk(-step)) / (2 * step) for step in steps]
     for order in range(1, _LEVELS):
         estimates = [b + (b - a) / (4**order - 1) for a, b in pairwise(estimates)]
-    snap: Array = estimates[0]
-    return snap
+    return np.asarray(estimates[0])
 
 
 def _after(q: Array, rates: Array, t: float) -> tuple[Array, Array]:

@@ -72,8 +72,7 @@ def table_configurations(chain: Chain, count: int, seed: int = 0) -> Array:
     slides = {int(variable) for prismatic, variable in chain.flat.joints if prismatic}
     turns = [j for j in range(len(chain)) if j not in slides]
     lower[count // 2 :, turns], upper[count // 2 :, turns] = -np.pi, np.pi
-    qs: Array = lower + np.random.default_rng(seed).random((count, len(chain))) * (upper - lower)
-    return qs
+    return np.asarray(lower + np.random.default_rng(seed).random((count, len(chain))) * (upper - lower))
 
 
 def _certificate(ours: Poses, judge: Poses, table: DhTable, exact: bool, seed: int) -> PoseCertificate:

@@ -5,7 +5,7 @@ from these two by the product rule. J̇ = Σ_j ∂J/∂q_j q̇_j throughout.
 """
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, cast
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -45,8 +45,7 @@ class Jacobians:
         """Compute J̇ at joint velocities (N, n), [rad/s or m/s]; shape (N, 6, n). Needs the Hessians."""
         if self.hessians is None:
             raise ValueError("time variation needs the Hessians")
-        variations: Array = np.einsum("bkij,bj->bki", self.hessians, velocities)
-        return variations
+        return np.asarray(np.einsum("bkij,bj->bki", self.hessians, velocities))
 
 
 def jacobians(
@@ -88,15 +87,14 @@ def jacobians(
 
 def singular_values(Js: Array) -> Array:
     """Return σ of each Jacobian, largest first; shape (N, 6, n) → (N, min(6, n)). Metres and radians are mixed."""
-    return cast(Array, np.linalg.svd(Js, compute_uv=False))
+    return np.asarray(np.linalg.svd(Js, compute_uv=False))
 
 
 def ranks(sigmas: Array, tolerance: float) -> Indices:
     """Count the singular values above `tolerance` times the largest; shape (N, k) → (N,)."""
     if sigmas.shape[1] == 0:
         return np.zeros(len(sigmas), dtype=np.int64)
-    counts: Indices = np.sum((sigmas > tolerance * sigmas[:, :1]) & (sigmas > 0.0), axis=1)
-    return counts
+    return np.asarray(np.sum((sigmas > tolerance * sigmas[:, :1]) & (sigmas > 0.0), axis=1))
 
 
 def condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:

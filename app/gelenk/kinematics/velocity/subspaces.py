@@ -67,5 +67,4 @@ def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspac
 
 def rounding(Js: Array) -> Array:
     """Estimate rounding errors in the entries of Jacobians; shape (…, 6, n) → (…,)."""
-    largest: Array = _ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0)
-    return largest
+    return np.asarray(_ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0))

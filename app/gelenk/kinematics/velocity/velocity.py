@@ -147,8 +147,7 @@ def _jacobian_series(flat: FlatChain, derivatives: Array) -> Array:
     )  # (K, N, m, 6)
     selection = np.zeros((len(variables), n))
     selection[np.arange(len(variables)), variables] = flat.drives[:, 0]
-    Js: Array = columns.swapaxes(-1, -2) @ selection
-    return Js
+    return np.asarray(columns.swapaxes(-1, -2) @ selection)
 
 
 def _motion_series(values: Array, slides: Flags) -> Array:
