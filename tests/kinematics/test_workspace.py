@@ -86,10 +86,10 @@ def test_the_measure_of_two_links_is_the_area_that_they_span() -> None:
     radii = np.hypot(found.points[:, 0], found.points[:, 1])
     cosines = (radii**2 - 1.0 - 0.49) / (2.0 * 0.7)
     assert found.points[:, 3] == pytest.approx(0.7 * np.sqrt(np.maximum(0.0, 1.0 - cosines**2)), abs=1e-7)
-    assert found.measures.most == found.points[:, 3].max()
+    assert found.measures.max == found.points[:, 3].max()
     assert found.measures.mean == pytest.approx(found.points[:, 3].mean())
     assert found.measures.joint_positions is not None
-    assert abs(math.sin(found.measures.joint_positions[1])) * 0.7 == pytest.approx(found.measures.most)
+    assert abs(math.sin(found.measures.joint_positions[1])) * 0.7 == pytest.approx(found.measures.max)
 
 
 def test_an_arm_in_a_tilted_plane_is_the_same_arm() -> None:
@@ -235,11 +235,11 @@ def test_a_chain_without_joints_and_one_that_goes_nowhere() -> None:
     work, found = surveyed(machine, machine.chain("panda_link8", "panda_hand_tcp"), Wish(samples=10))
     assert (len(found.voxels), found.count) == (1, 10)
     assert found.measures is not None
-    assert found.measures.most == 0.0
+    assert found.measures.max == 0.0
     assert work.notes == ("the tip does not move",)
     _, found = whole(robot("iris"), samples=10)
     assert found.measures is not None
-    assert found.measures.most == 0.0
+    assert found.measures.max == 0.0
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e5])
@@ -260,7 +260,7 @@ def test_thirty_two_joints() -> None:
     work, found = whole(machine, samples=2000)
     assert found.count == 2000
     assert found.measures is not None
-    assert found.certificate.max_measure_error < 1e-9 * found.measures.most
+    assert found.certificate.max_measure_error < 1e-9 * found.measures.max
     assert work.grid.dimensions == 3
 
 
@@ -275,7 +275,7 @@ def test_a_measure_that_is_rounding_everywhere_is_zero(name: str) -> None:
     work, found = whole(robot(name), samples=500)
     assert work.is_singular
     assert found.measures is not None
-    assert (found.measures.least, found.measures.mean, found.measures.most) == (0.0, 0.0, 0.0)
+    assert (found.measures.min, found.measures.mean, found.measures.max) == (0.0, 0.0, 0.0)
     assert (found.measures.position, found.measures.joint_positions) == (None, None)
 
 

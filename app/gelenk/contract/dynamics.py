@@ -1,16 +1,13 @@
 """Dynamics: request, answer, operation."""
 
-from typing import Annotated, Literal
+from typing import Annotated, get_args
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, Matrix
+from gelenk.contract.kinematics import AboutChain, Configurations, Matrix
 from gelenk.contract.statics import Gravity, Wrenches, WrenchOptions, WrenchRequest
-
-Term = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
-_ALL: list[Term] = ["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
+from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 
 
 class DynamicsOptions(WrenchOptions):
@@ -26,7 +23,8 @@ class DynamicsOptions(WrenchOptions):
         examples=[[0.0, 0.0, -9.81]],
     )
     terms: Annotated[list[Term], Field(max_length=5)] = Field(
-        default=_ALL, description="Terms to compute in addition to what `joint_accelerations` or `torques` ask for."
+        default=list(get_args(Term)),
+        description="Terms to compute in addition to what `joint_accelerations` or `torques` ask for.",
     )
 
 
@@ -51,30 +49,9 @@ class DynamicsRequest(DynamicsOptions, WrenchRequest):
     )
 
 
-class DynamicsCertificateInfo(Answer):
-    """Differences of these numbers from sums over the bodies by our own Jacobians; null if not requested."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_mass_error: float | None = Field(description="Of M = Σ m J_vᵀJ_v + J_ωᵀIJ_ω, [kg m², kg m or kg].")
-    max_coriolis_error: float | None = Field(description="Of C q̇, [N m or N].")
-    max_skew_error: float | None = Field(
-        description="Of C + Cᵀ - dM/dt, which is zero where dM/dt - 2C is skew, [kg m², kg m or kg] per second."
-    )
-    max_gravity_error: float | None = Field(description="Of g = -Σ m J_vᵀg₀, [N m or N].")
-    max_energy_error: float | None = Field(description="Of kinetic and potential energy, [J].")
-    max_torque_error: float | None = Field(description="Of M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].")
-    max_round_trip_error: float | None = Field(
-        description="Of the torques that inverse dynamics give for the accelerations of forward dynamics, [N m or N]."
-    )
-    seed: int = Field(description="Random seed of the sampling.")
-
-
-class DynamicsAnswer(Answer):
+class DynamicsAnswer(AboutChain):
     """M q̈ + C q̇ + g + Jᵀγ = τ, one entry per configuration, in order; rows and columns as `joint_names`."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
     root_frame: str = Field(description="The root link, which is fixed and in whose axes gravity is given.")
     gravity: list[float] = Field(description="In the axes of the root link, [m/s²].")
     mass_matrices: list[Matrix] | None = Field(
@@ -111,7 +88,7 @@ class DynamicsAnswer(Answer):
         description="By inverse dynamics: joints whose torque is beyond the effort limit of the description.",
     )
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
-    certificate: DynamicsCertificateInfo
+    certificate: DynamicsCertificate
 
 
 ENDPOINT = RobotEndpoint(

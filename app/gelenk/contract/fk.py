@@ -4,10 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
-from gelenk.contract.common import Answer, ChainOptions, FrameName
+from gelenk.contract.common import ChainOptions, FrameName
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import CertificateInfo, Configurations
+from gelenk.contract.kinematics import AboutChain, Configurations, RespectLimits
 from gelenk.contract.pose import Pose, PoseFormat
+from gelenk.kinematics.judge.words import PoseCertificate
 
 
 class ForwardOptions(ChainOptions):
@@ -19,9 +20,7 @@ class ForwardOptions(ChainOptions):
     frames: list[FrameName] | Literal["all"] | None = Field(
         default=None, description='Further frames that the chain moves, by name, or "all" of them.'
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class ForwardRequest(ForwardOptions):
@@ -30,17 +29,16 @@ class ForwardRequest(ForwardOptions):
     joint_positions: Configurations
 
 
-class ForwardAnswer(Answer):
+class ForwardAnswer(AboutChain):
     """Poses, one entry per configuration, in order."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame in which the poses are expressed.")
     tip_frame: str = Field(description="Frame whose poses they are.")
     poses: list[Pose] = Field(description="T_base_tip at each configuration.")
     frames: list[dict[str, Pose]] | None = Field(
         default=None, description="If frames were requested: T_base_frame by name, one entry per configuration."
     )
-    certificate: CertificateInfo
+    certificate: PoseCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -4,9 +4,10 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from gelenk.contract.common import Answer, ChainOptions
+from gelenk.contract.common import ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo, Matrix
+from gelenk.contract.kinematics import AboutChain, Configurations, Matrix, RespectLimits, Tolerance
+from gelenk.kinematics.judge.words import JacobianCertificate, Reference
 
 
 class JacobianOptions(ChainOptions):
@@ -14,7 +15,7 @@ class JacobianOptions(ChainOptions):
 
     list_fields = frozenset({"derivatives"})
 
-    reference: Literal["local_world_aligned", "local", "world"] = Field(
+    reference: Reference = Field(
         default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip (the course's geometric Jacobian). `local`: tip "
         "axes, at the tip. `world`: the spatial twist, base axes, at the base origin.",
@@ -29,12 +30,10 @@ class JacobianOptions(ChainOptions):
         description="`time_variation`: dJ/dt at `joint_velocities`. `hessian`: ∂J/∂q.",
         max_length=2,
     )
-    rank_tolerance: float = Field(
-        default=1e-10, gt=0, lt=1, description="A singular value counts where it exceeds this times the largest."
+    rank_tolerance: Tolerance = Field(
+        default=1e-10, description="A singular value counts where it exceeds this times the largest."
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
     @model_validator(mode="after")
     def _analytic_in_base_axes(self) -> "JacobianOptions":
@@ -52,13 +51,11 @@ class JacobianRequest(JacobianOptions):
     )
 
 
-class JacobianAnswer(Answer):
+class JacobianAnswer(AboutChain):
     """Jacobians, one entry per configuration; rows linear (x, y, z), then angular; columns as joint_names."""
 
     joint_names: list[str] = Field(description="The chain's joints: the columns.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
-    reference: Literal["local_world_aligned", "local", "world"] = Field(description="As requested.")
+    reference: Reference = Field(description="As requested.")
     representation: Literal["geometric", "zyz", "rpy"] = Field(description="As requested.")
     jacobians: list[Matrix] = Field(description="6 rows, n columns: [m or rad] per [rad or m].")
     ranks: list[int] = Field(description="Singular values that count, see `rank_tolerance`.")
@@ -73,7 +70,7 @@ class JacobianAnswer(Answer):
     hessians: list[list[Matrix]] | None = Field(
         default=None, description="∂J/∂q: entry [k][i][j] is ∂J[k][i]/∂q_j, [m or rad] per [rad or m] squared."
     )
-    certificate: JacobianCertificateInfo
+    certificate: JacobianCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -6,6 +6,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, OnTheWire
+from gelenk.ik.search.words import Direction
 from gelenk.robot.arrays import Array
 from gelenk.robot.arrays import Configuration as GivenConfiguration
 
@@ -42,28 +43,26 @@ Configurations = Annotated[
 ]
 
 
-class CertificateInfo(Answer):
-    """Differences of these poses from those computed through Pinocchio."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_position_error: float = Field(description="Largest distance, [m].")
-    max_orientation_error: float = Field(description="Largest angle, [rad].")
-    seed: int = Field(description="Random seed of the sampling.")
-
-
-class JacobianCertificateInfo(Answer):
-    """Differences of these Jacobians from those computed through Pinocchio."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_error: float = Field(
-        description="Largest difference of an entry, of the geometric Jacobian and of the one that is sent, "
-        "[m or rad] per [rad or m]."
-    )
-    max_time_variation_error: float | None = Field(
-        description="Largest difference of an entry of the geometric dJ/dt at random joint velocities, "
-        "[m or rad] per [rad or m] and second; null if no derivative was requested."
-    )
-    seed: int = Field(description="Random seed of the sampling.")
-
+RespectLimits = Annotated[bool, Field(description="Whether a configuration beyond the joint limits is an error.")]
+TaskDirections = Annotated[list[Direction], Field(min_length=1, max_length=6)]
+Tolerance = Annotated[float, Field(gt=0, lt=1)]
+RankTolerance = Annotated[
+    Tolerance,
+    Field(
+        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
+        "Jacobian; no unit."
+    ),
+]
+CharacteristicLength = Annotated[float, Field(ge=1e-6, le=1e6)]
 
 Matrix = list[list[float]]
+Numbers = list[list[float]]
+"""One row of numbers per configuration."""
+
+
+class AboutChain(Answer):
+    """The head of an answer about a chain."""
+
+    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
+    base_frame: str = Field(description="Where the chain begins.")
+    tip_frame: str = Field(description="Where the chain ends.")

@@ -6,8 +6,17 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configuration, Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import (
+    AboutChain,
+    CharacteristicLength,
+    Configuration,
+    Configurations,
+    RespectLimits,
+    TaskDirections,
+    Tolerance,
+)
 from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.kinematics.judge.words import EllipsoidCertificate
 
 MAX_DETAILED = 10_000
 """Maximum number of configurations of an answer in JSON; as npy there may be more."""
@@ -23,10 +32,8 @@ class ManipulabilityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: list[Direction] = Field(
+    task: TaskDirections = Field(
         default=list(DIRECTIONS),
-        min_length=1,
-        max_length=6,
         description="The directions of the tip that count, rows of the Jacobian in `reference`; all six if left out.",
         examples=[["x", "y"]],
     )
@@ -36,17 +43,13 @@ class ManipulabilityOptions(ChainOptions):
         "base's (the course's). `local`: the tip's, which is what an `ik` task that leaves a turn about the tool free "
         "is about; an image has the base's only.",
     )
-    characteristic_length: float | None = Field(
+    characteristic_length: CharacteristicLength | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Length L that converts radians to metres, [m]: it adds the combined ellipsoid of "
         "(v, L ω) and (F, M / L). Without it translation and rotation are never mixed.",
     )
-    rank_tolerance: float = Field(
+    rank_tolerance: Tolerance = Field(
         default=1e-10,
-        gt=0,
-        lt=1,
         description="A semi-axis of the velocity ellipsoid vanishes where it is no longer than this times the longest, "
         "or than the rounding of the whole Jacobian; no unit.",
     )
@@ -56,9 +59,7 @@ class ManipulabilityOptions(ChainOptions):
         description="Whether to compute velocities and forces within the limits of each joint too: in the "
         "`directions`, or along x, y and z where none are given.",
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class RateAndEffortLimits(Payload):
@@ -122,10 +123,15 @@ class EllipsoidInfo(Answer):
     unbounded: list[bool] = Field(description="Which semi-axes are unbounded: never those of a velocity.")
 
 
-class Transmission(Answer):
-    """How far the ellipsoids reach along one direction; null where the direction is not in the task."""
+class Along(Answer):
+    """Something along a direction."""
 
     direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
+
+
+class Transmission(Along):
+    """How far the ellipsoids reach along one direction; null where the direction is not in the task."""
+
     velocity: float | None = Field(
         description="[uᵀ(JJᵀ)#u]^(-½): the largest velocity along u alone of joint velocities of norm one; 0 where the "
         "tip cannot move along u alone; unit: `velocity_unit`."
@@ -137,10 +143,9 @@ class Transmission(Answer):
     force_unbounded: bool = Field(description="Whether a force along u needs no joint torque.")
 
 
-class VelocityLimit(Answer):
+class VelocityLimit(Along):
     """Velocities along one direction with every joint within its velocity limit."""
 
-    direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
     alone: float = Field(
         description="Largest velocity along it with no other component of this part: where the ray leaves the "
         "polytope, [m/s or rad/s]."
@@ -150,10 +155,9 @@ class VelocityLimit(Answer):
     )
 
 
-class ForceLimit(Answer):
+class ForceLimit(Along):
     """Forces along one direction with every joint within its effort limit; null where unbounded."""
 
-    direction: list[float] = Field(description="The direction as a unit vector in the axes of `reference`; no unit.")
     alone: float | None = Field(
         description="Largest force along it with no other component of this part: where the ray leaves the polytope, "
         "[N or N m]."
@@ -226,20 +230,9 @@ class ManipulabilityInfo(Answer):
     combined: PartInfo | None = Field(description="Where a characteristic length was given.")
 
 
-class EllipsoidCertificateInfo(JacobianCertificateInfo):
-    """Differences of the Jacobians from Pinocchio's, and of the ellipsoids from the Jacobians."""
-
-    max_ellipsoid_error: float = Field(
-        description="Largest difference of an entry between JJᵀ and Σ u_i σ_i² u_iᵀ, relative to the largest σ² or the "
-        "square of the largest entry of the whole Jacobian; no unit. It also bounds the motion in a direction reported "
-        "as having none."
-    )
-
-
-class ManipulabilityAnswer(Answer):
+class ManipulabilityAnswer(AboutChain):
     """Manipulability, one entry per configuration, in order."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
     base_frame: str = Field(description="Frame against which the tip moves.")
     tip_frame: str = Field(description="Frame whose motion it is.")
     reference: Literal["local_world_aligned", "local"] = Field(
@@ -258,7 +251,7 @@ class ManipulabilityAnswer(Answer):
         description="If polytopes were requested: joints without an effort limit; then there is none.",
     )
     results: list[ManipulabilityInfo]
-    certificate: EllipsoidCertificateInfo
+    certificate: EllipsoidCertificate
 
 
 ENDPOINT = RobotEndpoint(

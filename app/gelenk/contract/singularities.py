@@ -1,14 +1,14 @@
 """Singularities: request, answer, operation."""
 
 import math
-from typing import Literal
 
 from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import Configurations, JacobianCertificateInfo
+from gelenk.contract.kinematics import AboutChain, CharacteristicLength, Configurations, RankTolerance, TaskDirections
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import Reference, SingularityCertificate
 from gelenk.kinematics.velocity.words import SingularityKind
 
 MAX_REPORTS = 2000
@@ -26,35 +26,25 @@ class SingularityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    task: list[Direction] | None = Field(
+    task: TaskDirections | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`; all six if left out. A planar arm "
         "loses nothing in all six: its singularities are those of `x y`.",
         examples=[["x", "y", "z"]],
     )
-    reference: Literal["local_world_aligned", "local", "world"] = Field(
+    reference: Reference = Field(
         default="local_world_aligned",
         description="Axes of the directions in `task`. `local_world_aligned`: along and about the base's axes, at "
         "the tip (the course's). `local`: the tip's axes, which is what an `ik` task that leaves a turn about the "
         "tool free is about. `world`: the base's axes, of the point of the tip's body that passes the base's origin. "
         "Lost directions are always given in the base's axes, at the tip.",
     )
-    characteristic_length: float | None = Field(
+    characteristic_length: CharacteristicLength | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Factor of the angular rows that makes them comparable with linear ones, [m]; if left out, metres "
         "and radians are mixed where both count.",
     )
-    rank_tolerance: float = Field(
-        default=1e-10,
-        gt=0,
-        lt=1,
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit.",
-    )
+    rank_tolerance: RankTolerance = 1e-10
     respect_limits: bool = Field(
         default=False,
         description="Whether a configuration beyond the joint limits is an error, and the nearest singularity must be "
@@ -197,25 +187,10 @@ class SingularPathInfo(Answer):
     omitted: int = Field(description="Number of further places; the 500 nearest to singular are listed.")
 
 
-class SingularityCertificateInfo(JacobianCertificateInfo):
-    """Differences of the Jacobians from Pinocchio's, and products of those with the reported motions and directions."""
-
-    max_internal_motion: float = Field(
-        description="Largest ‖J v‖ over the internal motions v of the same configurations, J the rows that count of "
-        "Pinocchio's Jacobian: rounding, or what `rank_tolerance` lets pass; in the unit of the singular values."
-    )
-    max_lost_direction: float = Field(
-        description="Largest ‖uᵀ J‖ over the lost directions u, unit vectors of these rows; likewise."
-    )
-
-
-class SingularityAnswer(Answer):
+class SingularityAnswer(AboutChain):
     """Singularity reports, one entry per configuration, in order."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
-    reference: Literal["local_world_aligned", "local", "world"] = Field(description="Whose directions they are.")
+    reference: Reference = Field(description="Whose directions they are.")
     task: list[Direction] = Field(description="The directions that count, in the order as given.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
     characteristic_length: float | None = Field(description="What angular rows were multiplied by, [m].")
@@ -226,7 +201,7 @@ class SingularityAnswer(Answer):
     )
     singularities: list[SingularityEntry]
     path: SingularPathInfo | None = Field(default=None, description="If requested.")
-    certificate: SingularityCertificateInfo
+    certificate: SingularityCertificate
 
 
 ENDPOINT = RobotEndpoint(

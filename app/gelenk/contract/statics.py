@@ -1,13 +1,22 @@
 """Statics: request, answer, operation; and what dynamics shares with them: wrenches, gravity, payload."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
 from gelenk.contract.common import Answer, ChainOptions, FrameName, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configurations, Matrix
+from gelenk.contract.kinematics import (
+    MAX_CONFIGURATIONS,
+    AboutChain,
+    Configurations,
+    Matrix,
+    RespectLimits,
+    TaskDirections,
+    Tolerance,
+)
 from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import Reference, StaticsCertificate
 
 MAX_TESTS = 100
 MAX_WRENCH = 1e6
@@ -62,7 +71,7 @@ class PayloadInfo(Payload):
 class WrenchOptions(ChainOptions):
     """Axes and point of a wrench."""
 
-    reference: Literal["local_world_aligned", "local", "world"] = Field(
+    reference: Reference = Field(
         default="local_world_aligned",
         description="`local_world_aligned`: base axes, at the tip. `local`: tip axes, at the tip. `world`: base axes, "
         "at the base origin.",
@@ -75,9 +84,7 @@ class WrenchOptions(ChainOptions):
     point_frame: FrameName | None = Field(
         default=None, description="Frame of `point`, any of the robot likewise; the tip if left out."
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class WrenchRequest(WrenchOptions):
@@ -97,10 +104,8 @@ class StaticsOptions(WrenchOptions):
     list_fields = frozenset({"task"})
     vector_fields = frozenset({"gravity"})
 
-    task: list[Direction] | None = Field(
+    task: TaskDirections | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The components of twists and wrenches that count, along the axes that they are expressed in; all "
         "six if left out. A wrench then has one number for each, and none in the others.",
         examples=[["x", "y"]],
@@ -113,16 +118,12 @@ class StaticsOptions(WrenchOptions):
         examples=[[0.0, 0.0, -9.81]],
     )
     subspaces: bool = Field(default=False, description="Whether to compute the four subspaces of the Jacobian.")
-    rank_tolerance: float = Field(
+    rank_tolerance: Tolerance = Field(
         default=1e-10,
-        gt=0,
-        lt=1,
         description="A singular value counts where it exceeds this times the largest; no unit.",
     )
-    membership_tolerance: float = Field(
+    membership_tolerance: Tolerance = Field(
         default=1e-9,
-        gt=0,
-        lt=1,
         description="A vector lies in a subspace if its remainder is at most this times its length; no unit.",
     )
 
@@ -184,19 +185,6 @@ class SubspacesInfo(Answer):
     joint_velocities: list[SplitInfo] | None = Field(default=None, description="Of `test_joint_velocities`.")
 
 
-class StaticsCertificateInfo(Answer):
-    """Differences of these torques from Pinocchio's."""
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_torque_error: float = Field(
-        description="Largest difference from Newton-Euler at rest with the wrench as an external force, [N m or N]."
-    )
-    max_virtual_work_error: float = Field(
-        description="Largest |τᵀq̇ - γᵀv| at random joint velocities q̇, the tip's twist v by Pinocchio, [W]."
-    )
-    seed: int = Field(description="Random seed of the samples and velocities.")
-
-
 class BalanceInfo(Answer):
     """What the torques determine about the wrench."""
 
@@ -211,12 +199,9 @@ class BalanceInfo(Answer):
     )
 
 
-class StaticsAnswer(Answer):
+class StaticsAnswer(AboutChain):
     """Forces at rest, one entry per configuration, in order."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
     root_frame: str = Field(description="The root link, in whose axes gravity is given.")
     gravity: list[float] | None = Field(description="In the axes of the root link, [m/s²]; null where left out.")
     task: list[Direction] = Field(description="The components of a wrench.")
@@ -238,7 +223,7 @@ class StaticsAnswer(Answer):
     )
     subspaces: list[SubspacesInfo] | None = Field(default=None, description="If requested.")
     notes: list[str] = Field(description="What the numbers leave out, such as links without mass, or assume.")
-    certificate: StaticsCertificateInfo
+    certificate: StaticsCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -5,8 +5,8 @@ from typing import Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer
-from gelenk.contract.kinematics import CertificateInfo
 from gelenk.contract.pose import Pose
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.trajectory.audit.words import Check, Law, SegmentType, StopReason
 
 LimitSource = Literal["request", "robot", "assumed"]
@@ -203,7 +203,7 @@ class AuditInfo(Answer):
         "required value, [rad or m per sᵏ]."
     )
     tip: TipPeaksInfo
-    certificate: CertificateInfo = Field(description="Of poses along the motion, recomputed through Pinocchio.")
+    certificate: PoseCertificate = Field(description="Of poses along the motion, recomputed through Pinocchio.")
     reasons: list[ReasonInfo] = Field(description="Why the motion fails the audit.")
 
 
@@ -247,6 +247,6 @@ class TrajectoryAnswer(Answer):
     limits: MotionLimitsInfo = Field(description="Of the trajectory; each segment has its own.")
     limit_sources: LimitSourcesInfo
     notes: list[str] = Field(description="What was assumed.")
-    certificate: CertificateInfo | None = Field(
+    certificate: PoseCertificate | None = Field(
         description="Of `tip_poses`, a sample of them recomputed through Pinocchio; null without them."
     )

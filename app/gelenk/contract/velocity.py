@@ -6,9 +6,20 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from gelenk.contract.common import Answer, ChainOptions, OnTheWire, Payload, Vectors
 from gelenk.contract.endpoint import RobotEndpoint
-from gelenk.contract.kinematics import MAX_CONFIGURATIONS, Configuration, Configurations, Matrix
+from gelenk.contract.kinematics import (
+    MAX_CONFIGURATIONS,
+    AboutChain,
+    CharacteristicLength,
+    Configuration,
+    Configurations,
+    Matrix,
+    RankTolerance,
+    RespectLimits,
+    TaskDirections,
+)
 from gelenk.contract.singularities import SingularityInfo
 from gelenk.ik.search.words import Direction, ObjectiveName
+from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.velocity.words import ExceededLimit, InverseName, InverseStatus
 
 MAX_MAGNITUDE = 1e6
@@ -77,17 +88,15 @@ class VelocityOptions(ChainOptions):
 
     list_fields = frozenset({"task"})
 
-    reference: Literal["local_world_aligned", "local", "world"] = Field(
+    reference: Reference = Field(
         default="local_world_aligned",
         description="Of all vectors of the tip. `local_world_aligned`: derivatives of the tip's position, and of its "
         "angular velocity, along the base's axes (the course's). `local`: the same vectors along the tip's axes. "
         "`world`: along the base's axes, the linear part that of the point of the tip's body that passes the base's "
         "origin (the spatial twist).",
     )
-    task: list[Direction] | None = Field(
+    task: TaskDirections | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="The directions that count, rows of the Jacobian in `reference`, in the order as given; all six if "
         "left out. An arm with fewer joints than directions leaves a residual.",
         examples=[["x", "y"]],
@@ -110,17 +119,9 @@ class VelocityOptions(ChainOptions):
         description="σ₀ of the adaptive damping, [m or rad] per [rad or m]: where the smallest singular value is less, "
         "damping sets in, and no gain exceeds 1/σ₀; 0.05 if left out.",
     )
-    rank_tolerance: float = Field(
-        default=1e-10,
-        gt=0,
-        lt=1,
-        description="A singular value counts where it exceeds this times the largest, and the rounding of the whole "
-        "Jacobian; no unit.",
-    )
-    characteristic_length: float | None = Field(
+    rank_tolerance: RankTolerance = 1e-10
+    characteristic_length: CharacteristicLength | None = Field(
         default=None,
-        ge=1e-6,
-        le=1e6,
         description="Length that a radian counts as, [m]: angular rows are multiplied by it before inversion. If left "
         "out, metres and radians are mixed: what the least residual is and what is near to a singularity depends on "
         "the unit of length.",
@@ -133,9 +134,7 @@ class VelocityOptions(ChainOptions):
         description="Whether each entry also has the whole report of what is lost, which joints are dependent and "
         f"which motions are internal; of at most {MAX_REPORTS} configurations. It is of the same rows.",
     )
-    respect_limits: bool = Field(
-        default=False, description="Whether a configuration beyond the joint limits is an error."
-    )
+    respect_limits: RespectLimits = False
 
 
 class VelocityRequest(VelocityOptions):
@@ -233,34 +232,14 @@ class VelocityResult(Answer):
     singularity_report: SingularityInfo | None = Field(default=None, description="If requested.")
 
 
-class MotionCertificateInfo(Answer):
-    """Differences of the tip's motion from the one computed through Pinocchio.
-
-    The snap is compared with a difference quotient of Pinocchio's jerk, which is itself accurate to about nine digits.
-    """
-
-    samples: int = Field(description="Configurations that were recomputed: all of a small batch.")
-    max_twist_error: float = Field(description="Largest difference of an entry, [m/s or rad/s].")
-    max_acceleration_error: float | None = Field(description="The same, [m/s² or rad/s²]; null where there is none.")
-    max_spatial_acceleration_error: float | None = Field(
-        description="The same, [m/s² or rad/s²]; null where there is none."
-    )
-    max_jerk_error: float | None = Field(description="The same, [m/s³ or rad/s³]; null where there is none.")
-    max_snap_error: float | None = Field(description="The same, [m/s⁴ or rad/s⁴]; null where there is none.")
-    seed: int = Field(description="Random seed of the sampling.")
-
-
 _Rows = list[list[float]]
 _Solutions = list[list[float] | None]
 
 
-class VelocityAnswer(Answer):
+class VelocityAnswer(AboutChain):
     """The requested motion, one entry per configuration, in order; what was not requested is left out."""
 
-    joint_names: list[str] = Field(description="The chain's joints in the order of a configuration.")
-    base_frame: str = Field(description="Where the chain begins.")
-    tip_frame: str = Field(description="Where the chain ends.")
-    reference: Literal["local_world_aligned", "local", "world"] = Field(description="As requested.")
+    reference: Reference = Field(description="As requested.")
     task: list[Direction] = Field(description="The directions that count, in the order of a residual.")
     rank_tolerance: float = Field(description="Relative to the largest singular value; no unit.")
     twists: _Rows | None = Field(default=None, description="Jq̇, (ṗ; ω), [m/s, rad/s].")
@@ -293,7 +272,7 @@ class VelocityAnswer(Answer):
         "rates are given or found; [m or rad] per [rad or m], and per s, s², s³.",
     )
     results: list[VelocityResult]
-    certificate: MotionCertificateInfo
+    certificate: TipMotionCertificate
 
 
 ENDPOINT = RobotEndpoint(

@@ -6,8 +6,9 @@ from pydantic import Field
 
 from gelenk.contract.common import Answer, ChainOptions, Payload
 from gelenk.contract.jobs import JobName
+from gelenk.contract.kinematics import TaskDirections
 from gelenk.contract.pose import Vector3
-from gelenk.ik.search.words import Direction
+from gelenk.kinematics.judge.words import WorkspaceCertificate
 
 _Bound = Annotated[float, Field(ge=-1e6, le=1e6)]
 JointRange = Annotated[list[_Bound], Field(min_length=2, max_length=2)]
@@ -46,10 +47,8 @@ class WorkspaceRequest(ChainOptions):
         description="Edge of a voxel, [m], at most how far the arm reaches; if left out a 40th of the longest side of "
         "the workspace, with `dexterity` a 14th. One voxel's centre is the origin of the base frame, or of the plane.",
     )
-    task: list[Direction] | None = Field(
+    task: TaskDirections | None = Field(
         default=None,
-        min_length=1,
-        max_length=6,
         description="Which rows of the Jacobian Yoshikawa's measure counts: `x y z` translation and `rx ry rz` "
         "rotation, along the base's axes. If left out the translation, in the directions in which the tip moves at "
         "all, so that a planar arm has a measure too.",
@@ -186,19 +185,6 @@ class ArrayInfo(Answer):
     columns: list[str] = Field(description="What each column is; x y z in the base frame, [m].")
 
 
-class WorkspaceCertificateInfo(Answer):
-    """Differences of the results at a sample of the configurations from Pinocchio's."""
-
-    samples: int = Field(description="Configurations that were recomputed, spread over all of them.")
-    max_position_error: float = Field(description="Largest distance, [m].")
-    max_orientation_error: float = Field(description="Largest angle, [rad].")
-    seed: int = Field(description="Random seed of the choice among the samples.")
-    max_jacobian_error: float = Field(description="Largest difference of an entry, [m or rad] per [rad or m].")
-    max_measure_error: float = Field(
-        description="Largest difference of a measure from the product of singular values of that Jacobian; as those."
-    )
-
-
 class PlaneInfo(Answer):
     """A slice of space."""
 
@@ -229,4 +215,4 @@ class WorkspaceAnswer(Answer):
     dexterity: DexterityInfo | None = Field(description="If requested.")
     array: ArrayInfo
     notes: list[str] = Field(description="Assumptions, and what is special about the chain.")
-    certificate: WorkspaceCertificateInfo
+    certificate: WorkspaceCertificate

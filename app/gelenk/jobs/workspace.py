@@ -16,7 +16,7 @@ from gelenk.jobs.runner import Work
 from gelenk.jobs.store import write_result
 from gelenk.kinematics.workspace.dexterity import Orientations, Over, excluded, orientations, shares
 from gelenk.kinematics.workspace.sampling import Sampling
-from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS, Survey, Workspace
+from gelenk.kinematics.workspace.survey import POINT_COLUMNS, VOXEL_COLUMNS, Measures, Survey, Workspace
 from gelenk.kinematics.workspace.tip_motion import TipReach
 from gelenk.kinematics.workspace.voxels import MAX_VOXELS, VoxelTable, merged
 from gelenk.kinematics.workspace.workspace import PART, Plane, SampledPart, SamplingPlan, Wish, plan, sampled
@@ -314,7 +314,6 @@ def _unpacked(pickled: bytes) -> tuple[RobotModel, Chain, _Arm]:
 def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) -> dict[str, Any]:
     """Return the summary of a result, to be written as JSON."""
     chain, work, wish = asked.chain, asked.plan, asked.wish
-    certificate = found.certificate
     return {
         "robot": asked.name,
         "joint_names": chain.joint_names,
@@ -335,8 +334,7 @@ def _summary(asked: WorkspaceWork, found: Workspace, dexterity: Array | None) ->
         "array": {"shape": [found.count if wish.kind == "cloud" else len(found.voxels), len(asked.columns)]}
         | {"columns": asked.columns},
         "notes": work.notes,
-        "certificate": asdict(certificate.poses)
-        | {"max_jacobian_error": certificate.max_jacobian_error, "max_measure_error": certificate.max_measure_error},
+        "certificate": found.certificate,
     }
 
 
@@ -362,12 +360,8 @@ def _measure(asked: WorkspaceWork, found: Workspace) -> dict[str, Any]:
     directions = np.zeros((len(work.rows), 6))
     for k, row in enumerate(work.rows.tolist()):
         directions[k, 3 * (row // 3) : 3 * (row // 3) + 3] = axes[row % 3]
-    content: dict[str, Any] = {"directions": directions.tolist()}
-    names = ("min", "mean", "max", "position", "joint_positions")
-    if measures is None:
-        return content | dict.fromkeys(names)
-    values = (measures.least, measures.mean, measures.most, measures.position, measures.joint_positions)
-    return content | dict(zip(names, values, strict=True))
+    values = dict.fromkeys(field.name for field in fields(Measures)) if measures is None else asdict(measures)
+    return {"directions": directions.tolist(), **values}
 
 
 def _dexterity_summary(asked: WorkspaceWork, found: Workspace, values: Array) -> dict[str, Any]:

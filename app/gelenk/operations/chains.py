@@ -1,8 +1,11 @@
 """Steps that many operations on a robot share: the chain, the configurations, the size of the answer."""
 
-from typing import Any, Protocol
+from collections.abc import Sequence
+from typing import Any
 
-from gelenk.errors import TooLarge
+from gelenk.errors import InvalidField, TooLarge, counted
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import DIRECTIONS, Direction
 from gelenk.operations.outcome import Limits
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -10,32 +13,12 @@ from gelenk.robot.configuration import check_limits, configurations
 from gelenk.robot.robot import RobotModel
 
 
-class AtConfigurations(Protocol):
-    """A request about a chain at configurations."""
-
-    @property
-    def base_frame(self) -> str | None:
-        """Base of the chain; that of the default chain if None."""
-        ...
-
-    @property
-    def tip_frame(self) -> str | None:
-        """Tip of the chain; that of the default chain if None."""
-        ...
-
-    @property
-    def joint_positions(self) -> Any:
-        """Configurations, in any form that `configurations` accepts."""
-        ...
-
-    @property
-    def respect_limits(self) -> bool:
-        """Whether a configuration beyond the joint limits is an error."""
-        ...
-
-
-def chain_and_positions(robot: RobotModel, call: AtConfigurations) -> tuple[Chain, Array]:
+def chain_and_positions(robot: RobotModel, call: Any) -> tuple[Chain, Array]:
     """Return the chain of a request and its configurations, shape (N, n), [rad or m].
+
+    Args:
+        robot: The robot.
+        call: A request with `base_frame`, `tip_frame`, `joint_positions` and `respect_limits`.
 
     Raises:
         UnknownFrame: The robot has no such frame.
@@ -46,7 +29,7 @@ def chain_and_positions(robot: RobotModel, call: AtConfigurations) -> tuple[Chai
     return chain, positions(chain, call)
 
 
-def positions(chain: Chain, call: AtConfigurations) -> Array:
+def positions(chain: Chain, call: Any) -> Array:
     """Return the configurations of a request, shape (N, n), [rad or m]; raises as `chain_and_positions` does."""
     qs = configurations(chain, call.joint_positions)
     if call.respect_limits:
@@ -58,6 +41,24 @@ def check_numbers(numbers: int, limits: Limits) -> None:
     """Refuse an answer with more numbers than the operator allows; raises TooLarge."""
     if numbers > limits.answer_numbers:
         raise TooLarge("numbers in the answer", numbers, limits.answer_numbers)
+
+
+def check_count(rows: int, count: int, field: str, hint: str = "") -> None:
+    """Refuse a field whose rows are not one per configuration; raises InvalidField, with a hint."""
+    if rows != count:
+        raise InvalidField(field, f"{counted(rows, 'entry')} for {counted(count, 'configuration')}{hint}")
+
+
+def task_of(directions: Sequence[Direction] | None) -> Task:
+    """Return the task of the given directions, in their order; of all six if None.
+
+    Raises:
+        InvalidField: A direction appears twice.
+    """
+    task = Task(tuple(directions or DIRECTIONS))
+    if len(set(task.directions)) < len(task):
+        raise InvalidField("task", "each direction may appear only once")
+    return task
 
 
 def head(chain: Chain) -> dict[str, Any]:

@@ -12,11 +12,10 @@ from gelenk.kinematics.dynamics.dynamics import Dynamics, dynamics
 from gelenk.kinematics.dynamics.lagrangian import State
 from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.force.statics import certify_statics, overloaded_joints, statics
-from gelenk.operations.chains import check_numbers, positions
+from gelenk.operations.chains import check_count, check_numbers, head, positions
 from gelenk.operations.loads import (
     MECHANISM,
     chain_of,
-    entries,
     gravity_of,
     has_few_bodies,
     is_quick,
@@ -84,11 +83,7 @@ WARM_UP = MECHANISM
 
 
 def _check_options(call: DynamicsRequest) -> None:
-    """Refuse combinations of fields that exclude each other.
-
-    Raises:
-        InvalidField: A field needs another that is missing, or excludes one that is given.
-    """
+    """Refuse combinations of fields that exclude each other; raises InvalidField."""
     if call.joint_accelerations is not None and call.torques is not None:
         raise InvalidField(
             "torques", "they ask for forward dynamics, `joint_accelerations` for inverse: one of the two"
@@ -105,10 +100,9 @@ def _rows(chain: Chain, values: Any, field: str, count: int) -> Array | None:
     if values is None:
         return None
     rows = configurations(chain, values, field)
-    if len(rows) != count:
-        if not count:
-            raise InvalidField("joint_positions", f"is empty, but `{field}` has entries: give one per configuration")
-        raise InvalidField(field, f"{entries(rows, count)}: one each")
+    if len(rows) and not count:
+        raise InvalidField("joint_positions", f"is empty, but `{field}` has entries: give one per configuration")
+    check_count(len(rows), count, field, ": one each")
     return rows
 
 
@@ -124,11 +118,9 @@ def _held(robot: RobotModel, chain: Chain, call: DynamicsRequest, qs: Array) -> 
 
 
 def _check_size(call: DynamicsRequest, count: int, n: int, limits: Limits) -> None:
-    matrices = len({"mass_matrix", "coriolis_matrix", "coriolis_torques"} & set(call.terms)) + (
-        call.torques is not None
-    )
-    numbers = count * (matrices * n * n + 6 * n + 2 + (12 + 6 * n) * (call.wrenches is not None))
-    check_numbers(numbers, limits)
+    matrices = len({"mass_matrix", "coriolis_matrix", "coriolis_torques"} & set(call.terms))
+    matrices += call.torques is not None
+    check_numbers(count * (matrices * n * n + 6 * n + 2 + (12 + 6 * n) * (call.wrenches is not None)), limits)
 
 
 def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
@@ -139,8 +131,7 @@ def _array(call: DynamicsRequest, found: Dynamics) -> Array | None:
         return found.accelerations
     if call.terms[0] == "energies":
         return np.column_stack((found.kinetic_energies, found.potential_energies))  # type: ignore[arg-type]
-    array: Array = getattr(found, _FIELDS[call.terms[0]])
-    return array
+    return np.asarray(getattr(found, _FIELDS[call.terms[0]]))
 
 
 def _content(
@@ -157,9 +148,7 @@ def _content(
     if not found.is_definite:
         notes.append("the mass matrix is singular: some motion of the joints meets no inertia")
     answer: dict[str, Any] = {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "root_frame": robot.description.root,
         "gravity": gravity,
     }

@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 
 from gelenk.contract.jacobian import JacobianRequest
-from gelenk.errors import InvalidField, counted
-from gelenk.kinematics.velocity.jacobian import Jacobians, jacobians, ranks, singular_values
-from gelenk.operations.chains import chain_and_positions, check_numbers, head
+from gelenk.errors import InvalidField
+from gelenk.kinematics.velocity.jacobian import condition_numbers, jacobians, ranks, singular_values
+from gelenk.operations.chains import chain_and_positions, check_count, check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome
-from gelenk.robot.arrays import Array, Indices
+from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations
 from gelenk.store.records import LoadedRobot
@@ -21,9 +21,8 @@ _QUICK = 10
 def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
     """Compute the Jacobian at each configuration, and its derivatives if requested."""
     chain, qs = chain_and_positions(loaded.robot, call)
-    n = len(chain)
-    matrices = 1 + len(call.derivatives) + n * bool(call.derivatives)
-    check_numbers(len(qs) * (12 + 6 * n * matrices), limits)
+    n, derivatives = len(chain), bool(call.derivatives)
+    check_numbers(len(qs) * (12 + 6 * n * (1 + len(call.derivatives) + n * derivatives)), limits)
     velocities = _velocities(chain, call, len(qs))
     result = jacobians(
         loaded.robot,
@@ -31,12 +30,29 @@ def run(loaded: LoadedRobot, call: JacobianRequest, limits: Limits) -> Outcome:
         qs,
         reference=call.reference,
         representation=call.representation,
-        derivatives=bool(call.derivatives),
+        derivatives=derivatives,
     )
-    return Outcome(
-        lambda: _jacobian_content(chain, call, result, velocities),
-        None if call.derivatives else lambda: (result.values, {}),
-    )
+
+    def content() -> dict[str, Any]:
+        sigmas = singular_values(result.values)
+        counts = ranks(sigmas, call.rank_tolerance)
+        answer = {
+            **head(chain),
+            "reference": call.reference,
+            "representation": call.representation,
+            "jacobians": np.ascontiguousarray(result.values),
+            "ranks": counts,
+            "singular_values": np.ascontiguousarray(sigmas),
+            "condition_numbers": condition_numbers(sigmas, counts),
+            "rank_tolerance": call.rank_tolerance,
+        }
+        if velocities is not None:
+            answer["time_variations"] = np.ascontiguousarray(result.time_variations(velocities))
+        if "hessian" in call.derivatives:
+            answer["hessians"] = np.ascontiguousarray(result.hessians)
+        return answer | {"certificate": result.certificate}
+
+    return Outcome(content, None if derivatives else lambda: (result.values, {}))
 
 
 def is_heavy(call: JacobianRequest) -> bool:
@@ -50,39 +66,5 @@ def _velocities(chain: Chain, call: JacobianRequest, count: int) -> Array | None
     if call.joint_velocities is None:
         raise InvalidField("joint_velocities", "a time variation needs them, so send the call as JSON")
     velocities = configurations(chain, call.joint_velocities, "joint_velocities")
-    if len(velocities) != count:
-        raise InvalidField(
-            "joint_velocities", f"{counted(len(velocities), 'entry')} for {counted(count, 'configuration')}"
-        )
+    check_count(len(velocities), count, "joint_velocities")
     return velocities
-
-
-def _jacobian_content(
-    chain: Chain, call: JacobianRequest, result: Jacobians, velocities: Array | None
-) -> dict[str, Any]:
-    sigmas = singular_values(result.values)
-    counts = ranks(sigmas, call.rank_tolerance)
-    answer = {
-        **head(chain),
-        "reference": call.reference,
-        "representation": call.representation,
-        "jacobians": np.ascontiguousarray(result.values),
-        "ranks": counts,
-        "singular_values": np.ascontiguousarray(sigmas),
-        "condition_numbers": _condition_numbers(sigmas, counts),
-        "rank_tolerance": call.rank_tolerance,
-    }
-    if velocities is not None:
-        answer["time_variations"] = np.ascontiguousarray(result.time_variations(velocities))
-    if "hessian" in call.derivatives:
-        answer["hessians"] = np.ascontiguousarray(result.hessians)
-    answer["certificate"] = result.certificate
-    return answer
-
-
-def _condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
-    full = sigmas.shape[1]
-    return [
-        float(sigma[0] / sigma[-1]) if full and rank == full else None
-        for sigma, rank in zip(sigmas, counts, strict=True)
-    ]

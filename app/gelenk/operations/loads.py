@@ -12,6 +12,7 @@ from gelenk.errors import InvalidField, UnknownFrame, counted, listed
 from gelenk.kinematics.dynamics.bodies import Load
 from gelenk.kinematics.dynamics.mechanism import STANDARD_GRAVITY, ChainMechanism, known_mechanism, mechanism
 from gelenk.kinematics.force.wrenches import WrenchFrame
+from gelenk.operations.chains import check_count
 from gelenk.operations.warm_up import WarmUp
 from gelenk.robot.appearance import INVENTED_MASSES
 from gelenk.robot.arrays import Array
@@ -42,17 +43,12 @@ def _is_known(loaded: LoadedRobot, call: WrenchOptions) -> bool:
     return known_mechanism(loaded.robot, chain_of(loaded.robot, call)) is not None
 
 
-def _find(loaded: LoadedRobot, call: WrenchOptions) -> None:
-    """Build the mechanism in a worker, to see that it can be built; there is no result to send."""
-    _learn(loaded, call)
-
-
-def _learn(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
+def _build(loaded: LoadedRobot, call: WrenchOptions, _: None = None) -> None:
     mechanism(loaded.robot, chain_of(loaded.robot, call))
 
 
-MECHANISM: WarmUp[Any] = WarmUp(_is_known, _find, _learn)
-"""The mechanism of a chain, which takes some milliseconds to build."""
+MECHANISM: WarmUp[Any] = WarmUp(_is_known, _build, _build)
+"""The mechanism of a chain, which takes some milliseconds to build; a worker only sees whether it can be built."""
 
 
 def is_quick(call: StaticsRequest | DynamicsRequest) -> bool:
@@ -102,8 +98,7 @@ def wrench_frame(call: WrenchRequest) -> WrenchFrame:
     Raises:
         InvalidField: Fields contradict each other.
     """
-    point = None if call.point is None else (call.point[0], call.point[1], call.point[2])
-    frame = WrenchFrame(call.reference, call.expressed_in, point, call.point_frame)
+    frame = WrenchFrame(call.reference, call.expressed_in, call.point, call.point_frame)
     frame.check()
     return frame
 
@@ -131,24 +126,11 @@ def wrench_rows(wrenches: Vectors, count: int, components: Sequence[str]) -> Arr
     return one_each(np.array(wrenches, dtype=float).reshape(len(wrenches), len(components)), count, "wrenches")
 
 
-def entries(rows: Array, count: int) -> str:
-    """Say how many rows there are for how many configurations."""
-    return (
-        f"{len(rows)} {'entry' if len(rows) == 1 else 'entries'} for {count} "
-        f"{'configuration' if count == 1 else 'configurations'}"
-    )
-
-
 def one_each(rows: Array, count: int, field: str) -> Array:
-    """Return one row per configuration, from as many rows or from one for all.
-
-    Raises:
-        InvalidField: There is another count of rows.
-    """
-    if len(rows) == count:
-        return rows
+    """Return one row per configuration, from as many rows or from one for all; raises InvalidField for others."""
     if len(rows) != 1:
-        raise InvalidField(field, f"{entries(rows, count)}: one for all of them or one each")
+        check_count(len(rows), count, field, ": one for all of them or one each")
+        return rows
     return np.repeat(rows, count, axis=0)
 
 

@@ -5,21 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from gelenk.contract.manipulability import (
-    MAX_DETAILED,
-    MAX_WITH_POLYTOPES,
-    ManipulabilityRequest,
-)
+from gelenk.contract.manipulability import MAX_DETAILED, MAX_WITH_POLYTOPES, ManipulabilityRequest
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.kinematics.ellipsoids.limited_motion import JointBounds, LimitedMotion, joint_bounds, limited_motion
 from gelenk.kinematics.ellipsoids.manipulability import (
     Ellipsoids,
     Manipulability,
+    Part,
     is_within_task,
     manipulability,
     transmission_ratios,
 )
-from gelenk.operations.chains import chain_and_positions, check_numbers
+from gelenk.operations.chains import chain_and_positions, check_numbers, head
 from gelenk.operations.outcome import Limits, Outcome, PictureFormat
 from gelenk.robot.arrays import Array, Configuration
 from gelenk.robot.chain import Chain
@@ -60,6 +57,9 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
             raise TooLarge("configurations of an answer in JSON (as npy there may be more)", len(qs), MAX_DETAILED)
         return _content(chain, call, result(), directions, bounds)
 
+    def array() -> tuple[Array, dict[str, str]]:
+        return np.concatenate([part.sigmas for part in result().parts.values()], axis=1), {}
+
     def picture(kind: PictureFormat) -> bytes:
         if len(qs) != 1:
             raise InvalidField("joint_positions", f"an image shows one configuration; these are {len(qs)}")
@@ -68,7 +68,7 @@ def run(loaded: LoadedRobot, call: ManipulabilityRequest, limits: Limits) -> Out
         return _picture(loaded, chain, qs[0], result(), call, bounds, kind)
 
     fits = not (call.gradient or call.polytopes or call.directions)
-    return Outcome(content, (lambda: (_table(result()), {})) if fits else None, picture)
+    return Outcome(content, array if fits else None, picture)
 
 
 def is_heavy(call: ManipulabilityRequest) -> bool:
@@ -121,11 +121,6 @@ def _check_size(chain: Chain, call: ManipulabilityRequest, count: int, limits: L
     check_numbers(count * parts * a_part, limits)
 
 
-def _table(result: Manipulability) -> Array:
-    """Return the velocity semi-axes of all parts side by side, shape (N, k)."""
-    return np.concatenate([part.sigmas for part in result.parts.values()], axis=1)
-
-
 def _content(
     chain: Chain,
     call: ManipulabilityRequest,
@@ -134,9 +129,7 @@ def _content(
     bounds: JointBounds | None,
 ) -> dict[str, Any]:
     answer: dict[str, Any] = {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "reference": call.reference,
         "task": call.task,
         "rank_tolerance": call.rank_tolerance,
@@ -146,7 +139,7 @@ def _content(
     if bounds is not None:
         answer["joints_without_velocity_limit"] = _unlimited(chain, bounds.velocity)
         answer["joints_without_effort_limit"] = _unlimited(chain, bounds.effort)
-    columns = {}
+    columns: dict[Part, list[dict[str, Any]]] = {}
     for part, ellipsoids in result.parts.items():
         entries = _entries(ellipsoids)
         if directions is not None and part != "combined":
@@ -157,24 +150,11 @@ def _content(
                     entries, ellipsoids, directions, limited_motion(ellipsoids, result.Js, bounds, directions)
                 )
         columns[part] = entries
-    nothing = [None] * len(result.Js)
+    parts: tuple[Part, ...] = ("translation", "rotation", "combined")
     answer["results"] = [
-        {"translation": translation, "rotation": rotation, "combined": combined}
-        for translation, rotation, combined in zip(
-            columns.get("translation", nothing),
-            columns.get("rotation", nothing),
-            columns.get("combined", nothing),
-            strict=True,
-        )
+        {part: columns[part][row] if part in columns else None for part in parts} for row in range(len(result.Js))
     ]
-    certified = result.certificate.jacobians
-    answer["certificate"] = {
-        "samples": certified.samples,
-        "max_error": certified.max_error,
-        "max_time_variation_error": certified.max_time_variation_error,
-        "seed": certified.seed,
-        "max_ellipsoid_error": result.certificate.max_ellipsoid_error,
-    }
+    answer["certificate"] = result.certificate
     return answer
 
 
@@ -206,7 +186,7 @@ def _entries(ellipsoids: Ellipsoids) -> list[dict[str, Any]]:
     columns = zip(
         axes, ellipsoids.sigmas.tolist(), ellipsoids.measures.tolist(), ellipsoids.volumes.tolist(), strict=True
     )
-    entries = []
+    entries: list[dict[str, Any]] = []
     for vectors, sigmas, measure, volume in columns:
         rank = sum(sigma > 0.0 for sigma in sigmas)
         inverses = [_number(1.0 / sigma) if sigma > 0.0 else None for sigma in sigmas]
@@ -226,9 +206,9 @@ def _entries(ellipsoids: Ellipsoids) -> list[dict[str, Any]]:
                 "isotropy": sigmas[-1] / sigmas[0] if rank else None,
             }
         )
-    if ellipsoids.gradients is not None:
-        for entry, gradient in zip(entries, ellipsoids.gradients, strict=True):
-            entry["gradient"] = gradient.tolist() if np.isfinite(gradient).all() else None
+        if ellipsoids.gradients is not None:
+            gradient = ellipsoids.gradients[len(entries) - 1]
+            entries[-1]["gradient"] = gradient.tolist() if np.isfinite(gradient).all() else None
     return entries
 
 

@@ -1,30 +1,22 @@
 """Singularities of a robot: at configurations and along a path."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from gelenk.contract.singularities import (
-    MAX_NEAREST,
-    MAX_PATH,
-    MAX_PLACES,
-    MAX_REPORTS,
-    SingularityRequest,
-)
-from gelenk.errors import InvalidField, TooLarge, counted
+from gelenk.contract.singularities import MAX_NEAREST, MAX_PATH, MAX_PLACES, MAX_REPORTS, SingularityRequest
+from gelenk.errors import TooLarge, counted
 from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import DIRECTIONS
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_jacobians
+from gelenk.kinematics.judge.words import JacobianCertificate, SingularityCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians
 from gelenk.kinematics.singularity.distance import NearestSingularity, Search, can_lose, nearest_singularity
-from gelenk.kinematics.singularity.judge import certify_reports
 from gelenk.kinematics.singularity.path import PathMinimum, places_along
-from gelenk.kinematics.singularity.report import SingularityReport, singularity_report
+from gelenk.kinematics.singularity.report import SingularityReport, certify_reports, singularity_report
 from gelenk.kinematics.velocity.jacobian import singular_values
 from gelenk.kinematics.velocity.task_space import TaskSpace, slides, structure
-from gelenk.operations.chains import chain_and_positions, check_numbers
+from gelenk.operations.chains import chain_and_positions, check_numbers, head, task_of
 from gelenk.operations.outcome import Limits, Outcome
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -40,12 +32,12 @@ _ENTRY = 120
 def run(loaded: LoadedRobot, call: SingularityRequest, limits: Limits) -> Outcome:
     """Report the singularities at configurations, the nearest ones, and those along a path."""
     chain, qs = chain_and_positions(loaded.robot, call)
-    space = _space(call)
+    space = TaskSpace(task_of(call.task), call.characteristic_length, call.reference)
     _check_size(call, len(qs), len(chain), limits)
     certificate = _certificate(loaded.robot, chain, qs)
     fits = not (call.nearest or call.path)
     return Outcome(
-        lambda: _content(loaded.robot, chain, call, qs, certificate),
+        lambda: _content(loaded.robot, chain, call, qs, space, certificate),
         (lambda: (singular_values(space.jacobians(chain, qs)), {})) if fits else None,
     )
 
@@ -90,13 +82,6 @@ def _names(chain: Chain, joints: tuple[int, ...]) -> list[str]:
     return [chain.joint_names[j] for j in joints]
 
 
-def _space(call: SingularityRequest) -> TaskSpace:
-    directions = DIRECTIONS if call.task is None else tuple(call.task)
-    if len(set(directions)) < len(directions):
-        raise InvalidField("task", "each direction may appear only once")
-    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
-
-
 def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limits) -> None:
     if count > MAX_REPORTS:
         raise TooLarge("configurations with singularity reports", count, MAX_REPORTS)
@@ -105,8 +90,7 @@ def _check_size(call: SingularityRequest, count: int, joints: int, limits: Limit
     most = max(1, MAX_NEAREST * 49 // max(joints, 7) ** 2)
     if call.nearest and count > most:
         raise TooLarge(f"configurations of {counted(joints, 'joint')} whose nearest singularity is wanted", count, most)
-    numbers = count * (_ENTRY + joints * (joints + 4)) * (1 + call.path)
-    check_numbers(numbers, limits)
+    check_numbers(count * (_ENTRY + joints * (joints + 4)) * (1 + call.path), limits)
 
 
 def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertificate:
@@ -114,16 +98,19 @@ def _certificate(robot: RobotModel, chain: Chain, qs: Array) -> JacobianCertific
 
 
 def _content(
-    robot: RobotModel, chain: Chain, call: SingularityRequest, qs: Array, certificate: JacobianCertificate
+    robot: RobotModel,
+    chain: Chain,
+    call: SingularityRequest,
+    qs: Array,
+    space: TaskSpace,
+    certificate: JacobianCertificate,
 ) -> dict[str, Any]:
-    space = _space(call)
     reports = [singularity_report(chain, q, call.rank_tolerance, space) for q in qs]
     products = [certify_reports(robot, chain, space, qs, reports)]
+    certified = [certificate]
     entries = [singularity_info(chain, report) for report in reports]
     answer: dict[str, Any] = {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "reference": space.reference,
         "task": space.task.directions,
         "rank_tolerance": call.rank_tolerance,
@@ -134,30 +121,28 @@ def _content(
     if call.nearest:
         search = Search(call.search_radius, call.rank_tolerance, call.respect_limits)
         found = [nearest_singularity(chain, q, space, search) for q in qs]
-        certificate = _with_more(robot, chain, certificate, [nearest.q for nearest in found if nearest is not None])
+        certified += _recomputed(robot, chain, [nearest.q for nearest in found if nearest is not None])
         for entry, q, nearest in zip(entries, qs, found, strict=True):
             entry.update(_nearest(chain, space, search, q, nearest))
     if call.path:
         places = places_along(chain, qs, space, call.rank_tolerance, call.path_threshold)
-        told = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
-        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in told]
-        certificate = _with_more(robot, chain, certificate, [place.q for place in told[:MAX_SAMPLES]])
-        products += [
-            certify_reports(robot, chain, space, place.q[None], [report])
-            for place, report in zip(told[:MAX_SAMPLES], reports, strict=False)
-        ]
+        shown = sorted(sorted(places, key=lambda place: place.share)[:MAX_PLACES], key=lambda place: place.start)
+        reports = [singularity_report(chain, place.q, call.rank_tolerance, space) for place in shown]
+        sample = [place.q for place in shown[:MAX_SAMPLES]]
+        certified += _recomputed(robot, chain, sample)
+        products.append(certify_reports(robot, chain, space, np.array(sample), reports))
         answer["path"] = {
-            "places": list(_places(chain, len(qs), told, reports)),
-            "omitted": len(places) - len(told),
+            "places": list(_places(chain, len(qs), shown, reports)),
+            "omitted": len(places) - len(shown),
         }
-    answer["certificate"] = {
-        "samples": certificate.samples,
-        "max_error": certificate.max_error,
-        "max_time_variation_error": certificate.max_time_variation_error,
-        "seed": certificate.seed,
-        "max_internal_motion": max(product.max_internal_motion for product in products),
-        "max_lost_direction": max(product.max_lost_direction for product in products),
-    }
+    answer["certificate"] = SingularityCertificate(
+        sum(part.samples for part in certified),
+        max(part.max_error for part in certified),
+        None,
+        certificate.seed,
+        max(product["max_internal_motion"] for product in products),
+        max(product["max_lost_direction"] for product in products),
+    )
     return answer
 
 
@@ -166,18 +151,10 @@ def _units_are_mixed(chain: Chain, space: TaskSpace) -> bool:
     return rows or len(set(slides(chain).tolist())) > 1
 
 
-def _with_more(
-    robot: RobotModel, chain: Chain, certificate: JacobianCertificate, rows: list[Array]
-) -> JacobianCertificate:
-    """Add further configurations, whose Jacobians are recomputed, to the certificate."""
+def _recomputed(robot: RobotModel, chain: Chain, rows: list[Array]) -> Iterator[JacobianCertificate]:
+    """Yield certificates of further configurations, so few each that all are recomputed."""
     for first in range(0, len(rows), MAX_SAMPLES):
-        part = _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
-        certificate = replace(
-            certificate,
-            samples=certificate.samples + part.samples,
-            max_error=max(certificate.max_error, part.max_error),
-        )
-    return certificate
+        yield _certificate(robot, chain, np.array(rows[first : first + MAX_SAMPLES]))
 
 
 def _nearest(

@@ -1,6 +1,5 @@
 """Statics of a robot."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,20 +8,21 @@ import numpy as np
 from gelenk.contract.common import Vectors
 from gelenk.contract.statics import StaticsRequest
 from gelenk.errors import InvalidField, TooLarge, counted
-from gelenk.ik.search.words import DIRECTIONS, Direction
+from gelenk.ik.search.task import Task
+from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.dynamics.mechanism import mechanism
 from gelenk.kinematics.force.statics import (
     NearestWrench,
     Statics,
-    StaticsCertificate,
     balance,
     certify_statics,
     components,
     overloaded_joints,
     statics,
 )
+from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces
-from gelenk.operations.chains import check_numbers, positions
+from gelenk.operations.chains import check_numbers, head, positions, task_of
 from gelenk.operations.loads import (
     MECHANISM,
     chain_of,
@@ -53,14 +53,15 @@ def run(loaded: LoadedRobot, call: StaticsRequest, limits: Limits) -> Outcome:
     robot = loaded.robot
     chain = chain_of(robot, call)
     load, gravity = load_of(call.payload), gravity_of(call.gravity)
-    _check_options(call, chain, weighs=gravity is not None)
+    task = task_of(call.task)
+    _check_options(call, task, chain, weighs=gravity is not None)
     qs = positions(chain, call)
-    _check_size(call, len(qs), len(chain), limits)
-    wrenches = None if call.wrenches is None else wrench_rows(call.wrenches, len(qs), _task(call))
+    _check_size(call, len(qs), len(task), len(chain), limits)
+    wrenches = None if call.wrenches is None else wrench_rows(call.wrenches, len(qs), task.directions)
     torques = None
     if call.torques is not None:
         torques = one_each(configurations(chain, call.torques, "torques"), len(qs), "torques")
-    rows = np.array([DIRECTIONS.index(direction) for direction in _task(call)])
+    rows = np.array([DIRECTIONS.index(direction) for direction in task.directions])
     still = statics(robot, chain, qs, wrench_frame(call), rows=rows, gravity=gravity, load=load)
     found = _solved(still, call, wrenches, torques)
     array = found.torques if found.balance is None else found.balance.wrenches
@@ -82,18 +83,13 @@ WARM_UP = MECHANISM
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Results:
-    """Results of a call: `wrenches` is None if there are none, `balance` and `splits` if not requested."""
+    """Results of a call: `wrenches` is None if there are none, `balance` if not requested."""
 
     still: Statics
     wrenches: Array | None
     torques: Array
     balance: NearestWrench | None
-    splits: list[Subspaces] | None
     certificate: StaticsCertificate
-
-
-def _task(call: StaticsRequest) -> Sequence[Direction]:
-    return call.task or DIRECTIONS
 
 
 def _tests(call: StaticsRequest) -> dict[str, Vectors]:
@@ -111,14 +107,8 @@ def _wants_subspaces(call: StaticsRequest) -> bool:
     return call.subspaces or bool(_tests(call))
 
 
-def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
-    """Refuse combinations of fields that exclude each other.
-
-    Raises:
-        InvalidField: A field needs another that is missing, or excludes one that is given.
-    """
-    if len(set(_task(call))) < len(_task(call)):
-        raise InvalidField("task", "each direction may appear only once")
+def _check_options(call: StaticsRequest, task: Task, chain: Chain, *, weighs: bool) -> None:
+    """Refuse combinations of fields that exclude each other; raises InvalidField."""
     if call.wrenches is not None and call.torques is not None:
         raise InvalidField("torques", "they are given instead of `wrenches`, not beside them")
     if call.payload is not None and not weighs:
@@ -131,14 +121,13 @@ def _check_options(call: StaticsRequest, chain: Chain, *, weighs: bool) -> None:
         if field is not None:
             raise InvalidField(field, "only allowed with `wrenches`, `torques` or `subspaces`")
     for name, vectors in _tests(call).items():
-        size = len(_task(call)) if name in _OF_THE_TIP else len(chain)
+        size = len(task) if name in _OF_THE_TIP else len(chain)
         for i, vector in enumerate(vectors):
             if len(vector) != size:
                 raise InvalidField(f"test_{name}", f"entry {i} has {counted(len(vector), 'number')}, not {size}")
 
 
-def _check_size(call: StaticsRequest, count: int, n: int, limits: Limits) -> None:
-    m = len(_task(call))
+def _check_size(call: StaticsRequest, count: int, m: int, n: int, limits: Limits) -> None:
     splits = _wants_subspaces(call) or call.torques is not None
     numbers = count * (12 + 10 * n + m)
     if splits:
@@ -150,30 +139,28 @@ def _check_size(call: StaticsRequest, count: int, n: int, limits: Limits) -> Non
 
 
 def _solved(still: Statics, call: StaticsRequest, wrenches: Array | None, torques: Array | None) -> _Results:
-    found = splits = None
-    if torques is not None:
-        found = balance(still, torques, call.rank_tolerance)
-        wrenches, held = found.wrenches, torques - found.residuals
-        splits = found.splits
-    else:
-        given = np.zeros((len(still.qs), len(still.rows))) if wrenches is None else wrenches
-        torques = held = still.wrench_torques(given) + still.gravity_torques
-        splits = still.subspaces(call.rank_tolerance) if _wants_subspaces(call) else None
+    found = None
     acting = np.zeros((len(still.qs), len(still.rows))) if wrenches is None else wrenches
-    certificate = certify_statics(still, acting, held)
-    return _Results(still, wrenches, torques, found, splits if _wants_subspaces(call) else None, certificate)
+    if torques is None:
+        torques = held = still.wrench_torques(acting) + still.gravity_torques
+    else:
+        found = balance(still, torques, call.rank_tolerance)
+        wrenches = acting = found.wrenches
+        held = torques - found.residuals
+    return _Results(still, wrenches, torques, found, certify_statics(still, acting, held))
 
 
 def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict[str, Any]:
-    still, splits = found.still, found.splits
+    still = found.still
     robot, chain, weighs = still.robot, still.chain, still.gravity is not None
+    splits = []
+    if _wants_subspaces(call):
+        splits = still.subspaces(call.rank_tolerance) if found.balance is None else found.balance.splits
     return {
-        "joint_names": chain.joint_names,
-        "base_frame": chain.base_frame,
-        "tip_frame": chain.tip_frame,
+        **head(chain),
         "root_frame": robot.description.root,
         "gravity": still.gravity,
-        "task": _task(call),
+        "task": task_of(call.task).directions,
         "rank_tolerance": call.rank_tolerance,
         "membership_tolerance": call.membership_tolerance,
         "wrenches": found.wrenches,
@@ -181,7 +168,7 @@ def _content(loaded: LoadedRobot, call: StaticsRequest, found: _Results) -> dict
         "gravity_torques": still.gravity_torques if weighs else None,
         "balance": None if found.balance is None else _balance_content(call, found, found.balance),
         "overloaded_joints": overloaded_joints(robot, chain, found.torques),
-        "subspaces": None if splits is None else [_subspaces_content(call, split) for split in splits],
+        "subspaces": [_subspaces_content(call, split) for split in splits] if _wants_subspaces(call) else None,
         "notes": weight_notes(loaded, mechanism(robot, chain), still.load) if weighs else [],
         "certificate": found.certificate,
     }
@@ -199,12 +186,8 @@ def _balance_content(call: StaticsRequest, found: _Results, of_torques: NearestW
 
 
 def _subspaces_content(call: StaticsRequest, split: Subspaces) -> dict[str, Any]:
-    bases = {
-        "range": split.range,
-        "left_kernel": split.left_kernel,
-        "row_space": split.row_space,
-        "kernel": split.kernel,
-    }
+    names = ("range", "left_kernel", "row_space", "kernel")
+    bases: dict[str, Array] = {name: getattr(split, name) for name in names}
     entry: dict[str, Any] = {
         "rank": split.rank,
         "singular_values": split.sigmas.tolist(),
@@ -212,14 +195,15 @@ def _subspaces_content(call: StaticsRequest, split: Subspaces) -> dict[str, Any]
         **{name: basis.T.tolist() for name, basis in bases.items()},
     }
     for field, vectors in _tests(call).items():
-        first, second = ("range", "left_kernel") if field in _OF_THE_TIP else ("row_space", "kernel")
+        pair = names[:2] if field in _OF_THE_TIP else names[2:]
+        inside, outside = (bases[name] for name in pair)
         entry[field] = []
         for vector in vectors:
-            *parts, lies_in = components(bases[first], bases[second], np.array(vector), call.membership_tolerance)
+            *parts, lies_in = components(inside, outside, np.array(vector), call.membership_tolerance)
             entry[field].append(
                 {
-                    "components": {first: parts[0].tolist(), second: parts[1].tolist()},
-                    "member_of": [name for name, member in zip((first, second), lies_in, strict=True) if member],
+                    "components": {name: part.tolist() for name, part in zip(pair, parts, strict=True)},
+                    "member_of": [name for name, member in zip(pair, lies_in, strict=True) if member],
                 }
             )
     return entry

@@ -1,18 +1,17 @@
 """Checks a request of velocity kinematics: one question, its numbers, and how to invert."""
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 
-from gelenk.contract.velocity import NullSpace, VelocityRequest
+from gelenk.contract.velocity import VelocityRequest
 from gelenk.errors import InvalidArray, InvalidField, counted, quoted
 from gelenk.ik.search.null_space import Objective
-from gelenk.ik.search.task import Task
-from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.velocity.inverse_velocity import descent
 from gelenk.kinematics.velocity.linear_inverse import InverseRule
 from gelenk.kinematics.velocity.task_space import TaskSpace
+from gelenk.operations.chains import check_count
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.configuration import configurations, one_configuration
@@ -44,7 +43,9 @@ def positions_and_rates(chain: Chain, call: VelocityRequest) -> tuple[Array, Arr
             raise InvalidField(field, f"they need `{RATES[RATES.index(field) - 1]}`, which are missing")
     rates = np.empty((count, *qs.shape))
     for k, (field, values) in enumerate(zip(RATES[:count], given, strict=False)):
-        rates[k] = _one_each(chain, values, field, len(qs))
+        rows = configurations(chain, values, field)
+        check_count(len(rows), len(qs), field)
+        rates[k] = rows
     return qs, rates
 
 
@@ -57,13 +58,6 @@ def _split(chain: Chain, array: Array) -> tuple[Array, Array]:
     fields = ("joint_positions", *RATES)
     parts = [configurations(chain, np.ascontiguousarray(array[:, k]), fields[k]) for k in range(array.shape[1])]
     return parts[0], np.array(parts[1:])
-
-
-def _one_each(chain: Chain, values: Any, field: str, count: int) -> Array:
-    rows = configurations(chain, values, field)
-    if len(rows) != count:
-        raise InvalidField(field, f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}")
-    return rows
 
 
 def asked_field(call: VelocityRequest, rates: int) -> str | None:
@@ -89,18 +83,6 @@ def asked_field(call: VelocityRequest, rates: int) -> str | None:
     if rates > needed:
         raise InvalidField(RATES[needed], f"`{asked}` are given too, from which they follow: one of the two")
     return asked
-
-
-def space_of_call(call: VelocityRequest) -> TaskSpace:
-    """Return the task space of the given directions, in their order, in the reference.
-
-    Raises:
-        InvalidField: A direction is named twice.
-    """
-    directions = DIRECTIONS if call.task is None else tuple(call.task)
-    if len(set(directions)) < len(directions):
-        raise InvalidField("task", "each direction may appear only once")
-    return TaskSpace(Task(directions), call.characteristic_length, call.reference)
 
 
 def rule_of_call(chain: Chain, call: VelocityRequest, asked: str, directions: int) -> InverseRule:
@@ -154,8 +136,7 @@ def _weights(chain: Chain, call: VelocityRequest) -> Array | None:
 def targets_of_call(call: VelocityRequest, asked: str, space: TaskSpace, count: int) -> Array:
     """Return the rates to invert, in the directions of the task; shape (N, k)."""
     given: Sequence[Sequence[float]] = getattr(call, asked)
-    if len(given) != count:
-        raise InvalidField(asked, f"{counted(len(given), 'entry')} for {counted(count, 'configuration')}")
+    check_count(len(given), count, asked)
     targets = np.empty((count, len(space)))
     for i, entry in enumerate(given):
         if len(entry) not in {6, len(space)}:
@@ -176,23 +157,14 @@ def null_motion_of_call(chain: Chain, call: VelocityRequest, qs: Array, asked: s
     if wanted is None:
         return None
     if wanted.objective is not None:
-        posture = None
-        if wanted.posture is not None:
-            posture = one_configuration(chain, wanted.posture, "null_space/posture")
-        objective = Objective(wanted.objective, posture)
-        return descent(chain, qs, objective, wanted.gain, space)
-    return _given_null_motion(chain, wanted, asked, len(qs))
-
-
-def _given_null_motion(chain: Chain, wanted: NullSpace, asked: str, count: int) -> Array:
+        given = wanted.posture
+        posture = None if given is None else one_configuration(chain, given, "null_space/posture")
+        return descent(chain, qs, Objective(wanted.objective, posture), wanted.gain, space)
     field = "joint_velocities" if asked == "twists" else "joint_accelerations"
     values = getattr(wanted, field)
     if values is None or asked == "tip_jerks":
         raise InvalidField("null_space", f"its result cannot be combined with `{asked}`")
     rows = configurations(chain, values, f"null_space/{field}")
-    if len(rows) not in {1, count}:
-        raise InvalidField(
-            f"null_space/{field}",
-            f"{counted(len(rows), 'entry')} for {counted(count, 'configuration')}: one for all or each",
-        )
-    return np.broadcast_to(rows, (count, len(chain)))
+    if len(rows) != 1:
+        check_count(len(rows), len(qs), f"null_space/{field}", ": one for all or each")
+    return np.broadcast_to(rows, qs.shape)

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from gelenk.kinematics.judge.judge import PoseCertificate
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.audit import Audit, Margin, Peak, Reason, Singularity, meetings
 from gelenk.trajectory.audit.demands import PathError

@@ -186,13 +186,11 @@ class Motions:
 
     def gravity_torques(self, gravity: Array) -> Array:
         """Return g, the torques that balance a gravity (3,) [m/s²] in the root's axes; shape (N, n), [N m or N]."""
-        torques: Array = -np.einsum("kbcj,c->kj", self._momenta(), gravity)
-        return torques
+        return np.asarray(-np.einsum("kbcj,c->kj", self._momenta(), gravity))
 
     def potential_energies(self, gravity: Array) -> Array:
         """Return U, zero where the centre of mass is level with the root; shape (N,), [J]."""
-        energies: Array = -(self.masses @ self.centers) @ gravity
-        return energies
+        return np.asarray(-(self.masses @ self.centers) @ gravity)
 
     def mass_scale(self) -> float:
         """Return the largest term in the sums for M, about the root's origin too: rounding errors scale with it."""
@@ -209,12 +207,10 @@ class Motions:
     def _speeds(self) -> Array:
         """Largest entries of J_v at the centre of mass, plus those due to its lever about the root; shape (N, B)."""
         turning = np.abs(self.angular).max(axis=(2, 3), initial=0.0) * np.abs(self.centers).max(axis=2)
-        speeds: Array = np.abs(self.linear).max(axis=(2, 3), initial=0.0) + turning
-        return speeds
+        return np.asarray(np.abs(self.linear).max(axis=(2, 3), initial=0.0) + turning)
 
     def _momenta(self) -> Array:
-        momenta: Array = self.masses[:, None, None] * self.linear
-        return momenta
+        return np.asarray(self.masses[:, None, None] * self.linear)
 
 
 def motions(carried: Sequence[Body], qs: Array, speeds: Array | None = None) -> Motions:
@@ -259,12 +255,10 @@ def _placed(body: Body, part: Array) -> tuple[Array, Array, Array]:
 
 def _skew(vectors: Array) -> Array:
     """[r]×, so that [r]× a = r × a; shape (…, 3) → (…, 3, 3)."""
-    matrices: Array = (vectors @ _SKEW).reshape(*vectors.shape, 3)
-    return matrices
+    return np.asarray((vectors @ _SKEW).reshape(*vectors.shape, 3))
 
 
 def _summed(left: Array, right: Array) -> Array:
     """Σ_b leftᵀ right over the bodies; shapes (N, B, 3, n) → (N, n, n)."""
     count, number, _, n = left.shape
-    total: Array = left.reshape(count, 3 * number, n).swapaxes(1, 2) @ right.reshape(count, 3 * number, n)
-    return total
+    return np.asarray(left.reshape(count, 3 * number, n).swapaxes(1, 2) @ right.reshape(count, 3 * number, n))

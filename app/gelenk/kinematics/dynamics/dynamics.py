@@ -5,22 +5,22 @@ only the checked description with it, and inverse dynamics must give back the to
 """
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from dataclasses import dataclass, fields
+from typing import get_args
 
 import numpy as np
 
 from gelenk.errors import InvalidField, listed
 from gelenk.kinematics.dynamics.bodies import Load, motions
-from gelenk.kinematics.dynamics.lagrangian import SINGULAR, DynamicsCertificate, Lagrangian, State, scaled, unit_scales
+from gelenk.kinematics.dynamics.lagrangian import SINGULAR, Lagrangian, State, scaled, unit_scales
 from gelenk.kinematics.dynamics.mechanism import ChainMechanism, PinocchioDynamics, mechanism
-from gelenk.kinematics.judge.judge import agreed, sampled_rows
+from gelenk.kinematics.judge.judge import Differences, sampled_rows
+from gelenk.kinematics.judge.words import DynamicsCertificate, Term
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 
-Term: TypeAlias = Literal["mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies"]
-TERMS: tuple[Term, ...] = ("mass_matrix", "coriolis_matrix", "coriolis_torques", "gravity_torques", "energies")
+TERMS: tuple[Term, ...] = get_args(Term)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,6 +28,8 @@ class Dynamics:
     """The requested terms at N configurations; the others are None.
 
     Attributes:
+        is_definite: Whether M is positive definite at all recomputed configurations.
+        certificate: Differences from the second computation.
         mass_matrices: M; shape (N, n, n).
         coriolis_matrices: C, with Ṁ - 2C skew; shape (N, n, n).
         coriolis_torques: C q̇; shape (N, n), [N m or N].
@@ -36,20 +38,18 @@ class Dynamics:
         potential_energies: U, zero where the moving bodies' centre of mass is level with the root; shape (N,), [J].
         torques: τ by inverse dynamics; shape (N, n), [N m or N].
         accelerations: q̈ by forward dynamics; shape (N, n), [rad/s² or m/s²].
-        is_definite: Whether M is positive definite at all recomputed configurations.
-        certificate: Differences from the second computation.
     """
 
-    mass_matrices: Array | None
-    coriolis_matrices: Array | None
-    coriolis_torques: Array | None
-    gravity_torques: Array | None
-    kinetic_energies: Array | None
-    potential_energies: Array | None
-    torques: Array | None
-    accelerations: Array | None
     is_definite: bool
     certificate: DynamicsCertificate
+    mass_matrices: Array | None = None
+    coriolis_matrices: Array | None = None
+    coriolis_torques: Array | None = None
+    gravity_torques: Array | None = None
+    kinetic_energies: Array | None = None
+    potential_energies: Array | None = None
+    torques: Array | None = None
+    accelerations: Array | None = None
 
 
 def dynamics(
@@ -80,34 +80,27 @@ def dynamics(
         CertificationFailed: The two computations differ by more than rounding.
     """
     found = mechanism(robot, chain)
-    by = PinocchioDynamics(found, gravity, load)
-    ours = _Computation(found, state, by)
-    wanted = ours.terms(terms)
+    ours = _Computation(found, state, PinocchioDynamics(found, gravity, load))
+    results = ours.terms(terms)
     if accelerations is not None:
-        wanted["torques"] = ours.inverse(accelerations) + state.held
+        results["torques"] = ours.inverse(accelerations) + state.held
+        given = {"accelerations": accelerations}
     elif torques is not None:
-        wanted["accelerations"] = ours.forward(torques - state.held)
-    certificate, is_definite = _certify(ours, gravity, load, wanted, accelerations, torques)
-    return Dynamics(**{name: wanted.get(name) for name in _ARRAYS}, is_definite=is_definite, certificate=certificate)
+        results["accelerations"] = ours.forward(torques - state.held)
+        given = {"torques": torques}
+    else:
+        given = {}
+    certificate, is_definite = _certify(ours, gravity, load, results, given)
+    return Dynamics(is_definite, certificate, **results)
 
 
-_ARRAYS = (
-    "mass_matrices",
-    "coriolis_matrices",
-    "coriolis_torques",
-    "gravity_torques",
-    "kinetic_energies",
-    "potential_energies",
-    "torques",
-    "accelerations",
-)
-
-
+@dataclass(frozen=True, slots=True, eq=False)
 class _Computation:
     """Pinocchio's dynamics for a batch of states."""
 
-    def __init__(self, found: ChainMechanism, state: State, by: PinocchioDynamics) -> None:
-        self.found, self.state, self.by = found, state, by
+    found: ChainMechanism
+    state: State
+    by: PinocchioDynamics
 
     def terms(self, terms: Collection[Term]) -> dict[str, Array]:
         """Compute the requested terms, by their field names in `Dynamics`."""
@@ -143,10 +136,8 @@ class _Computation:
         # A mimic joint carries a constraint torque, which the articulated body algorithm ignores.
         bias = self.inverse(np.zeros_like(torques))
         scales = unit_scales(Ms)
-        accelerations: Array = (
-            np.linalg.solve(scaled(Ms, scales), ((torques - bias) / scales)[..., None])[..., 0] / scales
-        )
-        return accelerations
+        rates = np.linalg.solve(scaled(Ms, scales), ((torques - bias) / scales)[..., None])[..., 0]
+        return np.asarray(rates / scales)
 
     def _each(self, shape: tuple[int, ...], term: Callable[..., Array | tuple[float, float]], *rows: Array) -> Array:
         """Evaluate a term at each configuration; zeros for a chain without joints."""
@@ -157,11 +148,7 @@ class _Computation:
         return values
 
     def _refuse_singular(self, Ms: Array) -> None:
-        """Refuse forward dynamics if some motion needs no torque.
-
-        Raises:
-            InvalidField: A mass matrix is singular; names the joints involved, and the links without mass.
-        """
+        """Refuse forward dynamics if some motion needs no torque; names its joints, and the links without mass."""
         values, vectors = np.linalg.eigh(scaled(Ms, unit_scales(Ms)))
         if not values.size:
             return
@@ -184,36 +171,26 @@ def _certify(
     made: _Computation,
     gravity: Array,
     load: Load | None,
-    wanted: dict[str, Array],
-    accelerations: Array | None,
-    torques: Array | None,
+    results: dict[str, Array],
+    given: dict[str, Array],
     seed: int = 0,
 ) -> tuple[DynamicsCertificate, bool]:
     """Compare with the sums over the bodies; also return whether M is positive definite."""
     found, state = made.found, made.state
     rows = sampled_rows(len(state.qs) if len(found.chain) else 0, seed)
-    if not rows:
-        return DynamicsCertificate(0, *(None,) * 7, seed), True
-    ours = {name: values[rows] for name, values in wanted.items()}
-    part = State(state.qs[rows], state.speeds[rows], state.held[rows])
-    judge = Lagrangian(motions(found.carried(load), part.qs, part.speeds), part, gravity)
-    given_a = ours.get("accelerations") if accelerations is None else accelerations[rows]
-    given_t = ours.get("torques") if torques is None else torques[rows]
-    torque_error = round_trip = None
-    if given_a is not None and given_t is not None:
-        torque_error = judge.torque_error(given_a, given_t)
-        if "accelerations" in ours:
-            again = _Computation(found, part, made.by).inverse(given_a) + part.held
-            round_trip = agreed("the torque of inverse after forward dynamics", again - given_t, judge.scale(given_a))
-    certificate = DynamicsCertificate(
-        len(rows),
-        judge.mass_error(ours.get("mass_matrices")),
-        judge.coriolis_error(ours.get("coriolis_torques")),
-        judge.skew_error(ours.get("coriolis_matrices")),
-        judge.gravity_error(ours.get("gravity_torques")),
-        judge.energy_error(ours.get("kinetic_energies"), ours.get("potential_energies")),
-        torque_error,
-        round_trip,
-        seed,
-    )
-    return certificate, judge.is_definite()
+    worst, is_definite = Differences(), True
+    if rows:
+        part = State(state.qs[rows], state.speeds[rows], state.held[rows])
+        judge = Lagrangian(motions(found.carried(load), part.qs, part.speeds), part, gravity)
+        both = {name: values[rows] for name, values in (results | given).items()}
+        worst, is_definite = judge.errors(both), judge.is_definite()
+        if given:
+            a, torques = both["accelerations"], both["torques"]
+            worst["max_torque_error"] = judge.torque_error(a, torques)
+            if "accelerations" in results:
+                error = _Computation(found, part, made.by).inverse(a) + part.held - torques
+                quantity = "the torque of inverse after forward dynamics"
+                worst.add("max_round_trip_error", quantity, error, judge.scale(a))
+    names = [field.name for field in fields(DynamicsCertificate)]
+    errors = {name: worst.get(name) for name in names if name.startswith("max_")}
+    return DynamicsCertificate(samples=len(rows), seed=seed, **errors), is_definite

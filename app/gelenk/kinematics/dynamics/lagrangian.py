@@ -1,11 +1,12 @@
 """The equations of motion as the Lagrangian's sums over the bodies, which check the results of `dynamics`."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from gelenk.kinematics.dynamics.bodies import Motions
-from gelenk.kinematics.judge.judge import agreed
+from gelenk.kinematics.judge.judge import Differences, agreed, largest
 from gelenk.robot.arrays import Array
 
 SINGULAR = 1e-12
@@ -30,53 +31,21 @@ class State:
     held: Array
 
 
-@dataclass(frozen=True, slots=True)
-class DynamicsCertificate:
-    """Largest differences between Pinocchio's dynamics and sums over the bodies; None where not requested.
-
-    Attributes:
-        samples: Number of configurations recomputed.
-        max_mass_error: Error in an entry of M.
-        max_coriolis_error: Error in C q̇, [N m or N].
-        max_skew_error: Error in an entry of C + Cᵀ - Ṁ, which is zero if Ṁ - 2C is skew.
-        max_gravity_error: Error in g, [N m or N].
-        max_energy_error: Error in T or U, [J].
-        max_torque_error: Residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N].
-        max_round_trip_error: Error in the torques of inverse after forward dynamics, [N m or N].
-        seed: Seed of the sample selection.
-    """
-
-    samples: int
-    max_mass_error: float | None
-    max_coriolis_error: float | None
-    max_skew_error: float | None
-    max_gravity_error: float | None
-    max_energy_error: float | None
-    max_torque_error: float | None
-    max_round_trip_error: float | None
-    seed: int
-
-
 def unit_scales(Ms: Array) -> Array:
     """Return the square roots of M's diagonal, zero where an entry is rounding; shape (N, n, n) → (N, n)."""
     diagonals = np.diagonal(Ms, axis1=1, axis2=2)
     least = _ROUNDING * diagonals.max(axis=1, initial=0.0, keepdims=True)
-    scales: Array = np.sqrt(np.where(diagonals > least, diagonals, 0.0))
-    return scales
+    return np.asarray(np.sqrt(np.where(diagonals > least, diagonals, 0.0)))
 
 
 def scaled(Ms: Array, scales: Array) -> Array:
     """Divide rows and columns of M by scales, with zero where a scale is zero; shapes (N, n, n), (N, n)."""
     inverses = np.divide(1.0, scales, out=np.zeros_like(scales), where=scales > 0.0)
-    quotient: Array = Ms * inverses[:, :, None] * inverses[:, None, :]
-    return quotient
+    return np.asarray(Ms * inverses[:, :, None] * inverses[:, None, :])
 
 
 class Lagrangian:
-    """The equations of motion by sums over bodies, with comparisons of other results.
-
-    A comparison returns None if the other result is None, and raises CertificationFailed if the two differ by more than
-    rounding.
+    """The equations of motion by sums over bodies, which check other results.
 
     Args:
         moving: The bodies.
@@ -89,9 +58,10 @@ class Lagrangian:
         self._Ms, self._Ss = moving.mass_matrices(), moving.velocity_products()
         self._by_speed = np.einsum("kij,kj->ki", self._Ss, state.speeds)
         self._by_gravity = moving.gravity_torques(gravity)
+        fastest = largest(state.speeds)
         self._mass_scale = moving.mass_scale()
-        self._speed_scale = self._mass_scale * float(np.abs(state.speeds).max(initial=0.0))
-        self._bias_scale = self._speed_scale * float(np.abs(state.speeds).max(initial=0.0))
+        self._speed_scale = self._mass_scale * fastest
+        self._bias_scale = self._speed_scale * fastest
         self._gravity_scale = moving.gravity_scale(gravity)
 
     def is_definite(self) -> bool:
@@ -101,42 +71,35 @@ class Lagrangian:
 
     def scale(self, accelerations: Array) -> float:
         """Return the largest term of M q̈ + C q̇ + g + Jᵀγ, [N m or N]."""
-        by_mass = (np.abs(self._Ms) @ np.abs(accelerations)[..., None]).max(initial=0.0)
-        held = np.abs(self._state.held).max(initial=0.0)
-        return max(float(by_mass), float(held), self._bias_scale, self._gravity_scale)
+        by_mass = largest(np.abs(self._Ms) @ np.abs(accelerations)[..., None])
+        return max(by_mass, largest(self._state.held), self._bias_scale, self._gravity_scale)
 
-    def mass_error(self, Ms: Array | None) -> float | None:
-        """Return the largest error in an entry of M."""
-        return None if Ms is None else agreed("the mass matrix", Ms - self._Ms, self._mass_scale)
+    def errors(self, terms: Mapping[str, Array]) -> Differences:
+        """Compare terms, by their names in `Dynamics`, and return the fields of the certificate that they give.
 
-    def coriolis_error(self, torques: Array | None) -> float | None:
-        """Return the largest error in C q̇, [N m or N]."""
-        return None if torques is None else agreed("a Coriolis torque", torques - self._by_speed, self._bias_scale)
-
-    def skew_error(self, Cs: Array | None) -> float | None:
-        """Return the largest entry of C + Cᵀ - Ṁ."""
-        if Cs is None:
-            return None
-        M_dots = self._Ss + self._Ss.swapaxes(1, 2)
-        return agreed("the mass matrix's derivative", Cs + Cs.swapaxes(1, 2) - M_dots, self._speed_scale)
-
-    def gravity_error(self, torques: Array | None) -> float | None:
-        """Return the largest error in g, [N m or N]."""
-        return None if torques is None else agreed("a gravity torque", torques - self._by_gravity, self._gravity_scale)
-
-    def energy_error(self, kinetic: Array | None, potential: Array | None) -> float | None:
-        """Return the largest error in T or U, [J]."""
-        if kinetic is None or potential is None:
-            return None
-        speeds = self._state.speeds
-        expected = np.einsum("ki,kij,kj->k", speeds, self._Ms, speeds) / 2.0
-        error = agreed("the kinetic energy", kinetic - expected, self._bias_scale)
-        expected = self._moving.potential_energies(self._gravity)
-        weights = np.abs(self._moving.masses @ np.abs(self._moving.centers)).max() * np.abs(self._gravity).max()
-        return max(error, agreed("the potential energy", potential - expected, float(weights)))
+        Raises:
+            CertificationFailed: A term differs by more than rounding.
+        """
+        worst, speeds = Differences(), self._state.speeds
+        if (Ms := terms.get("mass_matrices")) is not None:
+            worst.add("max_mass_error", "the mass matrix", Ms - self._Ms, self._mass_scale)
+        if (by_speed := terms.get("coriolis_torques")) is not None:
+            worst.add("max_coriolis_error", "a Coriolis torque", by_speed - self._by_speed, self._bias_scale)
+        if (Cs := terms.get("coriolis_matrices")) is not None:
+            skew = Cs + Cs.swapaxes(1, 2) - (self._Ss + self._Ss.swapaxes(1, 2))
+            worst.add("max_skew_error", "the mass matrix's derivative", skew, self._speed_scale)
+        if (by_gravity := terms.get("gravity_torques")) is not None:
+            worst.add("max_gravity_error", "a gravity torque", by_gravity - self._by_gravity, self._gravity_scale)
+        if (kinetic := terms.get("kinetic_energies")) is not None:
+            expected = np.einsum("ki,kij,kj->k", speeds, self._Ms, speeds) / 2.0
+            worst.add("max_energy_error", "the kinetic energy", kinetic - expected, self._bias_scale)
+            potential = terms["potential_energies"] - self._moving.potential_energies(self._gravity)
+            weights = largest(self._moving.masses @ np.abs(self._moving.centers)) * largest(self._gravity)
+            worst.add("max_energy_error", "the potential energy", potential, weights)
+        return worst
 
     def torque_error(self, accelerations: Array, torques: Array) -> float:
-        """Return the largest residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]."""
+        """Return the largest residual M q̈ + C q̇ + g + Jᵀγ - τ, [N m or N]; raises as `errors` does."""
         by_mass = (self._Ms @ accelerations[..., None])[..., 0]
         expected = by_mass + self._by_speed + self._by_gravity + self._state.held
         return agreed("a torque", torques - expected, self.scale(accelerations))

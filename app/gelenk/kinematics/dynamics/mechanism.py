@@ -153,8 +153,7 @@ class PinocchioDynamics:
         """Compute q̈ by the articulated body algorithm [Featherstone2008, 7.3]; shape (n,). Not with mimic joints."""
         matrix = self._matrix
         a = pin.aba(self._model, self._data, self._full(q), matrix @ v, matrix @ torques)
-        accelerations: Array = matrix.T @ np.asarray(a).reshape(-1)
-        return accelerations
+        return np.asarray(matrix.T @ np.asarray(a).reshape(-1))
 
     def energies(self, q: Array, v: Array) -> tuple[float, float]:
         """Compute T and U, [J]; U is zero where the moving bodies' centre of mass is level with the root."""
@@ -192,16 +191,13 @@ class PinocchioDynamics:
         return self._model.nv, self._model.nv
 
     def _full(self, q: Array) -> Array:
-        full: Array = self._offset + self._matrix @ q
-        return full
+        return np.asarray(self._offset + self._matrix @ q)
 
     def _torques(self, full: Array) -> Array:
-        torques: Array = self._matrix.T @ np.asarray(full).reshape(-1)
-        return torques
+        return np.asarray(self._matrix.T @ np.asarray(full).reshape(-1))
 
     def _reduced(self, full: Array) -> Array:
-        reduced: Array = self._matrix.T @ full @ self._matrix
-        return reduced
+        return np.asarray(self._matrix.T @ full @ self._matrix)
 
 
 def _force_vector(forces: Sequence[pin.Force]) -> pin.StdVec_Force:

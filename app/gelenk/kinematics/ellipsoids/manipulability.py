@@ -11,35 +11,37 @@ found at random configurations. A configuration is singular where one of the rem
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import asdict, dataclass
 from typing import Literal, TypeAlias, cast
 
 import numpy as np
 
 from gelenk.errors import CertificationFailed, InvalidField
+from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS, Direction
-from gelenk.kinematics.judge.judge import JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import certify_jacobians
+from gelenk.kinematics.judge.words import EllipsoidCertificate, JacobianCertificate, Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.kinematics.velocity.subspaces import rounding
-from gelenk.kinematics.velocity.task_space import hessians_in_reference, jacobians_with_terms, random_configurations
+from gelenk.kinematics.velocity.task_space import (
+    STRUCTURAL_TOLERANCE,
+    aligned_basis,
+    hessians_in_reference,
+    jacobians_with_terms,
+    structure,
+)
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
 
 Part: TypeAlias = Literal["translation", "rotation", "combined"]
 
-STRUCTURAL_TOLERANCE = 1e-9
-"""A direction counts as one of motion if some random configuration moves more than this, relative to the largest."""
 ELLIPSOID_TOLERANCE = 10.0 * STRUCTURAL_TOLERANCE
 """Allowed relative difference between JJᵀ and its ellipsoids, including motion in directions that do not count."""
 WITHIN = 1e-9
 """Largest distance of a unit vector from a space that still counts as lying in it."""
 _ROUNDING = 1e-14
 """A torque up to this share of the largest counts as zero."""
-
-_SAMPLES = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +93,7 @@ class Ellipsoids:
     @property
     def measures(self) -> Array:
         """Yoshikawa's measure, the product of the semi-axes: √det(JJᵀ) if all k rows are independent; shape (N,)."""
-        return cast(Array, np.prod(self.sigmas, axis=1))
+        return np.asarray(np.prod(self.sigmas, axis=1))
 
     @property
     def volumes(self) -> Array:
@@ -102,21 +104,7 @@ class Ellipsoids:
     @property
     def ranks(self) -> Indices:
         """Number of axes that do not vanish; shape (N,)."""
-        return cast(Indices, np.count_nonzero(self.sigmas, axis=1))
-
-
-@dataclass(frozen=True, slots=True)
-class ManipulabilityCertificate:
-    """Agreement of ellipsoids with their Jacobians, and of these with Pinocchio's.
-
-    Attributes:
-        jacobians: Differences of the Jacobians from Pinocchio's.
-        max_ellipsoid_error: Largest entry of JJᵀ - Σ u_i σ_i² u_iᵀ, relative to the larger of σ₁² and the square of the
-            largest entry of J; includes motion along directions that do not count as axes.
-    """
-
-    jacobians: JacobianCertificate
-    max_ellipsoid_error: float
+        return np.asarray(np.count_nonzero(self.sigmas, axis=1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +119,7 @@ class Manipulability:
 
     parts: dict[Part, Ellipsoids]
     Js: Array
-    certificate: ManipulabilityCertificate
+    certificate: EllipsoidCertificate
 
 
 def manipulability(
@@ -179,7 +167,7 @@ def manipulability(
             stretched = terms * _stretches(some, length).max()
             parts[part], error = _ellipsoids(space, Js, Hs, length, stretched, rank_tolerance)
             worst = max(worst, error)
-    return Manipulability(parts, Js, ManipulabilityCertificate(certified, worst))
+    return Manipulability(parts, Js, EllipsoidCertificate(**asdict(certified), max_ellipsoid_error=worst))
 
 
 def _certified(
@@ -219,41 +207,12 @@ def space_of(
         reference: Reference of the Jacobian.
         components: Number of components of a vector, 3 or 6.
     """
-    space = _structure(chain, rows, reference)
-    if length == 1.0 or space.basis.shape[1] == len(rows):
-        return replace(space, components=components)
-    stretched = _stretches(rows, length)[:, None] * space.basis
-    left = np.linalg.svd(stretched, full_matrices=False)[0]
-    return Space(rows, _aligned_basis(left @ left.T, left.shape[1]), space.dimension, components)
-
-
-@lru_cache(maxsize=1024)
-def _structure(chain: Chain, rows: tuple[int, ...], reference: Reference) -> Space:
-    """Directions of motion at random configurations: revolute joints over a full turn, prismatic ones within ±1 m."""
-    whole, terms = jacobians_with_terms(chain, random_configurations(chain, _SAMPLES), reference)
-    Js, least = whole[:, rows], float(rounding(terms).max())
-    sigmas = np.linalg.svd(Js, compute_uv=False)
-    largest = float(sigmas.max(initial=0.0))
-    if largest <= least:
-        return Space(rows, np.zeros((len(rows), 0)), 0)
-    dimension = int(np.sum(sigmas > STRUCTURAL_TOLERANCE * largest, axis=1).max())
-    left, sizes, _ = np.linalg.svd(np.concatenate(list(Js), axis=1), full_matrices=False)
-    span = left[:, sizes > STRUCTURAL_TOLERANCE * sizes[0]]
-    return Space(rows, _aligned_basis(span @ span.T, span.shape[1]), dimension)
-
-
-def _aligned_basis(projector: Array, dimension: int) -> Array:
-    """Orthonormal basis of a projector's range, as close to the coordinate axes as possible; shape (k, dimension)."""
-    whole = np.rint(projector)
-    left = whole if np.abs(projector - whole).max() < STRUCTURAL_TOLERANCE else projector
-    columns = []
-    for _ in range(dimension):
-        pivot = int(np.argmax(np.round(np.diag(left), 9)))
-        column = left[:, pivot] / math.sqrt(left[pivot, pivot])
-        columns.append(column)
-        left = left - np.outer(column, column)
-    # Adding zero turns -0.0 into 0.0.
-    return np.array(columns).reshape(dimension, len(projector)).T + 0.0
+    fixed = structure(chain, Task(tuple(DIRECTIONS[row] for row in rows)), reference)
+    basis = fixed.moving
+    if length != 1.0 and basis.shape[1] < len(rows):
+        stretched = _stretches(rows, length)[:, None] * basis
+        basis = aligned_basis(np.linalg.svd(stretched, full_matrices=False)[0], STRUCTURAL_TOLERANCE)
+    return Space(rows, basis, fixed.rank, components)
 
 
 def _stretches(rows: tuple[int, ...], length: float) -> Array:
@@ -287,7 +246,7 @@ def _pseudo_inverses(left: Array, sigmas: Array, right: Array) -> Array:
     """J# of J = Σ u_i σ_i v_iᵀ; NaN where a σ_i vanishes; shape (N, n, k)."""
     with np.errstate(divide="ignore"):
         inverted = np.where(sigmas > 0.0, 1.0 / sigmas, np.nan)
-    return cast(Array, np.einsum("bdi,bd,bkd->bik", right, inverted, left))
+    return np.asarray(np.einsum("bdi,bd,bkd->bik", right, inverted, left))
 
 
 def _signed(axes: Array) -> Array:
@@ -316,7 +275,7 @@ def _ellipsoid_error(Js: Array, axes: Array, sigmas: Array, sizes: Array) -> flo
 
 def is_within_task(space: Space, directions: Array) -> Flags:
     """Return whether each unit vector lies in the rows that count; shape (D, 3) → (D,)."""
-    return cast(Flags, np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
+    return np.asarray(np.linalg.norm(directions[:, [row % 3 for row in space.rows]], axis=1) > 1.0 - WITHIN)
 
 
 def transmission_ratios(ellipsoids: Ellipsoids, directions: Array, tolerance: float) -> tuple[Array, Array]:

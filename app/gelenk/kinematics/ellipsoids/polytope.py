@@ -43,12 +43,12 @@ def largest_velocities(J: Array, limits: Array, directions: Array) -> Array:
     normals = _normals(J)
     offsets = np.abs(normals @ J) @ limits
     slopes = np.abs(directions @ normals.T)
-    return cast(Array, np.divide(offsets, slopes, out=np.full_like(slopes, np.inf), where=slopes > 0.0).min(axis=1))
+    return np.asarray(np.divide(offsets, slopes, out=np.full_like(slopes, np.inf), where=slopes > 0.0).min(axis=1))
 
 
 def largest_velocity_components(J: Array, limits: Array, directions: Array) -> Array:
     """Compute the largest velocity component along each direction: the support function Σ q̇max_i |J_iᵀu|; (D,)."""
-    return cast(Array, np.abs(directions @ J) @ limits)
+    return np.asarray(np.abs(directions @ J) @ limits)
 
 
 def largest_forces(J: Array, limits: Array, directions: Array) -> Array:
@@ -62,7 +62,7 @@ def largest_forces(J: Array, limits: Array, directions: Array) -> Array:
     torques = np.abs(directions @ J)
     felt = torques > _PARALLEL * np.linalg.norm(J, axis=0)
     forces = np.divide(limits, torques, out=np.full_like(torques, np.inf), where=felt).min(axis=1)
-    return cast(Array, np.where(np.isfinite(forces), forces, np.nan))
+    return np.asarray(np.where(np.isfinite(forces), forces, np.nan))
 
 
 def largest_force_components(J: Array, limits: Array, directions: Array) -> Array:

@@ -11,35 +11,16 @@ import numpy as np
 from gelenk.kinematics.dynamics.bodies import Load, motions
 from gelenk.kinematics.dynamics.mechanism import PinocchioDynamics, mechanism
 from gelenk.kinematics.force.wrenches import WrenchFrame, frame_jacobians, in_base_axes
-from gelenk.kinematics.judge.judge import agreed, pinocchio_poses, sampled_rows
+from gelenk.kinematics.judge.judge import Differences, largest, pinocchio_poses, sampled_rows
+from gelenk.kinematics.judge.words import StaticsCertificate
 from gelenk.kinematics.velocity.subspaces import Subspaces, subspaces
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-ALL_ROWS: Indices = np.arange(6)
-AT_TIP = WrenchFrame()
 _NUMBERS_AT_ONCE = 1_000_000
 """Largest number of entries of the bodies' Jacobians held in memory at once."""
-
-
-@dataclass(frozen=True, slots=True)
-class StaticsCertificate:
-    """Agreement of torques with Pinocchio's.
-
-    Attributes:
-        samples: Number of configurations recomputed through Pinocchio.
-        max_torque_error: Largest difference of a torque from Pinocchio's (Newton-Euler at rest with the wrench as an
-            external force), [N m or N].
-        max_virtual_work_error: Largest difference between τᵀq̇ and γᵀv at random q̇, v by Pinocchio, [W].
-        seed: Seed of the sample selection, of q̇ and of a random wrench that tests the whole Jacobian.
-    """
-
-    samples: int
-    max_torque_error: float
-    max_virtual_work_error: float
-    seed: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,8 +57,7 @@ class Statics:
 
     def wrench_torques(self, wrenches: Array) -> Array:
         """Compute Jᵀγ; shape (N, m) → (N, n), [N m or N]."""
-        torques: Array = np.einsum("kij,ki->kj", self.Js, wrenches)
-        return torques
+        return np.asarray(np.einsum("kij,ki->kj", self.Js, wrenches))
 
     def subspaces(self, tolerance: float) -> list[Subspaces]:
         """Compute the four subspaces at each configuration."""
@@ -103,9 +83,9 @@ def statics(
     robot: RobotModel,
     chain: Chain,
     qs: Array,
-    frame: WrenchFrame = AT_TIP,
+    frame: WrenchFrame | None = None,
     *,
-    rows: Indices = ALL_ROWS,
+    rows: Indices | None = None,
     gravity: Array | None = None,
     load: Load | None = None,
 ) -> Statics:
@@ -115,8 +95,8 @@ def statics(
         robot: The robot; joints off the chain are at zero, and their links have weight too.
         chain: Base and tip.
         qs: Configurations; shape (N, n), [rad or m].
-        frame: Axes and point of the wrench.
-        rows: Indices of the wrench components that count; shape (m,).
+        frame: Axes and point of the wrench; at the tip if None.
+        rows: Indices of the wrench components that count; shape (m,). All if None.
         gravity: Gravity in the axes of the robot's root; shape (3,), [m/s²]. None to ignore weight.
         load: A payload on the tip; ignored without gravity.
 
@@ -124,6 +104,7 @@ def statics(
         UnknownFrame: The robot has no such frame.
         InvalidField: The fields of the frame are contradictory.
     """
+    frame, rows = frame or WrenchFrame(), np.arange(6) if rows is None else rows
     places, Js, sums = frame_jacobians(robot, chain, qs, frame)
     torques, scale = np.zeros_like(qs), 0.0
     if gravity is not None and len(chain):
@@ -212,20 +193,16 @@ def certify_statics(still: Statics, wrenches: Array, torques: Array, seed: int =
     judge = PinocchioDynamics(found, gravity, still.load)
     others = rng.uniform(-1.0, 1.0, (len(rows), len(still.rows)))
     by_others = np.einsum("kij,ki->kj", still.Js[rows], others) + still.gravity_torques[rows]
-    worst, worst_work = 0.0, 0.0
+    worst = Differences()
     for given, held in ((wrenches[rows], torques[rows]), (others, by_others)):
         in_base = in_base_axes(places, still.rows, given)
         for k, row in enumerate(rows):
             q_dot = rng.uniform(-1.0, 1.0, len(chain))
             expected, power = judge.static_torques(qs[row], q_dot, places.positions[k], in_base[k])
-            scale = max(_largest_term(still.Js[row], given[k], places.positions[k]), still.gravity_scale)
-            worst = max(worst, agreed("a torque", held[k] - expected, scale))
+            # The largest terms of the torques: here, or through the wrench's moment about the base's origin.
+            by_wrench = largest(np.abs(still.Js[row].T) @ np.abs(given[k]))
+            scale = max(by_wrench, largest(given[k]) * (1.0 + largest(places.positions[k])), still.gravity_scale)
+            worst.add("max_torque_error", "a torque", held[k] - expected, scale)
             work = (held[k] - still.gravity_torques[row]) @ q_dot - power
-            worst_work = max(worst_work, agreed("the virtual work", np.array([work]), scale * len(chain)))
-    return StaticsCertificate(len(rows), worst, worst_work, seed)
-
-
-def _largest_term(J: Array, wrench: Array, point: Array) -> float:
-    """Largest term in computing torques from a wrench, here or through its moment about the base origin."""
-    force = float(np.abs(wrench).max(initial=0.0))
-    return max(float((np.abs(J.T) @ np.abs(wrench)).max()), force * (1.0 + float(np.abs(point).max())))
+            worst.add("max_virtual_work_error", "the virtual work", work, scale * len(chain))
+    return StaticsCertificate(samples=len(rows), seed=seed, **worst)

@@ -4,15 +4,15 @@ A wrench and its dual twist refer to the same point and axes, so γᵀv is a pow
 relative to the base, at the body point that coincides with the given point, so τ = Jᵀγ for any point.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.kinematics.dynamics.mechanism import mechanism
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
-from gelenk.kinematics.velocity.jacobian import Reference
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
@@ -33,7 +33,7 @@ class WrenchFrame:
 
     reference: Reference = "local_world_aligned"
     expressed_in: str | None = None
-    point: tuple[float, float, float] | None = None
+    point: Sequence[float] | None = None
     point_frame: str | None = None
 
     def check(self) -> None:
@@ -107,5 +107,4 @@ def in_base_axes(places: Poses, rows: Indices, wrenches: Array) -> Array:
     """Expand wrenches to six components and rotate them into the base's axes; shape (N, m) → (N, 6)."""
     full = np.zeros((len(wrenches), 6))
     full[:, rows] = wrenches
-    turned: Array = np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6)
-    return turned
+    return np.asarray(np.einsum("kij,kpj->kpi", places.rotations, full.reshape(-1, 2, 3)).reshape(-1, 6))

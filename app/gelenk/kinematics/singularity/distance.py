@@ -74,9 +74,11 @@ def nearest_singularity(chain: Chain, q: Array, space: TaskSpace, search: Search
         space: The rows of the Jacobian that count.
         search: Options of the search.
     """
-    projection = _Projection.to_singular_set(chain, q, space, search)
-    if projection is None:
+    if not can_lose(chain, space):
         return None
+    free = np.full(len(q), np.inf)
+    bounds = (chain.lower, chain.upper) if search.respect_limits else (-free, free)
+    projection = _Projection(chain, q, space, structure(chain, space.task, space.reference).rank, search, *bounds)
     if (here := projection.judged(q[None])) is not None:
         return here
     best = projection.nearest(_minima(projection, search.radius, 0))
@@ -113,17 +115,7 @@ def vanishing_block(chain: Chain, space: TaskSpace, rank: int, xs: Array) -> tup
 
 @dataclass(frozen=True, slots=True)
 class _Projection:
-    """Projection of a configuration onto the singular set.
-
-    Attributes:
-        chain: Base and tip.
-        q: The configuration; shape (n,).
-        space: The rows of the Jacobian that count.
-        rank: Structural rank of the chain.
-        search: Options of the search.
-        lower: Lower bounds of the joints; shape (n,).
-        upper: Upper bounds of the joints; shape (n,).
-    """
+    """Projection of a configuration q, shape (n,), onto the singular set, within bounds; `rank` is structural."""
 
     chain: Chain
     q: Array
@@ -132,16 +124,6 @@ class _Projection:
     search: Search
     lower: Array
     upper: Array
-
-    @classmethod
-    def to_singular_set(cls, chain: Chain, q: Array, space: TaskSpace, search: Search) -> "_Projection | None":
-        """Create the projection; None if no joint affects the rank."""
-        if not can_lose(chain, space):
-            return None
-        rank = structure(chain, space.task, space.reference).rank
-        free = np.full(len(q), np.inf)
-        bounds = (chain.lower, chain.upper) if search.respect_limits else (-free, free)
-        return cls(chain, q, space, rank, search, *bounds)
 
     def nearest(self, xs: Array) -> NearestSingularity | None:
         """Find the nearest singular configuration reached from starts of shape (N, n)."""

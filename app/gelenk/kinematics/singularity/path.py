@@ -82,14 +82,7 @@ def places_along(
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A piecewise linear path in joint space.
-
-    Attributes:
-        chain: Base and tip.
-        qs: The configurations; shape (N, n).
-        space: The rows of the Jacobian that count.
-        rank: Structural rank of the chain.
-    """
+    """A piecewise linear path through configurations of shape (N, n); `rank` is the chain's structural one."""
 
     chain: Chain
     qs: Array

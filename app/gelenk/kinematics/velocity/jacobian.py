@@ -5,12 +5,13 @@ from these two by the product rule. J̇ = Σ_j ∂J/∂q_j q̇_j throughout.
 """
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, cast
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from gelenk.errors import RepresentationSingularity
-from gelenk.kinematics.judge.judge import JacobianCertificate, certify_jacobians
+from gelenk.kinematics.judge.judge import certify_jacobians
+from gelenk.kinematics.judge.words import JacobianCertificate, Reference, View
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Indices
 from gelenk.robot.chain import Chain
@@ -18,7 +19,6 @@ from gelenk.robot.notations import rpy_from_rotations, zyz_from_rotations
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 
-Reference: TypeAlias = Literal["local_world_aligned", "local", "world"]
 Representation: TypeAlias = Literal["geometric", "zyz", "rpy"]
 
 REPRESENTATION_TOLERANCE = 1e-6
@@ -45,8 +45,7 @@ class Jacobians:
         """Compute J̇ at joint velocities (N, n), [rad/s or m/s]; shape (N, 6, n). Needs the Hessians."""
         if self.hessians is None:
             raise ValueError("time variation needs the Hessians")
-        variations: Array = np.einsum("bkij,bj->bki", self.hessians, velocities)
-        return variations
+        return np.asarray(np.einsum("bkij,bj->bki", self.hessians, velocities))
 
 
 def jacobians(
@@ -77,67 +76,73 @@ def jacobians(
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     Hs = chain_hessians(chain.flat, qs) if derivatives else None
     poses = Poses(positions, rotations)
-    view = reference if representation == "geometric" else representation
-    values, derivative = Js, Hs
-    if view in {"zyz", "rpy"}:
+    view: View = reference if representation == "geometric" else representation
+    if representation == "geometric":
+        values, derivative = in_reference(poses, Js, Hs, reference)
+    else:
         values, derivative = _analytic(representation, poses, Js, Hs)
-    elif view == "local":
-        values, derivative = _in_tip_axes(poses, Js, Hs)
-    elif view == "world":
-        values, derivative = _at_base_origin(poses, Js, Hs)
     certificate = certify_jacobians(robot, chain, qs, Js, Hs, view, values)
     return Jacobians(poses, values, derivative, certificate)
 
 
 def singular_values(Js: Array) -> Array:
     """Return σ of each Jacobian, largest first; shape (N, 6, n) → (N, min(6, n)). Metres and radians are mixed."""
-    return cast(Array, np.linalg.svd(Js, compute_uv=False))
+    return np.asarray(np.linalg.svd(Js, compute_uv=False))
 
 
 def ranks(sigmas: Array, tolerance: float) -> Indices:
     """Count the singular values above `tolerance` times the largest; shape (N, k) → (N,)."""
     if sigmas.shape[1] == 0:
         return np.zeros(len(sigmas), dtype=np.int64)
-    counts: Indices = np.sum((sigmas > tolerance * sigmas[:, :1]) & (sigmas > 0.0), axis=1)
-    return counts
+    return np.asarray(np.sum((sigmas > tolerance * sigmas[:, :1]) & (sigmas > 0.0), axis=1))
 
 
-def _cross(a: Array, b: Array) -> Array:
-    """Cross product along axis 1; the other axes broadcast."""
-    return np.stack(
-        (
-            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
-            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
-            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
-        ),
-        axis=1,
-    )
+def condition_numbers(sigmas: Array, counts: Indices) -> list[float | None]:
+    """Return σ_max / σ_min for singular values of shape (N, k) and ranks of shape (N,); None where not all count."""
+    full = sigmas.shape[1]
+    return [
+        float(sigma[0] / sigma[-1]) if full and rank == full else None
+        for sigma, rank in zip(sigmas, counts, strict=True)
+    ]
+
+
+def in_reference(poses: Poses, Js: Array, Hs: Array | None, reference: Reference) -> tuple[Array, Array | None]:
+    """Express geometric Jacobians in the base's axes at the tip, and their derivatives, in another reference.
+
+    Args:
+        poses: T_base_tip; N of them.
+        Js: Jacobians; shape (N, 6, n).
+        Hs: ∂J/∂q; shape (N, 6, n, n). None if not requested.
+        reference: See `jacobians`.
+    """
+    if reference == "local":
+        return _in_tip_axes(poses, Js, Hs)
+    return _at_base_origin(poses, Js, Hs) if reference == "world" else (Js, Hs)
 
 
 def _in_tip_axes(poses: Poses, Js: Array, Hs: Array | None) -> tuple[Array, Array | None]:
     """J' = diag(Rᵀ, Rᵀ) J, and ∂J' = diag(Rᵀ, Rᵀ)(∂J - ω_j × J), because ∂Rᵀ/∂q_j = -Rᵀ [ω_j]×."""
 
-    def turned(rows: Array) -> Array:
-        result: Array = np.einsum("brk,br...->bk...", poses.rotations, rows)
-        return result
+    def turned(linear: Array, angular: Array) -> Array:
+        halves = [np.einsum("brk,br...->bk...", poses.rotations, rows) for rows in (linear, angular)]
+        return np.concatenate(halves, axis=1)
 
-    local = np.concatenate((turned(Js[:, :3]), turned(Js[:, 3:])), axis=1)
+    linear, angular = Js[:, :3], Js[:, 3:]
     if Hs is None:
-        return local, None
-    omegas = Js[:, 3:, None, :]
-    parts = [turned(Hs[:, rows] - _cross(omegas, Js[:, rows, :, None])) for rows in (slice(0, 3), slice(3, 6))]
-    return local, np.concatenate(parts, axis=1)
+        return turned(linear, angular), None
+    carried = [np.cross(angular[:, :, None], rows[:, :, :, None], axis=1) for rows in (linear, angular)]
+    return turned(linear, angular), turned(Hs[:, :3] - carried[0], Hs[:, 3:] - carried[1])
 
 
 def _at_base_origin(poses: Poses, Js: Array, Hs: Array | None) -> tuple[Array, Array | None]:
     """J' with v' = v + p × ω, and ∂v' = ∂v + v_j × ω + p × ∂ω, because ∂p/∂q_j = v_j."""
     world = Js.copy()
-    world[:, :3] += _cross(poses.positions[:, :, None], Js[:, 3:])
+    world[:, :3] += np.cross(poses.positions[:, :, None], Js[:, 3:], axis=1)
     if Hs is None:
         return world, None
     derivative = Hs.copy()
-    derivative[:, :3] += _cross(Js[:, :3, None, :], Js[:, 3:, :, None])
-    derivative[:, :3] += _cross(poses.positions[:, :, None, None], Hs[:, 3:])
+    derivative[:, :3] += np.cross(Js[:, :3, None, :], Js[:, 3:, :, None], axis=1)
+    derivative[:, :3] += np.cross(poses.positions[:, :, None, None], Hs[:, 3:], axis=1)
     return world, derivative
 
 

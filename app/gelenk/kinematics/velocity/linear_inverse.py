@@ -73,20 +73,10 @@ class Decomposition:
     row_scales: Array
     column_scales: Array
 
-    @property
-    def condition_numbers(self) -> list[float | None]:
-        """Ratios σ_max / σ_min; None where the rank is not full."""
-        full = self.sigmas.shape[1]
-        return [
-            float(sigma[0] / sigma[-1]) if full and rank == full else None
-            for sigma, rank in zip(self.sigmas, self.ranks, strict=True)
-        ]
-
     def lost_directions(self, row: int) -> Array:
         """Return unit vectors, in the rows of J, along which the tip cannot move; shape (lost, k)."""
         lost = self.left[row, :, self.ranks[row] :].T / self.row_scales
-        unit: Array = lost / np.linalg.norm(lost, axis=1, keepdims=True)
-        return unit
+        return np.asarray(lost / np.linalg.norm(lost, axis=1, keepdims=True))
 
     def gains(self, damping: Array) -> Array:
         """Return the factors of uᵢᵀSb: σ/(σ² + λ); for λ = 0, 1/σ up to the rank and 0 beyond; (N, min(k, n))."""
@@ -101,16 +91,14 @@ class Decomposition:
         """Compute x = W^(-1/2) V diag(gains) Uᵀ S b; shape (N, n)."""
         few = self.sigmas.shape[1]
         parts = gains * np.einsum("bki,bk->bi", self.left[:, :, :few], bs * self.row_scales)
-        xs: Array = np.einsum("bij,bi->bj", self.right[:, :few], parts) * self.column_scales
-        return xs
+        return np.asarray(np.einsum("bij,bi->bj", self.right[:, :few], parts) * self.column_scales)
 
     def kernel_parts(self, xs: Array) -> Array:
         """Compute (I - J#J) ξ with the weighted pseudo-inverse; shape (N, n)."""
         counts = np.arange(self.right.shape[1]) < self.ranks[:, None]
         coordinates = np.einsum("bij,bj->bi", self.right, xs / self.column_scales)
         free = np.where(counts, 0.0, coordinates)
-        parts: Array = np.einsum("bij,bi->bj", self.right, free) * self.column_scales
-        return parts
+        return np.asarray(np.einsum("bij,bi->bj", self.right, free) * self.column_scales)
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,8 +198,7 @@ def _damped_to_limits(parts: Decomposition, row: int, b: Array, least: float, li
     joints = parts.right[row, :few] * parts.column_scales
 
     def at(dampings: Array) -> Array:
-        moved: Array = (shares / (np.square(sigmas) + dampings[:, None])) @ joints
-        return moved
+        return np.asarray((shares / (np.square(sigmas) + dampings[:, None])) @ joints)
 
     grid = least + _DAMPINGS * max(float(np.square(sigmas[:1]).sum()), 1e-300)
     low = least
@@ -230,8 +217,7 @@ def _room(xs: Array, added: Array, limits: Array) -> Array:
     rooms = np.maximum(np.where(added > 0.0, limits - xs, limits + xs), 0.0)
     too_far = np.abs(added) > rooms
     shares = np.where(too_far, rooms, 1.0) / np.where(too_far, np.abs(added), 1.0)
-    least: Array = shares.min(axis=1, initial=1.0)
-    return least
+    return np.asarray(shares.min(axis=1, initial=1.0))
 
 
 def _judged(Js: Array, bs: Array, rule: InverseRule, inversion: Inversion) -> Inversion:

@@ -51,12 +51,6 @@ class Subspaces:
         """Basis of ker(J), the joint velocities that leave the tip at rest; shape (n, n - rank)."""
         return self.right[:, self.rank :]
 
-    @property
-    def pseudo_inverse(self) -> Array:
-        """Pseudo-inverse J# = Σ v_i uᵢᵀ / σ_i over the singular values that count [Penrose1955]; shape (n, m)."""
-        inverse: Array = (self.row_space / self.sigmas[: self.rank]) @ self.range.T
-        return inverse
-
 
 def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspaces:
     """Compute the four subspaces of a matrix.
@@ -73,5 +67,4 @@ def subspaces(J: Array, tolerance: float, whole: Array | None = None) -> Subspac
 
 def rounding(Js: Array) -> Array:
     """Estimate rounding errors in the entries of Jacobians; shape (…, 6, n) → (…,)."""
-    largest: Array = _ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0)
-    return largest
+    return np.asarray(_ROUNDING * np.abs(Js).max(axis=(-2, -1), initial=0.0))

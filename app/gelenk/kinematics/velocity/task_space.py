@@ -12,11 +12,13 @@ import numpy as np
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.ik.search.words import DIRECTIONS
+from gelenk.kinematics.judge.words import Reference
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
-from gelenk.kinematics.velocity.jacobian import Reference
+from gelenk.kinematics.velocity.jacobian import in_reference
 from gelenk.kinematics.velocity.subspaces import rounding, subspaces
 from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain
+from gelenk.robot.poses import Poses
 
 STRUCTURAL_TOLERANCE = 1e-9
 """Relative singular value above which a direction counts as one in which the arm can move."""
@@ -132,35 +134,17 @@ def jacobians_with_terms(chain: Chain, qs: Array, reference: Reference) -> tuple
     """
     positions, rotations, Js = chain_jacobians(chain.flat, qs)
     levers = Js[:, 3:] * (2.0 * np.linalg.norm(positions, axis=1)[:, None, None])
-    if reference == "local":
-        Js = np.concatenate((_turned(rotations, Js[:, :3]), _turned(rotations, Js[:, 3:])), axis=1)
-    elif reference == "world":
-        Js[:, :3] += np.cross(positions[:, :, None], Js[:, 3:], axis=1)
+    Js, _ = in_reference(Poses(positions, rotations), Js, None, reference)
     return Js, np.concatenate((Js, levers), axis=1)
 
 
 def hessians_in_reference(chain: Chain, qs: Array, reference: Reference) -> Array:
     """Compute ∂J/∂q of geometric Jacobians in a reference: [:, k, i, j] = ∂J[k, i]/∂q_j; shape (N, 6, n, n)."""
-    Hs = chain_hessians(chain.flat, qs)
-    if reference == "local_world_aligned":
-        return Hs
-    positions, rotations, Js = chain_jacobians(chain.flat, qs)
-    linear, angular = Js[:, :3], Js[:, 3:]
-    if reference == "local":
-        # ∂(RᵀJ)/∂q_j = Rᵀ(∂J/∂q_j - ω_j × J).
-        omegas = angular[:, :, None, :]
-        halves = [_turned(rotations, Hs[:, :3] - np.cross(omegas, linear[:, :, :, None], axis=1))]
-        halves.append(_turned(rotations, Hs[:, 3:] - np.cross(omegas, angular[:, :, :, None], axis=1)))
-        return np.concatenate(halves, axis=1)
-    # ∂(v + p × ω)/∂q_j = ∂v/∂q_j + v_j × ω + p × ∂ω/∂q_j, because ∂p/∂q_j = v_j.
-    Hs[:, :3] += np.cross(linear[:, :, None, :], angular[:, :, :, None], axis=1)
-    Hs[:, :3] += np.cross(positions[:, :, None, None], Hs[:, 3:], axis=1)
-    return Hs
-
-
-def _turned(rotations: Array, rows: Array) -> Array:
-    """Rᵀ times rows of shape (N, 3, …)."""
-    return np.asarray(np.einsum("brk,br...->bk...", rotations, rows))
+    Hs: Array | None = chain_hessians(chain.flat, qs)
+    if reference != "local_world_aligned":
+        positions, rotations, Js = chain_jacobians(chain.flat, qs)
+        _, Hs = in_reference(Poses(positions, rotations), Js, Hs, reference)
+    return np.asarray(Hs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,11 +153,13 @@ class ChainStructure:
 
     Attributes:
         rank: Rank of J at random configurations.
+        moving: Orthonormal basis of the directions that the tip has, all configurations together; shape (m, m - k).
         never: Orthonormal basis of the directions that the tip never has, in unscaled rows; shape (m, k).
         idle: Orthonormal basis of the joint velocities that leave the tip at rest everywhere; shape (n, l).
     """
 
     rank: int
+    moving: Array
     never: Array
     idle: Array
 
@@ -193,7 +179,8 @@ def structure(chain: Chain, task: Task, reference: Reference = "local_world_alig
     below = subspaces(_triangle(Js.reshape(trials * m, n)), STRUCTURAL_TOLERANCE, everything)
     # A value near the tolerance may count at one configuration but not in all of them together.
     rank = min(rank, beside.rank, below.rank)
-    return ChainStructure(rank, aligned_basis(beside.left_kernel), aligned_basis(below.kernel))
+    moving = aligned_basis(beside.range, STRUCTURAL_TOLERANCE)
+    return ChainStructure(rank, moving, aligned_basis(beside.left_kernel), aligned_basis(below.kernel))
 
 
 def _triangle(rows: Array) -> Array:
@@ -214,11 +201,18 @@ def slides(chain: Chain) -> Flags:
     return sliding
 
 
-def aligned_basis(basis: Array) -> Array:
-    """Return a basis of the same space, as close to the coordinate axes as possible, with positive largest entries."""
+def aligned_basis(basis: Array, snap: float = 0.0) -> Array:
+    """Return a basis of the same space, as close to the coordinate axes as possible, with positive largest entries.
+
+    Args:
+        basis: Orthonormal columns; shape (m, k).
+        snap: Deviation from a space spanned by coordinate axes that counts as rounding.
+    """
     if basis.size == 0:
         return basis
     left = basis @ basis.T
+    if np.abs(left - np.rint(left)).max() < snap:
+        left = np.rint(left)
     vectors = np.empty_like(basis)
     for k in range(basis.shape[1]):
         # Take the first of equal entries, even if rounding makes them differ.

@@ -10,20 +10,16 @@ A series of matrices has shape (K, …, rows, columns): entry k is the coefficie
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
+from gelenk.kinematics.judge.motion import certify_motion
+from gelenk.kinematics.judge.words import Reference, TipMotionCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
-from gelenk.kinematics.velocity.jacobian import Reference
-from gelenk.kinematics.velocity.judge import DerivativeCertificate, certify_motion
-from gelenk.robot.arrays import Array, Flags, Indices
+from gelenk.robot.arrays import Array, Flags
 from gelenk.robot.chain import Chain, FlatChain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-
-MAX_ORDER = 4
-"""Highest order of the derivatives: snap."""
 
 _ROOM = 4_000_000
 """Largest number of entries in an intermediate array: larger batches are split."""
@@ -45,7 +41,7 @@ class TipMotion:
     derivatives: tuple[Array, ...]
     spatial_accelerations: Array | None
     jacobians: Array
-    certificate: DerivativeCertificate
+    certificate: TipMotionCertificate
 
 
 def tip_motion(
@@ -68,9 +64,8 @@ def tip_motion(
     poses = Poses(*chain_poses(chain.flat, qs))
     Js = jacobian_derivatives(chain, qs, rates[:-1])
     derivatives = product_rule(Js, rates)
-    spatial = spatial_accelerations(derivatives) if len(rates) > 1 else None
-    if spatial is not None:
-        spatial = _spatial_in_reference(poses, spatial, reference)
+    # It changes its reference as a twist does.
+    spatial = in_reference(poses, (spatial_accelerations(derivatives),), reference)[0] if len(rates) > 1 else None
     views = in_reference(poses, derivatives, reference)
     certificate = certify_motion(robot, chain, qs, rates, views, spatial, reference)
     return TipMotion(poses, views, spatial, Js, certificate)
@@ -152,8 +147,7 @@ def _jacobian_series(flat: FlatChain, derivatives: Array) -> Array:
     )  # (K, N, m, 6)
     selection = np.zeros((len(variables), n))
     selection[np.arange(len(variables)), variables] = flat.drives[:, 0]
-    Js: Array = columns.swapaxes(-1, -2) @ selection
-    return Js
+    return np.asarray(columns.swapaxes(-1, -2) @ selection)
 
 
 def _motion_series(values: Array, slides: Flags) -> Array:
@@ -205,16 +199,10 @@ def _blocks(series: Array) -> Array:
     """A series as one matrix that multiplies rows of coefficients: block (j, k) is coefficient k - j."""
     orders = len(series)
     padded = np.concatenate((series, np.zeros((1, *series.shape[1:]))))
-    blocks = padded[_lags(orders)]  # (K, K, N, m, 4, 4)
+    lags = np.arange(orders) - np.arange(orders)[:, None]
+    blocks = padded[np.where(lags < 0, orders, lags)]  # (K, K, N, m, 4, 4)
     count, joints = series.shape[1:3]
     return blocks.transpose(2, 3, 0, 4, 1, 5).reshape(count, joints, 4 * orders, 4 * orders)
-
-
-@lru_cache(maxsize=8)
-def _lags(orders: int) -> Indices:
-    """Lags k - j where these are not negative, else the index of the zero coefficient after the last; shape (K, K)."""
-    lags = np.arange(orders) - np.arange(orders)[:, None]
-    return np.where(lags < 0, orders, lags)
 
 
 def _cross_matrices(vectors: Array) -> Array:
@@ -244,14 +232,3 @@ def _at_base_origin(poses: Poses, derivatives: tuple[Array, ...]) -> tuple[Array
         result[:, :3] -= math.factorial(k) * (turns[k] @ poses.positions[:, :, None])[:, :, 0]
         results.append(result)
     return tuple(results)
-
-
-def _spatial_in_reference(poses: Poses, spatial: Array, reference: Reference) -> Array:
-    """Transform a spatial acceleration to a reference, by the same rule as a twist."""
-    if reference == "local":
-        return _turned(poses, spatial)
-    if reference == "world":
-        moved = spatial.copy()
-        moved[:, :3] += np.cross(poses.positions, spatial[:, 3:])
-        return moved
-    return spatial

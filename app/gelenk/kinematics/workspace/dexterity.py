@@ -129,5 +129,4 @@ def shares(robot: RobotModel, chain: Chain, positions: Array, seeds: Array, aske
     targets = Poses(np.repeat(positions, count, axis=0), np.tile(asked.rotations, (len(positions), 1, 1)))
     options = Options(task=asked.task, max_iterations=_ITERATIONS)
     found = inverse_kinematics(robot, chain, targets, np.repeat(seeds, count, axis=0), options)
-    solved: Array = (np.diff(found.firsts) > 0).reshape(len(positions), count).mean(axis=1)
-    return solved
+    return np.asarray((np.diff(found.firsts) > 0).reshape(len(positions), count).mean(axis=1))

@@ -54,7 +54,11 @@ def joint_ranges(chain: Chain, given: Mapping[str, tuple[float, float]]) -> Rang
     lower, upper, notes = chain.lower.copy(), chain.upper.copy(), []
     for i, name in enumerate(chain.joint_names):
         if name in given:
-            lower[i], upper[i] = _within_limits(name, given[name], (lower[i], upper[i]))
+            low, high = given[name]
+            if not lower[i] <= low <= high <= upper[i]:
+                allowed = f"[{lower[i]:.17g}, {upper[i]:.17g}]"
+                raise InvalidField("joint_ranges", f"{quoted(name)}: lower ≤ upper, both within the limits {allowed}")
+            lower[i], upper[i] = low, high
             continue
         low, high = _sampled_range(lower[i], upper[i], SLIDE if i in sliding else np.pi)
         if i in sliding and (low, high) != (lower[i], upper[i]):
@@ -65,13 +69,6 @@ def joint_ranges(chain: Chain, given: Mapping[str, tuple[float, float]]) -> Rang
             known = ", ".join(map(quoted, chain.joint_names[:12]))
             raise InvalidField("joint_ranges", f"{quoted(name)} is not a joint of the chain; its joints are {known}")
     return Ranges(lower, upper, tuple(notes))
-
-
-def _within_limits(name: str, given: tuple[float, float], limits: tuple[float, float]) -> tuple[float, float]:
-    if not limits[0] <= given[0] <= given[1] <= limits[1]:
-        allowed = f"[{limits[0]:.17g}, {limits[1]:.17g}]"
-        raise InvalidField("joint_ranges", f"{quoted(name)}: lower ≤ upper, both within the limits {allowed}")
-    return given
 
 
 def _sampled_range(lower: float, upper: float, spread: float) -> tuple[float, float]:
@@ -116,8 +113,7 @@ class Sampling:
             shares = np.empty((count, n))
             for j in range(n):
                 shares[:, j] = _radical_inverses(first, count, j, self.seed)
-        qs: Array = lower + shares * (upper - lower)
-        return qs
+        return np.asarray(lower + shares * (upper - lower))
 
     def chosen(self, numbers: Indices) -> Array:
         """Compute the samples with the given numbers; shape (k, n), [rad or m]."""
@@ -139,8 +135,7 @@ def _radical_inverses(first: int, count: int, j: int, seed: int) -> Array:
         scale /= base
         rest, digits = np.divmod(rest, base)
         values += permutation[digits] * scale
-    shares: Array = table[lows] + values[highs - highs[0]] if count else np.empty(0)
-    return shares
+    return np.asarray(table[lows] + values[highs - highs[0]] if count else np.empty(0))
 
 
 @lru_cache(maxsize=512)

@@ -1,12 +1,14 @@
 """Assembly of a workspace from the parts of its samples, and its certification."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from gelenk.kinematics.judge.judge import PoseCertificate, agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.judge import agreed, certify_jacobians, certify_poses
+from gelenk.kinematics.judge.words import WorkspaceCertificate
 from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
+from gelenk.kinematics.workspace.tip_motion import in_axes
 from gelenk.kinematics.workspace.voxels import NO_VOXELS, Grid, VoxelTable, coarser, merged
 from gelenk.kinematics.workspace.workspace import SampledPart, SamplingPlan
 from gelenk.robot.arrays import Array
@@ -30,33 +32,18 @@ class Measures:
     """Yoshikawa's measure over the samples that count.
 
     Attributes:
-        least: The smallest measure.
+        min: The smallest measure.
         mean: The mean measure.
-        most: The largest measure.
+        max: The largest measure.
         position: Position of the tip at the largest measure; shape (3,), [m]. None if all measures are zero.
         joint_positions: Configuration at the largest measure; shape (n,), [rad or m]. None if all measures are zero.
     """
 
-    least: float
+    min: float
     mean: float
-    most: float
+    max: float
     position: Array | None
     joint_positions: Array | None
-
-
-@dataclass(frozen=True, slots=True)
-class SurveyCertificate:
-    """Agreement of workspace samples with Pinocchio's results.
-
-    Attributes:
-        poses: Differences of positions and orientations.
-        max_jacobian_error: Largest difference in an entry of the Jacobian, [m, rad per rad or m].
-        max_measure_error: Largest difference of a measure from the product of the Jacobian's singular values.
-    """
-
-    poses: PoseCertificate
-    max_jacobian_error: float
-    max_measure_error: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +72,7 @@ class Workspace:
     volume: tuple[float, float]
     late: float | None
     points: Array | None
-    certificate: SurveyCertificate
+    certificate: WorkspaceCertificate
 
     def voxel_rows(self, plan: SamplingPlan) -> Array:
         """Return one row per cell with the columns `VOXEL_COLUMNS`; shape (M, 5)."""
@@ -100,12 +87,9 @@ class Survey:
         self._plan = plan
         self._points = np.empty((plan.sampling.count, 4)) if plan.keeps_points else None
         self._count = 0
+        self._parts: list[SampledPart] = []
         self._voxels = NO_VOXELS
         self._waiting: list[VoxelTable] = []
-        self._lower, self._upper = np.full(3, np.inf), np.full(3, -np.inf)
-        self._distances = (np.inf, -np.inf)
-        self._measures = (np.inf, -np.inf, 0.0)
-        self._best = -1
 
     def add(self, part: SampledPart) -> None:
         """Add the next part.
@@ -116,12 +100,7 @@ class Survey:
         if self._points is not None and part.points is not None:
             self._points[self._count : self._count + part.count] = part.points
         self._count += part.count
-        self._lower, self._upper = np.minimum(self._lower, part.lower), np.maximum(self._upper, part.upper)
-        (near, far), (least, most, total) = self._distances, self._measures
-        self._distances = min(near, part.distances[0]), max(far, part.distances[1])
-        if part.measures[1] > most:
-            self._best = part.best
-        self._measures = min(least, part.measures[0]), max(most, part.measures[1]), total + part.measures[2]
+        self._parts.append(replace(part, points=None, voxels=NO_VOXELS))
         self._waiting.append(part.voxels)
         if sum(map(len, self._waiting)) > max(_PENDING, len(self._voxels)):
             self.merge()
@@ -138,30 +117,36 @@ class Survey:
             CertificationFailed: Poses or Jacobians differ from Pinocchio's, or measures from their recomputation.
         """
         voxels, count, plan = self.merge(), self._count, self._plan
-        points = None if self._points is None else self._points[:count]
         late = voxels.first >= round((1.0 - _LATE) * plan.sampling.count)
+        bounds = np.array([(part.lower, part.upper) for part in self._parts])
+        distances = np.array([part.distances for part in self._parts])
         return Workspace(
             count,
-            np.stack((self._lower, self._upper)) if count else None,
-            self._distances if count else None,
+            np.stack((bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0))) if count else None,
+            (float(distances[:, 0].min()), float(distances[:, 1].max())) if count else None,
             self._statistics() if count else None,
             voxels,
             len(plan.grid.inner(voxels.keys)),
             volume_bounds(plan.grid, voxels, plan.extent),
             float(late.mean()) if count else None,
-            points,
+            None if self._points is None else self._points[:count],
             self._certificate(robot, chain),
         )
 
     def _statistics(self) -> Measures:
-        least, most, total = self._measures
-        if most == 0.0:
+        best = max(self._parts, key=lambda part: part.measures[1])
+        if best.measures[1] == 0.0:
             return Measures(0.0, 0.0, 0.0, None, None)
-        q = self._plan.sampling.configurations(self._best, 1)
-        position = self._plan.measured(q)[0][0]
-        return Measures(least, total / self._count, most, position, q[0])
+        q = self._plan.sampling.configurations(best.best, 1)
+        return Measures(
+            min(part.measures[0] for part in self._parts),
+            sum(part.measures[2] for part in self._parts) / self._count,
+            best.measures[1],
+            self._plan.measured(q)[0][0],
+            q[0],
+        )
 
-    def _certificate(self, robot: RobotModel, chain: Chain) -> SurveyCertificate:
+    def _certificate(self, robot: RobotModel, chain: Chain) -> WorkspaceCertificate:
         """Recompute some evenly spaced samples, and compare them with the stored ones and with Pinocchio's."""
         plan, total = self._plan, self._plan.sampling.count
         numbers = np.unique(np.linspace(0, total - 1, min(total, 16)).astype(np.int64))
@@ -175,10 +160,10 @@ class Survey:
         if self._points is not None and self._count == total:
             agreed("a sample's position", self._points[numbers, :3] - positions, plan.extent)
             agreed("a sample's measure", self._points[numbers, 3] - measures, scale)
-        return SurveyCertificate(
-            certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
-            certify_jacobians(robot, chain, qs, Js).max_error,
-            error,
+        return WorkspaceCertificate(
+            **asdict(certify_poses(robot, chain, qs, {chain.tip_frame: poses})),
+            max_jacobian_error=certify_jacobians(robot, chain, qs, Js).max_error,
+            max_measure_error=error,
         )
 
 
@@ -217,8 +202,6 @@ def _products(plan: SamplingPlan, Js: Array) -> tuple[Array, float]:
     """
     if len(plan.rows) == 0 or Js.shape[2] == 0:
         return np.zeros(len(Js)), 0.0
-    if plan.turn is not None:
-        Js = np.concatenate((plan.turn.T @ Js[:, :3], plan.turn.T @ Js[:, 3:]), axis=1)
-    sigmas = np.linalg.svd(Js[:, plan.rows], compute_uv=False)
+    sigmas = np.linalg.svd(in_axes(Js, plan.turn)[:, plan.rows], compute_uv=False)
     products: Array = np.prod(sigmas, axis=1)
     return products, float(sigmas.max()) ** sigmas.shape[1]

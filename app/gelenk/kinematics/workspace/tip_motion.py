@@ -65,10 +65,7 @@ class TipReach:
     @cached_property
     def local_dimensions(self) -> int:
         """Dimension of the set of positions: less than `dimensions` for a curve or a curved surface."""
-        if self.dimensions == 0:
-            return 0
-        velocities = self._velocities[:3].reshape(3, _DIRECTIONS, -1).transpose(1, 0, 2)
-        return int(np.linalg.matrix_rank(velocities, tol=_STRUCTURAL * float(np.abs(velocities).max())).max())
+        return _largest_rank(self._Js[:, :3])
 
     @property
     def kept_to(self) -> str | None:
@@ -83,11 +80,9 @@ class TipReach:
             return ["the tip does not move"]
         if self.kept_to is None:
             return []
-        note = (
-            f"the tip stays on a {self.kept_to}: the volume of the voxels it passes through shrinks with their size, "
-            f"and the measure of more than {counted(self.local_dimensions, 'direction')} vanishes everywhere"
-        )
-        return [note]
+        dimensions = counted(self.local_dimensions, "direction")
+        why = f"the tip stays on a {self.kept_to}: the volume of the voxels it passes through shrinks with their size"
+        return [f"{why}, and the measure of more than {dimensions} vanishes everywhere"]
 
     def slice_notes(self, normal: Array) -> list[str]:
         """Explain why a slice with this unit normal, shape (3,), has no area; empty if it has one."""
@@ -105,9 +100,7 @@ class TipReach:
             rows: Indices of the rows.
             turn: Axes of the rows as columns, shape (3, 3); the base's if None.
         """
-        Js = self._Js
-        if turn is not None:
-            Js = np.concatenate((turn.T @ Js[:, :3], turn.T @ Js[:, 3:]), axis=1)
+        Js = in_axes(self._Js, turn)
         if not rows or Js.shape[2] == 0:
             return True
         return bool((np.linalg.svd(Js[:, rows], compute_uv=False)[:, -1] <= rounding(Js)).all())
@@ -127,6 +120,11 @@ class TipReach:
         moving = Js[:, :3] / max(self.farthest, np.finfo(float).tiny)
         turning = (self._rotations.transpose(0, 2, 1) @ Js[:, 3:])[:, : 2 if direction_only else 3]
         return _largest_rank(moving), _largest_rank(np.concatenate((moving, turning), axis=1))
+
+
+def in_axes(Js: Array, turn: Array | None) -> Array:
+    """Express Jacobians, shape (N, 6, n), in the axes that are columns of a rotation; the base's if None."""
+    return Js if turn is None else np.concatenate((turn.T @ Js[:, :3], turn.T @ Js[:, 3:]), axis=1)
 
 
 def _largest_rank(matrices: Array) -> int:

@@ -71,8 +71,7 @@ class Grid:
         mask = (1 << _BITS) - 1
         shifts = _BITS * np.arange(self.dimensions)
         indices = ((keys[:, None] >> shifts) & mask) - MOST_ALONG_AXIS
-        centres: Array = self.origin + (indices * self.size) @ self.axes[:, : self.dimensions].T
-        return centres
+        return np.asarray(self.origin + (indices * self.size) @ self.axes[:, : self.dimensions].T)
 
     def inner(self, keys: Indices) -> Indices:
         """Select the cells whose neighbours are all present, including edges and corners; shape (M,) → (k,).
@@ -143,12 +142,8 @@ def merged(tables: Sequence[VoxelTable]) -> VoxelTable:
     Raises:
         TooLarge: The result has more than `MAX_VOXELS` cells.
     """
-    table = _reduced(
-        np.concatenate([table.keys for table in tables]),
-        np.concatenate([table.counts for table in tables]),
-        np.concatenate([table.best for table in tables]),
-        np.concatenate([table.first for table in tables]),
-    )
+    columns = zip(*((table.keys, table.counts, table.best, table.first) for table in tables), strict=True)
+    table = _reduced(*map(np.concatenate, columns))
     if len(table) > MAX_VOXELS:
         raise TooLarge("voxels that samples fall into", len(table), MAX_VOXELS)
     return table

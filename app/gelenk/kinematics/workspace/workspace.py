@@ -44,8 +44,7 @@ class Plane:
 
     def holds(self, positions: Array) -> Flags:
         """Return which positions lie in the slice; shape (N, 3) → (N,)."""
-        flags: Flags = np.abs((positions - self.origin) @ self.normal) <= 0.5 * self.thickness
-        return flags
+        return np.asarray(np.abs((positions - self.origin) @ self.normal) <= 0.5 * self.thickness)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,11 +145,7 @@ def plan(chain: Chain, wish: Wish) -> tuple[SamplingPlan, TipReach]:
 
 
 def _grid(motion: TipReach, wish: Wish) -> Grid:
-    """Cells in space, in the requested plane, or in the plane or line that the tip stays in.
-
-    Raises:
-        InvalidField: Cells are larger than the arm, or too many along an axis for their keys.
-    """
+    """Cells in space, in the requested plane, or in the plane or line that the tip stays in."""
     if wish.plane is not None and motion.dimensions:
         origin, axes, dimensions = wish.plane.origin, plane_axes(wish.plane.normal), 2
     elif motion.dimensions == 3:
@@ -163,7 +158,7 @@ def _grid(motion: TipReach, wish: Wish) -> Grid:
     size = wish.voxel_size
     if size is None:
         longest = float(np.ptp(places, axis=0).max(initial=0.0))
-        size = _rounded(longest / _CELLS[wish.kind]) if longest > 1e-9 else 1e-3
+        size = float(f"{longest / _CELLS[wish.kind]:.1e}") if longest > 1e-9 else 1e-3
     if dimensions and size > motion.farthest:
         allowed = f"at most {motion.farthest:.3g} m, which is how far this chain reaches"
         raise InvalidField("voxel_size", f"a voxel of {size:.3g} m is larger than the arm: use {allowed}")
@@ -171,10 +166,6 @@ def _grid(motion: TipReach, wish: Wish) -> Grid:
     if size <= least:
         raise InvalidField("voxel_size", f"{size:.3g} m is too small for this chain: more than {least:.3g} m is needed")
     return Grid(origin, axes, dimensions, size)
-
-
-def _rounded(length: float) -> float:
-    return float(f"{length:.1e}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,8 @@ from typing import Literal
 import numpy as np
 
 from gelenk.errors import CertificationFailed
-from gelenk.kinematics.judge.judge import MAX_SAMPLES, PoseCertificate, certify_poses
+from gelenk.kinematics.judge.judge import MAX_SAMPLES, certify_poses
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
