@@ -5,7 +5,6 @@ import os
 import sys
 import threading
 from collections.abc import AsyncIterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from functools import partial
 
@@ -25,7 +24,6 @@ from gelenk.http.access.middleware import AccessRule, Middleware
 from gelenk.http.access.origins import Origins
 from gelenk.http.access.route_table import RouteTable
 from gelenk.http.access.tracing import TracedId, exporter_variables, telemetry
-from gelenk.http.derive.derive import derive_handler
 from gelenk.http.jobs.jobs import jobs_router
 from gelenk.http.jobs.long_works import LONG_WORK
 from gelenk.http.jobs.workspace import SampleLimits, workspace_route, workspace_work
@@ -36,7 +34,7 @@ from gelenk.http.robots.robots import robots_router, upload_routes
 from gelenk.http.robots.table import table_route
 from gelenk.http.service import Readiness, service_router
 from gelenk.http.workers.context import ContextSetup
-from gelenk.http.workers.pool_client import PARSED_HERE_BYTES, PoolClient
+from gelenk.http.workers.pool_client import PoolClient
 from gelenk.jobs import workspace
 from gelenk.jobs.cluster import Cluster
 from gelenk.jobs.runner import Kind, Runner
@@ -77,7 +75,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         settings.crew_processes, settings.crew_waiting, settings.crew_memory_bytes, settings.job_processes
     )
     pool_client = PoolClient(pool, setup, library, seconds, settings.client_requests)
-    derivations = ThreadPoolExecutor(4, thread_name_prefix="derive")
     runner = _runner(settings, limits, pool)
     audit = AuditLog(settings.data_dir / "audit")
     metrics = Metrics(library.catalogue_names, pool, runner.store.states)
@@ -94,7 +91,6 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
         starting.cancel()
         await asyncio.to_thread(runner.close)
         pool.close()
-        derivations.shutdown()
         audit.close()
 
     app = Application(
@@ -127,11 +123,9 @@ def create_app(settings: Settings, pool: WorkerPool | None = None) -> Applicatio
     size = settings.max_body_bytes
     app.include_router(robots_router(library, pool_client))
     app.router.routes.extend(upload_routes(pool_client, size))
-    special = {"derive_dh": derive_handler(pool, derivations)}
     for endpoint in ENDPOINTS:
-        handler = special.get(endpoint.name) or dispatch.handler(endpoint, pool_client, runner, limits)
-        most_body = min(size, PARSED_HERE_BYTES) if endpoint.name in special else size
-        app.router.routes.append(dispatch.route(endpoint, handler, most_body))
+        handler = dispatch.handler(endpoint, pool_client, runner, limits)
+        app.router.routes.append(dispatch.route(endpoint, handler, size))
         if isinstance(endpoint, RobotEndpoint):
             app.operations[endpoint.name] = handler
     app.router.routes.append(table_route(pool_client, size))

@@ -43,7 +43,7 @@ _BOUNDS = (
     ("keys", keyring.MAX_KEYS),
     ("targets of a call by a method of the course, or with `trace`", ik.MAX_STEPWISE),
     ("the same of a job", ik.MAX_JOB_STEPWISE),
-    ("a body of `dh/derive` or `workspace`", f"{pool_client.PARSED_HERE_BYTES // 1024} KiB"),
+    ("a body of `workspace`", f"{pool_client.PARSED_HERE_BYTES // 1024} KiB"),
     ("configurations of a target's `trace`", ik.MAX_TRACE),
     ("targets of a job", ik.MAX_JOB_TARGETS),
 )

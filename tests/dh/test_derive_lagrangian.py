@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from gelenk.dh import worked
 from gelenk.dh.derive.algebra import Polynomial, derivative
-from gelenk.dh.derive.typeset import MatrixText, Style
+from gelenk.dh.derive.typeset import MatrixFormula, Style
 from gelenk.dh.lagrangian import equations, symbolic
 from gelenk.dh.lagrangian import solution as solution_module
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody, MassProperties
@@ -55,7 +55,8 @@ def derived(dh: DhTable, *bodies: LinkBody, gravity: Gravity = UPRIGHT, style: S
     return motion(worked_solution(dh, style=style, dynamics=MassProperties(bodies, gravity))).texts
 
 
-def plain(matrix: MatrixText) -> list[list[str]]:
+def plain(matrix: MatrixFormula) -> list[list[str]]:
+    assert matrix.plain is not None
     return matrix.plain
 
 
@@ -64,9 +65,9 @@ class Reader:
 
     def __init__(self, found: MotionTexts, q: Sequence[float], extra: Mapping[str, float]) -> None:
         entries: list[dict[str, Any]] = [
-            {"plain": one.symbol.plain, "latex": one.symbol.latex, "meaning": one.meaning.plain, "value": one.value}
+            {"plain": one.plain, "latex": one.latex, "meaning": one.meaning, "value": one.value}
             for one in found.legend
-            if not one.symbol.plain.startswith("tau")
+            if not one.plain.startswith("tau")
         ]
         for entry in entries:
             if entry["value"] is None:
@@ -79,10 +80,11 @@ class Reader:
     def value(self, formula: str) -> float:
         return expressions.value(formula, self.names)
 
-    def grid(self, matrix: MatrixText) -> Array:
+    def grid(self, matrix: MatrixFormula) -> Array:
+        assert matrix.latex is not None
         cells = expressions.latex_entries(matrix.latex)
         latex = [[expressions.latex_value(cell, self.entries, self.words) for cell in row] for row in cells]
-        values = np.array([[self.value(cell) for cell in row] for row in matrix.plain])
+        values = np.array([[self.value(cell) for cell in row] for row in plain(matrix)])
         np.testing.assert_allclose(latex, values, rtol=1e-12, atol=1e-12)
         return values
 
@@ -129,18 +131,18 @@ def check_by_text(
         np.testing.assert_allclose(read.grid(found.skew), C.T - C, rtol=0, atol=2e-7 * scale)
         left = [read.row(found, i) for i in range(len(q))]
         np.testing.assert_allclose(left, M @ a + C @ v + g, rtol=0, atol=2e-7 * scale)
-        kinetic = sum(read.value(body.kinetic.plain) for body in found.bodies)
+        kinetic = sum(read.value(body.kinetic_energy.plain) for body in found.bodies)
         assert kinetic == pytest.approx(0.5 * v @ M @ v, abs=1e-7 * scale)
-        heights = sum(read.value(body.potential.plain) for body in found.bodies)
+        heights = sum(read.value(body.potential_energy.plain) for body in found.bodies)
         frame_0 = replace(
             judge, table=replace(judge.table, base=np.eye(4)), gravity=(dh.base[:3, :3].T @ judge.gravity).tolist()
         )
         assert heights == pytest.approx(frame_0.potential(q), abs=1e-9 * scale)
-        centers = np.array([read.grid(body.center)[:, 0] for body in found.bodies])
+        centers = np.array([read.grid(body.center_of_mass)[:, 0] for body in found.bodies])
         np.testing.assert_allclose(centers, frame_0.centers(q), atol=1e-12)
         for one in found.christoffel:
             wanted = c[one.i - 1, one.j - 1, one.k - 1]
-            assert read.value(one.formula.plain) == pytest.approx(wanted, abs=2e-7 * scale)
+            assert read.value(one.plain) == pytest.approx(wanted, abs=2e-7 * scale)
 
 
 # What textbooks print
@@ -160,14 +162,14 @@ def test_the_planar_2r_arm_letter_by_letter() -> None:
     assert found.rows[1].plain == (
         "(m2*(lc2**2 + a1*lc2*c2) + I2)*qdd1 + (m2*lc2**2 + I2)*qdd2 + m2*a1*lc2*s2*qd1**2 + m2*g0*lc2*c12 = tau2"
     )
-    assert found.mass_matrix.latex.startswith(
+    assert str(found.mass_matrix.latex).startswith(
         r"\begin{bmatrix} m_{1} l_{c1}^{2} + m_{2} \left(a_{1}^{2} + l_{c2}^{2} + 2 a_{1} l_{c2} c_{2}\right) + I_{1} "
     )
-    assert found.bodies[1].kinetic.plain == (
+    assert found.bodies[1].kinetic_energy.plain == (
         "(1/2)*m2*(a1**2*qd1**2 + lc2**2*(qd1 + qd2)**2 + 2*a1*lc2*c2*qd1*(qd1 + qd2)) + (1/2)*I2*(qd1 + qd2)**2"
     )
-    assert found.bodies[1].potential.plain == "m2*g0*(a1*s1 + lc2*s12)"
-    assert [(one.i, one.j, one.k, one.formula.plain) for one in found.christoffel] == [
+    assert found.bodies[1].potential_energy.plain == "m2*g0*(a1*s1 + lc2*s12)"
+    assert [(one.i, one.j, one.k, one.plain) for one in found.christoffel] == [
         (1, 1, 2, "-m2*a1*lc2*s2"),
         (1, 2, 2, "-m2*a1*lc2*s2"),
         (2, 1, 1, "m2*a1*lc2*s2"),
@@ -232,7 +234,7 @@ def test_craigs_arm_that_turns_and_slides_letter_by_letter() -> None:
     assert plain(found.mass_matrix) == [["m1*lc1**2 + m2*q2**2 + I1 + I2", "0"], ["0", "m2"]]
     assert plain(found.coriolis_vector) == [["2*m2*q2*qd1*qd2"], ["-m2*q2*qd1**2"]]
     assert plain(found.gravity_vector) == [["(m1*lc1 + m2*q2)*g0*c1"], ["m2*g0*s1"]]
-    symbols = {one.symbol.plain: one.meaning.plain for one in found.legend}
+    symbols = {one.plain: one.meaning for one in found.legend}
     assert "along that of joint 2" in symbols["lc1"]
     assert symbols["tau1"].startswith("torque")
     assert symbols["tau2"].startswith("force")
@@ -357,7 +359,7 @@ def test_values_in_place_of_symbols_change_nothing(name: str, style: Style) -> N
     case = CASES[name]
     dynamics = MassProperties(case.bodies, case.gravity)
     found = motion(worked_solution(case.dh, style=style, keeps_symbols=False, dynamics=dynamics)).texts
-    assert not {"m1", "lc1", "a1", "g0"} & {one.symbol.plain for one in found.legend}
+    assert not {"m1", "lc1", "a1", "g0"} & {one.plain for one in found.legend}
     check_by_text(case.dh, found, oracle(case.dh, case.links, case.gravity), count=1)
 
 
@@ -470,7 +472,7 @@ def test_a_horizontal_arm_has_no_gravity_term_and_the_notes_say_so() -> None:
 def test_without_gravity_there_is_none_and_nothing_to_note() -> None:
     solution = worked_solution(PLANAR_2R, dynamics=MassProperties((), Gravity(0.0, (0.0, 0.0, 0.0))))
     assert plain(motion(solution).texts.gravity_vector) == [["0"], ["0"]]
-    assert motion(solution).texts.bodies[0].potential.plain == "0"
+    assert motion(solution).texts.bodies[0].potential_energy.plain == "0"
     assert solution.notes == []
 
 

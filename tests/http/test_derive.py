@@ -1,6 +1,7 @@
 """The worked solution over HTTP."""
 
 import json
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -10,12 +11,13 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from gelenk.contract.derive import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer
+from gelenk.contract.derive_dh import EXAMPLE_ANTHROPOMORPHIC, DeriveAnswer, DeriveRequest
 from gelenk.contract.lagrangian import EXAMPLE_MOTION
 from gelenk.dh.derive.check import Checks
 from gelenk.errors import CertificationFailed
-from gelenk.http.derive import derive
+from gelenk.http.messages.payloads import json_response, read_json
 from gelenk.main import create_app
+from gelenk.operations import derive_dh
 from gelenk.settings import Settings
 from tests.oracles import catalogue, dh_columns, expressions
 from tests.robots import swept
@@ -29,6 +31,14 @@ def posted(client: TestClient, body: object) -> dict[str, Any]:
     assert answer.status_code == 200, answer.text
     DeriveAnswer.model_validate(answer.json())
     content: dict[str, Any] = answer.json()
+    return content
+
+
+def derived_here(body: object) -> dict[str, Any]:
+    """The answer, computed in this process."""
+    request = read_json(DeriveRequest, json.dumps(body).encode())
+    content: dict[str, Any] = json.loads(json_response(derive_dh.run(request).content()).body)
+    DeriveAnswer.model_validate(content)
     return content
 
 
@@ -255,13 +265,13 @@ def test_odd_angles_of_slides_and_lengths_far_apart_leave_nothing_out(
         assert answer["determinant"]["plain"] is not None
 
 
-def test_formulas_that_fail_their_check_are_null_and_noted(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_formulas_that_fail_their_check_are_null_and_noted(monkeypatch: pytest.MonkeyPatch) -> None:
     def fails(checks: Checks, quantity: str, *_: object) -> bool:
         checks.left_out(CertificationFailed(quantity, 1.0, 1e-9))
         return False
 
     monkeypatch.setattr(Checks, "holds", fails)
-    answer = posted(client, EXAMPLE_ANTHROPOMORPHIC)
+    answer = derived_here(EXAMPLE_ANTHROPOMORPHIC)
     assert [one["plain"] for one in (*answer["A"], *answer["T_0"])] == [None] * 6
     assert (answer["T_base_tool"], answer["position"], answer["rotation"], answer["jacobian"]) == (None,) * 4
     assert answer["determinant"]["plain"] is not None
@@ -289,16 +299,47 @@ def test_a_large_arm_is_answered_in_time_and_says_what_it_leaves_out(client: Tes
     assert len(answer["numeric"][0]["T_0"]) == 64
 
 
-def test_without_time_the_numbers_are_answered_all_the_same(
-    client: TestClient, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(derive, "SECONDS", 0.0)
-    answer = posted(client, {"dh": PANDA, "joint_positions": [[0.1] * 7]})
+def test_without_time_the_numbers_are_answered_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive_dh, "SECONDS", 0.0)
+    answer = derived_here({"dh": PANDA, "joint_positions": [[0.1] * 7]})
     assert answer["A"][0]["plain"] is None
     assert answer["certificate"] is None
     assert "time allowed" in answer["notes"][0]
     tip = answer["numeric"][0]["T_base_tool"]
     np.testing.assert_allclose(tip, dh_columns.from_json(PANDA).pose([0.1] * 7), atol=1e-12)
+
+
+def test_what_takes_too_long_is_broken_off_and_what_comes_after_it_is_not() -> None:
+    def endless(_: None) -> None:
+        while True:
+            try:
+                sum(range(1000))
+            except Exception:  # noqa: S112 - as a library may
+                continue
+
+    started = time.monotonic()
+    for _ in range(3):
+        with pytest.raises(TimeoutError):
+            derive_dh.in_time(endless, None, 0.05)
+    assert time.monotonic() - started < 10
+    assert derive_dh.in_time(lambda x: 2 * x, 21, 0.05) == 42
+    with pytest.raises(ZeroDivisionError):
+        derive_dh.in_time(lambda x: x / 0, 1.0, 30.0)
+    time.sleep(0.1)
+
+
+def test_an_import_is_never_broken_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "slow_to_load.py").write_text("import time\ntime.sleep(0.3)\nis_whole = True\n")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def load(_: None) -> None:
+        import slow_to_load  # type: ignore[import-not-found]  # noqa: F401
+
+        time.sleep(30.0)
+
+    with pytest.raises(TimeoutError):
+        derive_dh.in_time(load, None, 0.05)
+    assert sys.modules["slow_to_load"].is_whole
 
 
 def test_a_textbook_arm_is_answered_well_within_a_second_once_warm(client: TestClient) -> None:

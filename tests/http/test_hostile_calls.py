@@ -25,7 +25,7 @@ JSON_OPERATIONS = [
     if "application/json" in operation.get("requestBody", {}).get("content", {})
 ]
 
-TAKE_LITTLE = {"/v1/dh/derive", "/v1/robots/{robot}/workspace"}
+TAKE_LITTLE = {"/v1/robots/{robot}/workspace"}
 
 
 def is_large(call: Call) -> bool:

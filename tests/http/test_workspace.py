@@ -13,6 +13,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from gelenk.contract.workspace import WorkspaceAnswer
+from gelenk.http.workers.pool_client import PARSED_HERE_BYTES
 from gelenk.jobs.workspace_picture import captions
 from gelenk.main import create_app
 from gelenk.robot.arrays import Array
@@ -306,6 +307,12 @@ def test_bodies_that_are_none(client: TestClient, content: bytes, headers: dict[
     answer = client.post("/v1/robots/panda/workspace", content=content, headers=headers)
     assert answer.status_code == status, answer.text
     assert answer.headers["content-type"] == "application/problem+json"
+
+
+def test_a_large_body_is_not_parsed_beside_the_event_loop(client: TestClient) -> None:
+    body = b"{" + b" " * PARSED_HERE_BYTES + b"}"
+    answer = client.post("/v1/robots/panda/workspace", content=body, headers={"content-type": "application/json"})
+    assert (answer.status_code, answer.json()["allowed"]) == (413, PARSED_HERE_BYTES)
 
 
 def test_the_service_writes_where_it_is_told(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from gelenk.contract import (
     compare_dh,
     convert_dh,
     dc_motor,
-    derive,
+    derive_dh,
     dh_from_urdf,
     dh_to_urdf,
     dynamics,
@@ -115,7 +115,7 @@ class Operations:
     dh_from_urdf = _calculator(dh_from_urdf.ENDPOINT)
     convert_dh = _calculator(convert_dh.ENDPOINT)
     compare_dh = _calculator(compare_dh.ENDPOINT)
-    derive_dh = _calculator(derive.ENDPOINT)
+    derive_dh = _calculator(derive_dh.ENDPOINT)
 
     dc_motor = _calculator(dc_motor.ENDPOINT)
     gear = _calculator(gear.ENDPOINT)

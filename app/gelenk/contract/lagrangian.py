@@ -1,15 +1,18 @@
 """The equations of motion of a planar arm, as payloads."""
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import Discriminator, Field, Tag, field_validator
 
 from gelenk.contract.common import Answer, Payload
-from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
 from gelenk.contract.kinematics import Configuration
+from gelenk.dh.derive.typeset import Formula, MatrixFormula
 from gelenk.dh.lagrangian.bodies import STANDARD_GRAVITY, Gravity, LinkBody, MassProperties
+from gelenk.dh.lagrangian.texts import ChristoffelSymbol, EquationsCertificate, LinkFormulas
 from gelenk.robot.dh import MAX_JOINTS, MAX_LENGTH
+
+Grid: TypeAlias = list[list[float]]
 
 MAX_CONFIGURATIONS = 100
 MAX_MASS = 1e6
@@ -103,25 +106,6 @@ class DynamicsPayload(Payload):
         return MassProperties(tuple(link.body() for link in self.links), gravity, self.joint_velocities)
 
 
-class BodyInfo(Answer):
-    """A link in the Lagrangian; vectors in the axes of frame 0."""
-
-    joint: str = Field(description="The joint that moves the body.")
-    center_of_mass: MatrixInfo = Field(description="p_ci from the origin of frame 0.")
-    velocity: MatrixInfo = Field(description="v_ci, of the centre of mass.")
-    angular_velocity: FormulaInfo = Field(description="ω_i about the normal of the plane.")
-    kinetic_energy: FormulaInfo = Field(description="T_i.")
-    potential_energy: FormulaInfo = Field(description="U_i, zero at the origin of frame 0.")
-
-
-class ChristoffelInfo(FormulaInfo):
-    """A Christoffel symbol of the first kind, c_ijk = c_ikj."""
-
-    i: int = Field(description="Number of the row of C, from 1.")
-    j: int = Field(description="Number of the column, from 1.")
-    k: int = Field(description="Number of the velocity beside it, from j on.")
-
-
 class MotionNumbers(Answer):
     """The equations of motion at one configuration."""
 
@@ -133,30 +117,18 @@ class MotionNumbers(Answer):
     gravity_vector: list[float] = Field(description="g, [N m or N].")
 
 
-class EquationsCertificate(Answer):
-    """Comparison of the equations of motion with Pinocchio, which builds the arm from the table with these masses."""
-
-    samples: int = Field(
-        description="States that were compared; in symbols, also with random values for what has none."
-    )
-    max_mass_matrix_error: float = Field(description="Largest difference of an entry of M, [kg m², kg m or kg].")
-    max_coriolis_error: float = Field(description="Of a Christoffel symbol, [kg m², kg m or kg].")
-    max_gravity_error: float = Field(description="Of an entry of g, [N m or N].")
-    seed: int | None = Field(description="Random seed of the sampling; null where configurations were given.")
-
-
 class DynamicsInfo(Answer):
     """The equations of motion, M(q) q̈ + C(q, q̇) q̇ + g(q) = τ."""
 
-    gravity: MatrixInfo = Field(description="Acceleration of free fall in the axes of frame 0.")
-    links: list[BodyInfo]
-    mass_matrix: MatrixInfo = Field(description="M(q), symmetric.")
-    christoffel: list[ChristoffelInfo] = Field(description="Those that differ from zero, j ≤ k.")
-    coriolis: MatrixInfo = Field(description="C(q, q̇), with C_ij = Σ_k c_ijk q̇_k.")
-    coriolis_vector: MatrixInfo = Field(description="C q̇.")
-    gravity_vector: MatrixInfo = Field(description="g(q).")
-    skew: MatrixInfo = Field(description="dM/dt - 2C, skew symmetric.")
-    equations_of_motion: list[FormulaInfo] = Field(description="One per joint, each with its `tau` on the right.")
+    gravity: MatrixFormula = Field(description="Acceleration of free fall in the axes of frame 0.")
+    links: list[LinkFormulas]
+    mass_matrix: MatrixFormula = Field(description="M(q), symmetric.")
+    christoffel: list[ChristoffelSymbol] = Field(description="Those that differ from zero, j ≤ k.")
+    coriolis: MatrixFormula = Field(description="C(q, q̇), with C_ij = Σ_k c_ijk q̇_k.")
+    coriolis_vector: MatrixFormula = Field(description="C q̇.")
+    gravity_vector: MatrixFormula = Field(description="g(q).")
+    skew: MatrixFormula = Field(description="dM/dt - 2C, skew symmetric.")
+    equations_of_motion: list[Formula] = Field(description="One per joint, each with its `tau` on the right.")
     numeric: list[MotionNumbers] = Field(
         description="One entry per configuration; empty where a mass or the like has no value."
     )

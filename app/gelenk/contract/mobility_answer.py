@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from gelenk.contract.common import Answer
-from gelenk.contract.derive import StepInfo
+from gelenk.course.steps import Step
 
 
 class PairInfo(Answer):
@@ -139,4 +139,4 @@ class MobilityAnswer(Answer):
     )
     spaces: SpacesInfo | None = Field(description="Of a robot: joint space and task spaces; else null.")
     warnings: list[str] = Field(description="What the number alone does not show.")
-    steps: list[StepInfo] = Field(description="The calculation, step by step.")
+    steps: list[Step] = Field(description="The calculation, step by step.")

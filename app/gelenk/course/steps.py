@@ -3,17 +3,19 @@
 import math
 from dataclasses import dataclass
 
+from gelenk.robot.result import Result
+
 _SHOWN_DIGITS = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """A section of a worked solution.
+class Step(Result):
+    """A section of the worked solution.
 
     Attributes:
-        title: Name of the quantity or the stage of the solution.
-        text: Explanation in a sentence or two.
-        latex: Formulas, each for a line of its own.
+        title: What the step computes.
+        text: The step in a sentence or two.
+        latex: Formulas, one per line.
     """
 
     title: str

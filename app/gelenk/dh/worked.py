@@ -9,17 +9,18 @@ numeric. The notes say both.
 import logging
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Protocol, TypeVar
 
 import numpy as np
 
-from gelenk.dh.derive.check import Checks, FormulaCertificate, checked_formulas, checked_singularities
+from gelenk.course.steps import Step
+from gelenk.dh.derive.check import Checks, checked_formulas, checked_singularities
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
-from gelenk.dh.derive.steps import DerivationStep, steps
+from gelenk.dh.derive.steps import steps
 from gelenk.dh.derive.symbolic import formulas, singularities
 from gelenk.dh.derive.table import Numbers4, RowNumbers, TableNumbers
-from gelenk.dh.derive.texts import Formulas, Singularities, SymbolicRequest
+from gelenk.dh.derive.texts import FormulaCertificate, Formulas, Singularities, SymbolicRequest
 from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS
 from gelenk.dh.derive.typeset import Style
 from gelenk.dh.lagrangian.bodies import MassProperties
@@ -72,7 +73,6 @@ class WorkedSolution:
         formulas: Transforms and Jacobian; None if there was no time.
         singularities: Determinant, and where it vanishes; None if there was no time.
         motion: The equations of motion; None if they were not requested, or the notes say why there are none.
-        examples: Smallest singular value of the block at each condition's example; None without an example.
         numeric: One entry per given configuration.
         determinants: Determinant of the block at each of these; None if no block is square.
         steps: The solution in words.
@@ -86,10 +86,9 @@ class WorkedSolution:
     formulas: Formulas | None
     singularities: Singularities | None
     motion: MotionSolution | None
-    examples: list[float | None]
     numeric: list[NumericSolution]
     determinants: list[float | None]
-    steps: list[DerivationStep]
+    steps: list[Step]
     notes: list[str]
     certificate: FormulaCertificate | None
     pose_certificate: PoseCertificate | None
@@ -138,7 +137,7 @@ def worked_solution(
     what = "the equations of motion", "they are left out"
     moving = _timed(run, motion, asked, deadline, 0.5, notes, *what) if asked else None
     singular = _timed(run, singularities, question, deadline, 1.0, notes, "the determinant") if found else None
-    checks, examples, solved = Checks(0.0, []), list[float | None](), None
+    checks, solved = Checks(0.0, []), None
     if found is not None:
         notes = [*found.remarks, *_limits(table, found, singular), *notes]
         as_read = _read_back(table, found.as_read)
@@ -147,22 +146,21 @@ def worked_solution(
         solutions = [numeric_solution(as_read, q) for q in samples]
         found = checked_formulas(found, solutions, checks)
         if singular is not None:
-            singular, examples = checked_singularities(singular, solutions, as_read, checks)
+            singular = checked_singularities(singular, solutions, as_read, checks)
         notes += checks.notes
     if isinstance(moving, NoMotion):
         notes.append(moving.reason)
     elif bodies is not None and found is None:
         notes.append("without the transforms in symbols the equations of motion are left out too")
-    told = steps(table.convention, found, singular) if found is not None else []
+    derivation = steps(table.convention, found, singular) if found is not None else []
     return WorkedSolution(
         tuple(row.name for row in table.joints),
         found,
         singular,
         solved,
-        examples,
         numeric,
         [_determinant(singular, solution) for solution in numeric],
-        [*told, *(solved.steps if solved is not None else ())],
+        [*derivation, *(solved.steps if solved is not None else ())],
         [*notes, *(solved.notes if solved is not None else ())],
         None if found is None else FormulaCertificate(len(samples), checks.worst, SEED),
         *_certified(robot, qs, numeric),
@@ -183,7 +181,7 @@ def _timed(
     seconds = float("inf") if deadline is None else (deadline - time.monotonic()) * share
     try:
         return run(function, question, seconds)
-    except (TimeoutError, ChildProcessError):
+    except (TimeoutError, MemoryError):
         notes.append(f"{what} could not be worked out in symbols in the time allowed: {instead}")
     except ArithmeticError:
         logger.exception("derived formulas left out: %s failed a check of their own", what)
@@ -197,7 +195,7 @@ def _samples(table: DhTable) -> Array:
 
 
 def _numbers(table: DhTable) -> TableNumbers:
-    rows = tuple(RowNumbers(row.type == "revolute", row.a, row.alpha, row.d, row.theta) for row in table.joints)
+    rows = tuple(RowNumbers(row.name, row.type, row.a, row.alpha, row.d, row.theta) for row in table.joints)
     return TableNumbers(table.convention, rows, _tuples(table.base), _tuples(table.tool))
 
 
@@ -207,10 +205,7 @@ def _tuples(matrix: Array) -> Numbers4:
 
 def _read_back(table: DhTable, numbers: TableNumbers) -> DhTable:
     """Return the table that the formulas stand for: angles and lengths as they were read."""
-    joints = tuple(
-        DhJoint(row.name, row.type, read.a, read.alpha, read.d, read.theta)
-        for row, read in zip(table.joints, numbers.rows, strict=True)
-    )
+    joints = tuple(DhJoint(**asdict(row)) for row in numbers.rows)
     return DhTable(table.convention, joints, np.array(numbers.base), np.array(numbers.tool))
 
 

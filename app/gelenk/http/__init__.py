@@ -2,6 +2,6 @@
 
 - `dispatch`: routes and responses of all operations, built from the table of endpoints.
 - `messages`: bodies, answers, errors and the OpenAPI document. `access`: checks of every request.
-- `workers`: requests that a worker process answers. `jobs`: long work. `robots`, `derive`: the other resources.
+- `workers`: requests that a worker process answers. `jobs`: long work. `robots`: the robots as resources.
 - `service`: health and readiness; `documentation`: the page of the reference; `studio`: the studio's files.
 """

@@ -1,4 +1,4 @@
-"""Bodies for the links of a DH table: simple solids along its lengths, with a fixed mass per metre.
+"""Bodies for the links of a DH table, and stand-in bodies for links without visible shapes: simple solids.
 
 A DH table does not describe bodies. To display its robot and simulate its motion, each link gets thin cylinders along
 its d (the joint's axis) and its a (the common normal), a shorter, thicker cylinder at a revolute joint and a box at a
@@ -7,14 +7,14 @@ definite and within the triangle inequality.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import rotation_to_axis
-from gelenk.robot.description import Inertial, Origin, Shape, Triple
+from gelenk.robot.description import MOVABLE, Description, Inertial, Joint, Link, Origin, Shape, Triple
 from gelenk.robot.notations import origin_of
 
 MASS_PER_LENGTH = 3.0
@@ -24,6 +24,8 @@ INVENTED_MASSES = (
     "simple bodies drawn for it"
 )
 
+_SKELETON_THICKNESS = 0.06
+"""Relative radius of a rod of a skeleton, half that of a DH table's, so that it is not taken for the robot's own shape."""
 _Z: Triple = (0.0, 0.0, 1.0)
 _SMALLEST_RADIUS = 1e-4
 """Minimum radius of a thin cylinder, [m], so that no solid is massless."""
@@ -137,3 +139,38 @@ def inertial_of(solids: Sequence[Solid]) -> Inertial:
     x, y, z = (float(value) + 0.0 for value in centre)
     place: Triple = (x, y, z)
     return Inertial(Origin(place), lightness * mass, (ixx, ixy, ixz, iyy, iyz, izz))
+
+
+def skeleton(description: Description, without: Container[str]) -> dict[str, list[Solid]]:
+    """Create solids for the links that show nothing themselves, each in its link's frame.
+
+    Args:
+        description: The robot's description.
+        without: Names of meshes whose files are missing.
+
+    Returns:
+        Solids by link name: a rod to each joint below, and a body for the joint above if that moves; no link without
+        solids. If other links show something, a link with neither a shape nor a movable joint is a mere frame: none.
+    """
+    stock = Stock((math.hypot(*joint.origin.xyz) for joint in description.joints), _SKELETON_THICKNESS)
+    bare = [link for link in description.links if not _shows(link, without)]
+    found = {}
+    for link in bare:
+        above, below = description.joint_above.get(link.name), description.joints_below[link.name]
+        moves = any(joint.type in MOVABLE for joint in (above, *below) if joint)
+        if moves or link.shapes or len(bare) == len(description.links):
+            found[link.name] = _solids(stock, above, below)
+    return {name: solids for name, solids in found.items() if solids}
+
+
+def _shows(link: Link, without: Container[str]) -> bool:
+    return any(shape.role == "visual" and shape.mesh not in without for shape in link.shapes)
+
+
+def _solids(stock: Stock, above: Joint | None, below: tuple[Joint, ...]) -> list[Solid]:
+    solids = [rod for joint in below for rod in stock.rod((0.0, 0.0, 0.0), joint.origin.xyz)]
+    if above is None or above.type not in MOVABLE:
+        return solids
+    if above.type == "prismatic":
+        return solids + stock.slide(above.limits.lower or 0.0, above.limits.upper or 0.0, above.axis)
+    return [*solids, stock.hub(axis=above.axis)]

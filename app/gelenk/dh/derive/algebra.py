@@ -102,11 +102,8 @@ class Polynomial:
     def value(self, values: Mapping[Atom, float]) -> float:
         """Evaluate the polynomial with these values of the atoms."""
         result = 0.0
-        for monomial, factor in self.terms.items():
-            product = float(factor)
-            for atom, power in monomial:
-                product *= values[atom] ** power
-            result += product
+        for monomial, factor in self:
+            result += math.prod((values[atom] ** power for atom, power in monomial), start=float(factor))
         return result
 
     def size(self, values: Mapping[Atom, float]) -> float:
@@ -117,8 +114,8 @@ class Polynomial:
         )
 
 
-Vector: TypeAlias = tuple[Polynomial, Polynomial, Polynomial]
-Matrix: TypeAlias = tuple[Vector, Vector, Vector]
+Vector: TypeAlias = tuple[Polynomial, ...]
+Matrix: TypeAlias = tuple[Vector, ...]
 """A 3×3 matrix, row by row."""
 
 
@@ -209,40 +206,64 @@ def cross(left: Vector, right: Vector) -> Vector:
 def product(left: Matrix, right: Matrix) -> Matrix:
     """Return the product of two matrices."""
     columns = tuple(zip(*right, strict=True))
-    rows = [(dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])) for row in left]
-    return rows[0], rows[1], rows[2]
+    return tuple(applied(columns, row) for row in left)
 
 
 def applied(matrix: Matrix, vector: Vector) -> Vector:
     """Return matrix times vector."""
-    return dot(matrix[0], vector), dot(matrix[1], vector), dot(matrix[2], vector)
+    return tuple(dot(row, vector) for row in matrix)
 
 
 def column(matrix: Matrix, index: Literal[0, 1, 2]) -> Vector:
     """Return a column of a matrix."""
-    return matrix[0][index], matrix[1][index], matrix[2][index]
+    return tuple(row[index] for row in matrix)
 
 
 def plus(left: Vector, right: Vector) -> Vector:
     """Return the sum of two vectors."""
-    return left[0] + right[0], left[1] + right[1], left[2] + right[2]
+    return tuple(x + y for x, y in zip(left, right, strict=True))
 
 
 def minus(left: Vector, right: Vector) -> Vector:
     """Return the difference of two vectors."""
-    return left[0] - right[0], left[1] - right[1], left[2] - right[2]
+    return tuple(x - y for x, y in zip(left, right, strict=True))
 
 
 def scaled(factor: Polynomial, vector: Vector) -> Vector:
     """Return a vector times a polynomial."""
-    return factor * vector[0], factor * vector[1], factor * vector[2]
+    return tuple(factor * x for x in vector)
+
+
+def shared_number(polynomial: Polynomial) -> Fraction:
+    """Return the positive number that all coefficients share."""
+    factors = polynomial.terms.values()
+    top = math.gcd(*(factor.numerator for factor in factors))
+    return Fraction(top, math.lcm(*(factor.denominator for factor in factors)))
+
+
+def shared_monomial(polynomial: Polynomial) -> Monomial:
+    """Return the product of the atoms that all terms share; the polynomial is not zero."""
+    powers = [dict(monomial) for monomial in polynomial.terms]
+    shared = {atom: min(power.get(atom, 0) for power in powers) for atom in powers[0]}
+    return tuple(sorted((atom, power) for atom, power in shared.items() if power))
+
+
+def quotient(polynomial: Polynomial, factor: Fraction, divisor: Monomial = ()) -> Polynomial:
+    """Return a polynomial divided by a number and by a monomial that all its terms contain."""
+    terms = {}
+    for monomial, value in polynomial:
+        powers = dict(monomial)
+        for atom, power in divisor:
+            powers[atom] -= power
+        terms[tuple((atom, power) for atom, power in powers.items() if power)] = value / factor
+    return Polynomial(terms)
 
 
 def derivative(polynomial: Polynomial, index: int, *, slides: bool = False) -> Polynomial:
     """Return ∂/∂ϑ of joint `index`; with `slides` ∂/∂q of a prismatic joint, whose angle is constant."""
     kind = VARIABLE if slides else TRIGONOMETRIC
     return collected(
-        (monomial_product(monomial_without(monomial, atom), (rest,) if rest else ()), factor * scale)
+        (monomial_product(tuple(item for item in monomial if item[0] != atom), rest), factor * scale)
         for monomial, factor in polynomial
         for atom, power in monomial
         if atom.kind == kind
@@ -250,21 +271,17 @@ def derivative(polynomial: Polynomial, index: int, *, slides: bool = False) -> P
     )
 
 
-def monomial_without(monomial: Monomial, atom: Atom) -> Monomial:
-    """Return a monomial without any power of an atom."""
-    return tuple(item for item in monomial if item[0] != atom)
-
-
-def _derivatives(atom: Atom, power: int, index: int) -> list[tuple[tuple[Atom, int] | None, int]]:
+def _derivatives(atom: Atom, power: int, index: int) -> list[tuple[Monomial, int]]:
     """Return the derivative of atom^power, [] if it is zero; sines and cosines may only have the power 1."""
     if atom.kind == VARIABLE and atom.indices == (index,):
-        return [((atom, power - 1) if power > 1 else None, power)]
+        return [(((atom, power - 1),) if power > 1 else (), power)]
     rate = sum((1 if i > 0 else -1) for i in atom.indices if abs(i) == index) if atom.kind == TRIGONOMETRIC else 0
     if not rate:
         return []
     if power != 1:
         raise TooManyTerms
-    return [((atom._replace(name="s"), 1), -rate) if atom.name == "c" else ((atom._replace(name="c"), 1), rate)]
+    name, factor = ("s", -rate) if atom.name == "c" else ("c", rate)
+    return [(((atom._replace(name=name), 1),), factor)]
 
 
 def reduced(polynomial: Polynomial, group: Group) -> Polynomial:
@@ -277,6 +294,16 @@ def reduced(polynomial: Polynomial, group: Group) -> Polynomial:
         for whole, factor in polynomial
         for monomial, scale in _reduced_monomial(whole, group)
     )
+
+
+def reduced_vector(vector: Vector, group: Group) -> Vector:
+    """Return a vector with each entry reduced."""
+    return tuple(reduced(entry, group) for entry in vector)
+
+
+def reduced_matrix(matrix: Matrix, group: Group) -> Matrix:
+    """Return a matrix with each entry reduced."""
+    return tuple(reduced_vector(row, group) for row in matrix)
 
 
 def _reduced_monomial(whole: Monomial, group: Group) -> list[tuple[Monomial, Fraction]]:

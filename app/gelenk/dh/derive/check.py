@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.dh.derive.jacobian import Block
 from gelenk.dh.derive.numeric import NumericSolution, numeric_solution
-from gelenk.dh.derive.texts import ConditionText, Formulas, Singularities
+from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -20,21 +21,6 @@ ROUNDING = 1e-13
 """Allowed difference relative to the terms that add up to a formula's value, or to an entry, even if they cancel."""
 SINGULAR = 1e-6
 """Smallest singular value, relative to the largest, below which a configuration counts as singular."""
-
-
-@dataclass(frozen=True, slots=True)
-class FormulaCertificate:
-    """Result of comparing formulas with numbers.
-
-    Attributes:
-        samples: Configurations at which every matrix, the Jacobian and its determinant were compared.
-        max_error: Largest difference of an entry of the formulas that are given.
-        seed: Random seed of the samples.
-    """
-
-    samples: int
-    max_error: float
-    seed: int
 
 
 @dataclass(slots=True)
@@ -101,8 +87,8 @@ def checked_formulas(found: Formulas, solutions: Sequence[NumericSolution], chec
 
 def checked_singularities(
     singular: Singularities, solutions: Sequence[NumericSolution], table: DhTable, checks: Checks
-) -> tuple[Singularities, list[float | None]]:
-    """Return the determinant's formulas that agree with the numbers, and the smallest singular value at each example.
+) -> Singularities:
+    """Return the determinant's formulas that agree with the numbers, with the smallest singular value at each example.
 
     The block must be singular at the example of a condition, which shows that the condition is solved correctly. If it
     is not, the factor remains, since the determinant holds, but is not solved.
@@ -113,28 +99,25 @@ def checked_singularities(
         table: Table as the formulas read it.
         checks: Collects the results.
     """
-    if singular.block is None or not _determinant_holds(singular, solutions, table, checks):
-        return replace(singular, legend=[], formula=None, factors=[], conditions=[], values=[], sizes=[]), []
-    conditions, examples = list[ConditionText](), list[float | None]()
+    if singular.block is None or not _determinant_holds(singular, singular.block, solutions, table, checks):
+        return Singularities(singular.block, singular.setting)
+    conditions = []
     for one in singular.conditions:
-        sigmas = _at_example(one, singular, table)
-        if sigmas is not None and not sigmas[-1] <= SINGULAR * max(1.0, sigmas[0]):
-            quantity = f"the configuration at which {one.factor.plain} = 0"
-            checks.left_out(CertificationFailed(quantity, float(sigmas[-1]), SINGULAR * max(1.0, float(sigmas[0]))))
+        sigmas = _at_example(one, singular.block, table)
+        if sigmas is None:
+            conditions.append(one)
+        elif sigmas[-1] <= (most := SINGULAR * max(1.0, sigmas[0])):
+            conditions.append(replace(one, example_singular_value=sigmas[-1]))
+        else:
+            checks.left_out(CertificationFailed(f"the configuration at which {one.condition.plain}", sigmas[-1], most))
             conditions.append(replace(one, kind="equation", solutions=[], example=None))
-            examples.append(None)
-            continue
-        conditions.append(one)
-        examples.append(None if sigmas is None else float(sigmas[-1]))
-    return replace(singular, conditions=conditions), examples
+    return replace(singular, conditions=conditions)
 
 
 def _determinant_holds(
-    singular: Singularities, solutions: Sequence[NumericSolution], table: DhTable, checks: Checks
+    singular: Singularities, block: Block, solutions: Sequence[NumericSolution], table: DhTable, checks: Checks
 ) -> bool:
-    block, worst = singular.block, 0.0
-    if block is None:
-        return True
+    worst = 0.0
     for value, size, solution in zip(singular.values, singular.sizes, solutions, strict=False):
         numbers = solution.block(block.rows, block.frame)
         norms = np.linalg.norm(numbers, axis=0)
@@ -158,10 +141,10 @@ def _scales(solution: NumericSolution, table: DhTable) -> Array:
     return 1.0 + np.array(arms) * [row.type == "revolute" for row in table.joints]
 
 
-def _at_example(condition: ConditionText, singular: Singularities, table: DhTable) -> Array | None:
+def _at_example(condition: SingularCondition, block: Block, table: DhTable) -> list[float] | None:
     """Return the singular values of the block at a condition's example; None without an example."""
-    if condition.example is None or singular.block is None:
+    if condition.example is None:
         return None
     solution = numeric_solution(table, np.array(condition.example))
-    block = solution.block(singular.block.rows, singular.block.frame)
-    return np.asarray(np.linalg.svd(block, compute_uv=False), dtype=np.float64)
+    values: list[float] = np.linalg.svd(solution.block(block.rows, block.frame), compute_uv=False).tolist()
+    return values

@@ -6,7 +6,7 @@ identity s² + c² = 1 is no longer in the way. Each product is multiplied out a
 """
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import combinations
@@ -23,14 +23,15 @@ from gelenk.dh.derive.algebra import (
     Polynomial,
     TooManyTerms,
     cosine,
-    monomial_product,
     number,
+    quotient,
     reduced,
+    shared_monomial,
+    shared_number,
     sine,
     symbol,
     total,
 )
-from gelenk.dh.derive.typeset import monomial_quotient, shared_number
 
 Degrees: TypeAlias = tuple[int, ...]
 
@@ -65,9 +66,9 @@ def factorised(polynomial: Polynomial, group: Group) -> tuple[Fraction, list[Pol
             atoms += more
             if len(remainder) > 1:
                 pending.append(remainder)
-    halved = [half for atom in atoms if (half := _halved(atom)) is not None]
-    factor *= 2 ** len(halved)
-    atoms = [atom for atom in atoms if _halved(atom) is None] + [atom for pair in halved for atom in pair]
+    halves = [_halved(atom) for atom in atoms]
+    factor *= 2 ** sum(len(half) > 1 for half in halves)
+    atoms = [atom for half in halves for atom in half]
     atoms.sort(key=lambda atom: (atom.kind == TRIGONOMETRIC, atom))
     return factor, [*(symbol(atom) for atom in atoms), *sorted(sums, key=lambda item: sorted(item.terms))]
 
@@ -80,7 +81,7 @@ def without_multiples(polynomial: Polynomial) -> tuple[Fraction, Polynomial]:
     options = [polynomial, _doubled(polynomial, "c"), _doubled(polynomial, "s")]
     best = min(options, key=len)
     content = shared_number(best)
-    return content, Polynomial({monomial: factor / content for monomial, factor in best})
+    return content, quotient(best, content)
 
 
 def _doubled(polynomial: Polynomial, square: str) -> Polynomial:
@@ -104,23 +105,18 @@ def _doubled_monomial(monomial: Monomial, square: str) -> Polynomial:
 
 def _shared(polynomial: Polynomial) -> tuple[Fraction, list[Atom], Polynomial]:
     """Return the number and the atoms that all terms share, and the rest, whose first coefficient is positive."""
-    terms = polynomial.terms
-    powers = [dict(monomial) for monomial in terms]
-    common = {atom: min(power.get(atom, 0) for power in powers) for atom in powers[0]}
-    monomial: Monomial = tuple(sorted((atom, power) for atom, power in common.items() if power))
-    content = shared_number(polynomial)
-    if terms[min(terms)] < 0:
+    shared, content = shared_monomial(polynomial), shared_number(polynomial)
+    if polynomial.terms[min(polynomial.terms)] < 0:
         content = -content
-    rest = {monomial_quotient(key, monomial): value / content for key, value in terms.items()}
-    atoms = [atom for atom, power in monomial for _ in range(power)]
-    return content, atoms, Polynomial(rest)
+    atoms = [atom for atom, power in shared for _ in range(power)]
+    return content, atoms, quotient(polynomial, content, shared)
 
 
-def _halved(atom: Atom) -> tuple[Atom, Atom] | None:
-    """Return sine and cosine of half the angle of a sine, as sin 2x = 2 sin x cos x; None if there is no such half."""
+def _halved(atom: Atom) -> tuple[Atom, ...]:
+    """Return sine and cosine of half the angle of a sine, as sin 2x = 2 sin x cos x; the atom if there is no half."""
     counts = Counter(atom.indices)
     if atom.kind != TRIGONOMETRIC or atom.name != "s" or any(count % 2 for count in counts.values()):
-        return None
+        return (atom,)
     half = tuple(index for index, count in counts.items() for _ in range(count // 2))
     return Atom(TRIGONOMETRIC, half, "s"), Atom(TRIGONOMETRIC, half, "c")
 
@@ -159,11 +155,8 @@ def separated(polynomial: Polynomial, is_inside: Callable[[Atom], bool]) -> list
         return None
     pivot = next(iter(first))
     ratios = {outside: row.get(pivot, Fraction(0)) / first[pivot] for outside, row in table.items()}
-    if all(
-        row == {inside: value * ratios[outside] for inside, value in first.items()} for outside, row in table.items()
-    ):
-        return [Polynomial(first), Polynomial(ratios)]
-    return None
+    scaled = {outside: {key: value * ratio for key, value in first.items()} for outside, ratio in ratios.items()}
+    return [Polynomial(first), Polynomial(ratios)] if table == scaled else None
 
 
 def _searched(polynomial: Polynomial, group: Group) -> list[Polynomial] | None:
@@ -227,7 +220,10 @@ class _HalfAngles:
         self._tangents = dict(zip(angles, generators, strict=False))
         self._symbols = dict(zip(self._constants, generators[len(angles) :], strict=True))
         self._degrees = {
-            k: max(sum(abs(i) == k for atom, _ in monomial for i in _angle(atom)) for monomial in polynomial.terms)
+            k: max(
+                sum(abs(i) == k for atom, _ in monomial if atom.kind == TRIGONOMETRIC for i in atom.indices)
+                for monomial in polynomial.terms
+            )
             for k in angles
         }
         self._numerator = self._half(polynomial)
@@ -252,21 +248,17 @@ class _HalfAngles:
         done = [self._whole([item]) for item in items if not any(degree % 2 for degree in item[0])]
         rest = [item for item in items if any(degree % 2 for degree in item[0])]
         while rest:
-            best: tuple[int, tuple[int, ...], Polynomial] | None = None
             for count in range(2, len(rest) + 1):
-                for chosen in combinations(range(len(rest)), count):
-                    degrees = zip(*(rest[i][0] for i in chosen), strict=True)
-                    if any(sum(column) % 2 for column in degrees):
-                        continue
-                    whole = self._whole([rest[i] for i in chosen])
-                    if best is None or len(whole) < best[0]:
-                        best = (len(whole), chosen, whole)
-                if best is not None:
+                sets = combinations(range(len(rest)), count)
+                even = [chosen for chosen in sets if not any(d % 2 for d in _summed(rest[i][0] for i in chosen))]
+                if even:
                     break
-            if best is None:
+            else:
                 raise TooManyTerms
-            done.append(best[2])
-            rest = [item for i, item in enumerate(rest) if i not in best[1]]
+            products = [(self._whole([rest[i] for i in chosen]), chosen) for chosen in even]
+            whole, chosen = min(products, key=lambda item: len(item[0]))
+            done.append(whole)
+            rest = [item for i, item in enumerate(rest) if i not in chosen]
         return done
 
     def _half(self, polynomial: Polynomial) -> Any:
@@ -294,28 +286,21 @@ class _HalfAngles:
     def _whole(self, items: Sequence[tuple[Degrees, Any]]) -> Polynomial:
         """Return the product of some factors as a function of the angles; the sums of their degrees are even."""
         product = reduce(lambda left, right: left * right, (factor for _, factor in items), self._ring.one)
-        totals = [sum(column) for column in zip(*(degrees for degrees, _ in items), strict=True)]
+        totals = _summed(degrees for degrees, _ in items)
         result = Polynomial({})
         for powers, factor in product.terms():
             term = number(int(factor))
             for k, power, degree in zip(self._angles, powers, totals, strict=False):
                 term = term * _half_powers(k, power, degree)
-            monomial: Monomial = ()
-            for atom, power in zip(self._constants, powers[len(self._angles) :], strict=True):
-                if power:
-                    monomial = monomial_product(monomial, ((atom, power),))
+            constants = zip(self._constants, powers[len(self._angles) :], strict=True)
+            monomial = tuple((atom, power) for atom, power in constants if power)  # in order, as the constants are
             result = result + term * Polynomial({monomial: Fraction(1)})
-        return _shared_sign(reduced(result, self._group))
+        whole = reduced(result, self._group)
+        return quotient(whole, shared_number(whole))
 
 
-def _shared_sign(polynomial: Polynomial) -> Polynomial:
-    """Divide by the number that all terms share."""
-    scale = shared_number(polynomial)
-    return Polynomial({monomial: factor / scale for monomial, factor in polynomial})
-
-
-def _angle(atom: Atom) -> tuple[int, ...]:
-    return atom.indices if atom.kind == TRIGONOMETRIC else ()
+def _summed(degrees: Iterable[Degrees]) -> list[int]:
+    return [sum(column) for column in zip(*degrees, strict=True)]
 
 
 def _half_powers(k: int, power: int, degree: int) -> Polynomial:

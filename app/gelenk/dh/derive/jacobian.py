@@ -9,11 +9,12 @@ the smallest parts: it is then the product of small determinants. With a spheric
 meet (decoupling), with three parallel axes the frame is one of theirs.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from random import Random
-from typing import Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from gelenk.dh.derive.algebra import (
     ONE,
@@ -26,10 +27,11 @@ from gelenk.dh.derive.algebra import (
     derivative,
     minus,
     reduced,
+    reduced_vector,
     total,
 )
-from gelenk.dh.derive.table import Table
-from gelenk.dh.derive.transforms import Transform, behind, frames_from
+from gelenk.dh.derive.table import Table, Transform
+from gelenk.dh.derive.transforms import composed, frames_from
 
 Kind: TypeAlias = Literal["full", "moving", "linear", "angular"]
 Pattern: TypeAlias = list[list[bool]]
@@ -45,8 +47,7 @@ _NOUGHT = 1e-9
 _SAMPLES = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Column:
+class Column(NamedTuple):
     """A column of the geometric Jacobian, in the axes of the base.
 
     Attributes:
@@ -118,7 +119,7 @@ def columns(table: Table, frames: Sequence[Transform], tip: Vector) -> list[Colu
             found.append(Column(axis, None, axis, (ZERO, ZERO, ZERO)))
             continue
         arm = minus(tip, frame.position)
-        linear = (derivative(tip[0], row.index), derivative(tip[1], row.index), derivative(tip[2], row.index))
+        linear = tuple(derivative(entry, row.index) for entry in tip)
         for simplified, entry in zip(linear, cross(axis, arm), strict=True):
             if reduced(simplified - entry, table.group):
                 raise ArithmeticError(f"column {row.index}: z × p is not ∂p/∂q")
@@ -166,7 +167,7 @@ class ZeroPattern:
         """Check whether the block of these rows is regular at a sample."""
         for sample in range(_SAMPLES):
             matrix = self.matrix(sample, frame, None)
-            if abs(_determinant([matrix[i] for i in rows])) > _NOUGHT:
+            if abs(_expanded(matrix, rows, range(len(rows)), 1.0, math.fsum)) > _NOUGHT:
                 return True
         return False
 
@@ -185,22 +186,6 @@ def _sampled(
     rotations = [[[entry.value(values) for entry in row] for row in frame.rotation] for frame in frames]
     positions = [[entry.value(values) for entry in frame.position] for frame in frames]
     return rotations, [*positions, [entry.value(values) for entry in tip]]
-
-
-def _determinant(matrix: list[list[float]]) -> float:
-    """Compute a determinant by elimination."""
-    rows, result = [list(row) for row in matrix], 1.0
-    for i in range(len(rows)):
-        pivot = max(range(i, len(rows)), key=lambda k: abs(rows[k][i]))
-        if not rows[pivot][i]:
-            return 0.0
-        if pivot != i:
-            rows[i], rows[pivot], result = rows[pivot], rows[i], -result
-        result *= rows[i][i]
-        for k in range(i + 1, len(rows)):
-            factor = rows[k][i] / rows[i][i]
-            rows[k] = [x - factor * y for x, y in zip(rows[k], rows[i], strict=True)]
-    return result
 
 
 def square_block(table: Table, structure: ZeroPattern) -> Block | None:
@@ -283,20 +268,16 @@ def relative_jacobian(table: Table, setting: Setting) -> Grid:
     frames = [frame for frame in found if frame is not None]
     if len(frames) < len(found):
         raise TooManyTerms
-    point = (
-        behind(frames[-1], table.tool, table.group).position
-        if setting.point is None
-        else frames[setting.point].position
-    )
+    target = composed(frames[-1], table.tool, table.group) if setting.point is None else frames[setting.point]
     result: Grid = [[] for _ in range(6)]
     for row in table.rows:
         frame = frames[table.axis_frame(row.index)]
         axis = column(frame.rotation, 2)
         if row.is_revolute:
-            turned = cross(axis, minus(point, frame.position))
-            twist = [*(reduced(entry, table.group) for entry in turned), *axis]
+            linear = reduced_vector(cross(axis, minus(target.position, frame.position)), table.group)
+            twist = (*linear, *axis)
         else:
-            twist = [*axis, ZERO, ZERO, ZERO]
+            twist = (*axis, ZERO, ZERO, ZERO)
         for i, entry in enumerate(twist):
             result[i].append(entry)
     return result
@@ -310,18 +291,35 @@ def determinant(matrix: Grid, part: DiagonalBlock, table: Table) -> Polynomial:
     """
     if len(part.rows) > LARGEST_PART:
         raise TooManyTerms
-    minors: dict[tuple[int, ...], Polynomial] = {(): ONE}
-    for count, j in enumerate(part.columns, start=1):
+
+    def minor(terms: Sequence[Polynomial]) -> Polynomial:
+        found = reduced(total(terms), table.group)
+        if len(found) > MAX_MINOR_TERMS:
+            raise TooManyTerms
+        return found
+
+    whole: Polynomial = _expanded(matrix, part.rows, part.columns, ONE, minor)
+    return whole
+
+
+def _expanded(
+    matrix: Sequence[Sequence[Any]],
+    rows: Sequence[int],
+    columns: Sequence[int],
+    one: Any,
+    added: Callable[[Sequence[Any]], Any],
+) -> Any:
+    """Return the determinant of some rows and columns, expanded along the columns; `added` adds up a minor's terms."""
+    minors: dict[tuple[int, ...], Any] = {(): one}
+    for count, j in enumerate(columns, start=1):
         grown = {}
-        for rows in combinations(part.rows, count):
-            terms: list[Polynomial] = []
-            for place, i in enumerate(rows):
-                minor = minors.get(rows[:place] + rows[place + 1 :], ZERO)
+        for chosen in combinations(rows, count):
+            terms = []
+            for place, i in enumerate(chosen):
+                minor = minors[chosen[:place] + chosen[place + 1 :]]
                 if matrix[i][j] and minor:
                     term = matrix[i][j] * minor
                     terms.append(term if (place + count - 1) % 2 == 0 else -term)
-            grown[rows] = reduced(total(terms), table.group)
-            if len(grown[rows]) > MAX_MINOR_TERMS:
-                raise TooManyTerms
+            grown[chosen] = added(terms)
         minors = grown
-    return minors[part.rows]
+    return minors[tuple(rows)]

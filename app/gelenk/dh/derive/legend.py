@@ -2,68 +2,47 @@
 
 from collections.abc import Iterable
 
-from gelenk.dh.derive.algebra import CONSTANT, LENGTH, ROOT, TRIGONOMETRIC, Atom, Polynomial
+from gelenk.dh.derive.algebra import CONSTANT, LENGTH, ROOT, TRIGONOMETRIC, Atom
 from gelenk.dh.derive.table import Table
-from gelenk.dh.derive.texts import SymbolEntry
-from gelenk.dh.derive.typeset import Notation, Text, decimal, joined
+from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
+from gelenk.dh.derive.typeset import Notation, decimal, function_of, indexed, summed
 
 
-def legend(entries: Iterable[Polynomial], table: Table, notation: Notation) -> list[SymbolEntry]:
-    """Return an entry for every symbol that occurs: parameters, then variables, then sines and cosines."""
-    atoms = {atom for entry in entries for atom in entry.atoms}
-    found, told = list[SymbolEntry](), set[tuple[object, ...]]()
-    for atom in sorted(atoms):
+def legend(atoms: Iterable[Atom], table: Table, notation: Notation) -> list[SymbolEntry]:
+    """Return an entry for every symbol: parameters, then variables, then sines and cosines."""
+    atoms, found, known = sorted(atoms), list[SymbolEntry](), set[tuple[object, ...]]()
+    for atom in atoms:
         if atom in notation.numbers or atom.kind == ROOT:
             continue
         key = (atom.kind, atom.indices, atom.kind in {LENGTH, CONSTANT} and atom.name.replace("ca", "sa"))
-        if key not in told:
-            told.add(key)
-            found += _entry(atom, table, notation)
+        if key not in known:
+            known.add(key)
+            found += _entries(atom, table, notation)
     angles = {abs(index) for atom in atoms if atom.kind == TRIGONOMETRIC for index in atom.indices}
     for index in sorted(angles & set(notation.offset_angles)):
         row = table.rows[index - 1]
         own = decimal(row.offset)
-        meaning = joined(Text(f"q_{{{index}}}", f"q{index}"), own) if row.is_revolute else own
-        found.append(SymbolEntry(notation.angle_name(index), meaning, None))
+        meaning = summed((indexed("q", "q", index), own)) if row.is_revolute else own
+        found.append(symbol_entry(notation.angle_name(index), meaning))
     return found
 
 
-def _entry(atom: Atom, table: Table, notation: Notation) -> list[SymbolEntry]:
+def _entries(atom: Atom, table: Table, notation: Notation) -> list[SymbolEntry]:
     """Return the entry of a symbol, or both entries of an angle."""
-    value = table.values.get(atom)
     if atom.kind == TRIGONOMETRIC:
         if notation.style == "full" or len(set(atom.indices)) < len(atom.indices):
             return []
-        angle = notation.angle(atom.indices)
-        return [
-            SymbolEntry(
-                notation.atom(atom._replace(name=name[0])),
-                Text(rf"\{name}\left({angle.latex}\right)", f"{name}({angle.plain})"),
-                None,
-            )
-            for name in ("cos", "sin")
-        ]
-    if atom.kind == CONSTANT and atom.name in {"ca", "sa"}:
-        return _twist_entries(atom.indices[0], table, notation)
-    words = _words(atom, table)
-    return [SymbolEntry(notation.atom(atom), Text(rf"\text{{{words}}}", words), value)]
-
-
-def _twist_entries(index: int, table: Table, notation: Notation) -> list[SymbolEntry]:
-    """Return the entry of a twist that is no special angle, or in the short style its cosine and sine."""
-    alpha = Text(rf"\alpha_{{{index}}}", f"alpha{index}")
-    row = index if table.is_standard else index + 1
-    if notation.style == "full":
-        words = f"twist alpha of row {row}, in rad"
-        return [SymbolEntry(alpha, Text(rf"\text{{{words}}}", words), table.as_read.rows[row - 1].alpha)]
-    return [
-        SymbolEntry(
-            notation.atom(Atom(CONSTANT, (index,), f"{name[0]}a")),
-            Text(rf"\{name}\left({alpha.latex}\right)", f"{name}({alpha.plain})"),
-            table.values[Atom(CONSTANT, (index,), f"{name[0]}a")],
-        )
-        for name in ("cos", "sin")
-    ]
+        angle, names = notation.angle(atom.indices), ("c", "s")
+    elif atom.name in {"ca", "sa"}:
+        index = atom.indices[0]
+        angle, names = indexed(r"\alpha", "alpha", index), ("ca", "sa")
+        if notation.style == "full":
+            row = index if table.is_standard else index + 1
+            return [symbol_entry(angle, f"twist alpha of row {row}, in rad", table.as_read.rows[row - 1].alpha)]
+    else:
+        return [symbol_entry(notation.atom(atom), _words(atom, table), table.values.get(atom))]
+    both = [atom._replace(name=name) for name in names]
+    return [symbol_entry(notation.atom(one), function_of(one.name, angle), table.values.get(one)) for one in both]
 
 
 def _words(atom: Atom, table: Table) -> str:

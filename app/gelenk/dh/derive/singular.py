@@ -7,15 +7,13 @@ that; any other stays an equation. Each gets a configuration that fulfils it, al
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from random import Random
-from typing import Literal, TypeAlias
+from typing import NamedTuple
 
-from gelenk.dh.derive.algebra import TRIGONOMETRIC, VARIABLE, ZERO, Angle, Atom, Polynomial, number
+from gelenk.dh.derive.algebra import ONE, TRIGONOMETRIC, VARIABLE, ZERO, Angle, Atom, Polynomial
 from gelenk.dh.derive.table import Table
-from gelenk.dh.derive.typeset import Notation, Text, decimal, joined
-
-Kind: TypeAlias = Literal["solved", "equation", "never"]
+from gelenk.dh.derive.texts import SingularCondition, SingularValue
+from gelenk.dh.derive.typeset import Formula, Notation, decimal, summed
 
 _DRAWS = 200
 _STEPS = 64
@@ -24,40 +22,18 @@ _REACH = 2.0
 """Range of a prismatic variable in which a zero is searched for, [m]."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
-    """A value of a sum of joint variables at which the factor vanishes.
+_NOTHING, _PI, _RIGHT = Formula("0", "0"), Formula(r"\pi", "pi"), Formula(r"\frac{\pi}{2}", "pi/2")
 
-    Attributes:
-        variables: Signed indices of the joints; mostly one.
-        formula: The value in symbols.
-        value: The value, [rad or m].
-    """
+
+class _Solution(NamedTuple):
+    """A value, [rad or m], of a sum of joint variables, by their signed indices, and its formula."""
 
     variables: Angle
-    formula: Text
+    formula: Formula
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """A factor that vanishes.
-
-    Attributes:
-        kind: Solved for a variable, left as an equation, or never fulfilled with these lengths.
-        factor: The factor.
-        solutions: Solutions, if it is solved.
-        example: A configuration that fulfils it, [rad or m]; None if none was found.
-    """
-
-    kind: Kind
-    factor: Polynomial
-    solutions: tuple[Solution, ...]
-    example: tuple[float, ...] | None
-
-
-@dataclass(frozen=True, slots=True)
-class _Wave:
+class _Wave(NamedTuple):
     """The form A cos ϑ + B sin ϑ + C of one angle."""
 
     angle: Angle
@@ -66,21 +42,33 @@ class _Wave:
     constant: Polynomial
 
 
-def condition(factor: Polynomial, table: Table, notation: Notation) -> Condition | None:
+def singular_condition(factor: Polynomial, table: Table, notation: Notation) -> SingularCondition | None:
     """Return when a factor vanishes; None if it depends on no joint."""
     moving = {atom for atom in factor.atoms if _moves(atom, table)}
     if not moving:
         return None
-    solutions: tuple[Solution, ...] | None = None
+    solutions: list[_Solution] | None = None
     if (wave := _as_wave(factor, moving)) is not None:
         solutions = _of_wave(wave, table, notation)
     elif (line := _as_line(factor, moving)) is not None:
         solutions = _of_line(*line, table, notation)
+    text = notation.text(factor)
+    condition = Formula(f"{text.latex} = 0", f"{text.plain} = 0")
     if solutions is None:
-        return Condition("equation", factor, (), _found(factor, table))
+        return SingularCondition("equation", condition, [], _found(factor, table), None)
     if not solutions:
-        return Condition("never", factor, (), None)
-    return Condition("solved", factor, solutions, _placed(solutions[0], table))
+        return SingularCondition("never", condition, [], None, None)
+    values = [
+        SingularValue(
+            [table.as_read.rows[abs(i) - 1].name for i in one.variables],
+            [1 if i > 0 else -1 for i in one.variables],
+            notation.variables(one.variables),
+            one.formula,
+            one.value,
+        )
+        for one in solutions
+    ]
+    return SingularCondition("solved", condition, values, _placed(solutions[0], table), None)
 
 
 def _moves(atom: Atom, table: Table) -> bool:
@@ -108,84 +96,61 @@ def _as_wave(factor: Polynomial, moving: set[Atom]) -> _Wave | None:
     return _Wave(angle, sums["c"], sums["s"], sums[""])
 
 
-def _of_wave(wave: _Wave, table: Table, notation: Notation) -> tuple[Solution, ...] | None:
+def _of_wave(wave: _Wave, table: Table, notation: Notation) -> list[_Solution] | None:
     """Return the solutions; None if the wave vanishes everywhere with these lengths."""
     atoms = wave.cosine.atoms | wave.sine.atoms | wave.constant.atoms
     values = table.atom_values(tuple(0.0 for _ in table.rows), atoms)
     a, b, c = wave.cosine.value(values), wave.sine.value(values), wave.constant.value(values)
     if abs(c) > math.hypot(a, b):
-        return ()
+        return []
     if not a and not b:
         return None
     turning = tuple(i for i in wave.angle if table.rows[abs(i) - 1].is_revolute)
     offset = sum(table.rows[abs(i) - 1].offset * (1 if i > 0 else -1) for i in wave.angle)
     solutions = []
-    for text, angle in zip(_formulas(wave, notation), _angles(wave, a, b, c), strict=True):
-        named = joined(text, decimal(-offset)) if offset else text
-        solutions.append(Solution(turning, named, _principal(angle - offset)))
-    return tuple(solutions)
+    for text, angle in _zeros(wave, notation, a, b, c):
+        formula = summed((text, decimal(-offset))) if offset else text
+        solutions.append(_Solution(turning, formula, _principal(angle - offset)))
+    return solutions
 
 
-def _angles(wave: _Wave, a: float, b: float, c: float) -> tuple[float, float]:
-    """Return where a cos ϑ + b sin ϑ + c vanishes, in the same cases as `_formulas`."""
+def _zeros(wave: _Wave, notation: Notation, a: float, b: float, c: float) -> list[tuple[Formula, float]]:
+    """Solve R cos(ϑ - φ) = -C with R² = A² + B² and φ = atan2(B, A) for ϑ, in symbols and numbers."""
     if not wave.constant and not wave.cosine:
-        return 0.0, math.pi
+        return [(_NOTHING, 0.0), (_PI, math.pi)]
     if not wave.constant and not wave.sine:
-        return math.pi / 2, -math.pi / 2
+        return [(_RIGHT, math.pi / 2), (Formula(f"-{_RIGHT.latex}", f"-{_RIGHT.plain}"), -math.pi / 2)]
     if not wave.constant:
-        return math.atan2(-a, b), math.atan2(-a, b) + math.pi
+        first, value = _atan2(-wave.cosine, wave.sine, notation), math.atan2(-a, b)
+        return [(first, value), (summed((first, _PI)), value + math.pi)]
     if not wave.sine:
-        return math.acos(-c / a), -math.acos(-c / a)
-    if not wave.cosine:
-        return math.pi / 2 + math.acos(-c / b), math.pi / 2 - math.acos(-c / b)
-    half = math.acos(-c / math.hypot(a, b))
-    return math.atan2(b, a) + half, math.atan2(b, a) - half
+        size, radius, phase, middle = notation.text(wave.cosine), a, _NOTHING, 0.0
+    elif not wave.cosine:
+        size, radius, phase, middle = notation.text(wave.sine), b, _RIGHT, math.pi / 2
+    else:
+        left, right = notation.bracketed(wave.cosine), notation.bracketed(wave.sine)
+        size = Formula(rf"\sqrt{{{left.latex}^2 + {right.latex}^2}}", f"sqrt({left.plain}**2 + {right.plain}**2)")
+        radius, phase, middle = math.hypot(a, b), _atan2(wave.sine, wave.cosine, notation), math.atan2(b, a)
+    ratio, half = _quotient(notation.text(-wave.constant), size), math.acos(-c / radius)
+    turn = Formula(rf"\arccos\left({ratio.latex}\right)", f"acos({ratio.plain})")
+    back = Formula(f"-{turn.latex}", f"-{turn.plain}")
+    if phase is not _NOTHING:
+        back = Formula(f"{phase.latex} - {turn.latex}", f"{phase.plain} -{turn.plain}")
+    return [(summed((phase, turn)), middle + half), (back, middle - half)]
 
 
-def _formulas(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
-    """Solve R cos(ϑ - φ) = -C with R² = A² + B² and φ = atan2(B, A) for ϑ, as formulas."""
-    if not wave.constant and not wave.cosine:
-        return Text("0", "0"), Text(r"\pi", "pi")
-    if not wave.constant and not wave.sine:
-        return Text(r"\frac{\pi}{2}", "pi/2"), Text(r"-\frac{\pi}{2}", "-pi/2")
-    if not wave.constant:
-        top, bottom = notation.text(-wave.cosine), notation.text(wave.sine)
-        first = Text(
-            rf"\operatorname{{atan2}}\left({top.latex}, {bottom.latex}\right)", f"atan2({top.plain}, {bottom.plain})"
-        )
-        return first, Text(rf"{first.latex} + \pi", f"{first.plain} + pi")
-    minus = notation.text(-wave.constant)
-    size, phase = _size_and_phase(wave, notation)
-    ratio = _quotient(minus, size)
-    turned = Text(rf"\arccos\left({ratio.latex}\right)", f"acos({ratio.plain})")
-    lead = Text(f"{phase.latex} ", f"{phase.plain} ") if phase.plain else Text("", "")
-    plus = "+ " if phase.plain else ""
-    return (
-        Text(f"{lead.latex}{plus}{turned.latex}", f"{lead.plain}{plus}{turned.plain}"),
-        Text(f"{lead.latex}- {turned.latex}" if phase.plain else f"-{turned.latex}", f"{lead.plain}-{turned.plain}"),
+def _atan2(y: Polynomial, x: Polynomial, notation: Notation) -> Formula:
+    top, bottom = notation.text(y), notation.text(x)
+    return Formula(
+        rf"\operatorname{{atan2}}\left({top.latex}, {bottom.latex}\right)", f"atan2({top.plain}, {bottom.plain})"
     )
 
 
-def _quotient(top: Text, bottom: Text) -> Text:
+def _quotient(top: Formula, bottom: Formula) -> Formula:
     """Write a fraction; a single symbol needs no brackets."""
     above, below = (text.plain if re.fullmatch(r"-?\w+", text.plain) else f"({text.plain})" for text in (top, bottom))
     sign = "-" if re.fullmatch(r"-\w+", top.plain) else ""
-    return Text(rf"{sign}\frac{{{top.latex.removeprefix(sign)}}}{{{bottom.latex}}}", f"{above}/{below}")
-
-
-def _size_and_phase(wave: _Wave, notation: Notation) -> tuple[Text, Text]:
-    """Return R and φ of A cos ϑ + B sin ϑ = R cos(ϑ - φ) as formulas; φ is empty without a sine."""
-    if not wave.sine:
-        return notation.text(wave.cosine), Text("", "")
-    if not wave.cosine:
-        return notation.text(wave.sine), Text(r"\frac{\pi}{2}", "pi/2")
-    a, b = notation.bracketed(wave.cosine), notation.bracketed(wave.sine)
-    size = Text(rf"\sqrt{{{a.latex}^2 + {b.latex}^2}}", f"sqrt({a.plain}**2 + {b.plain}**2)")
-    top, bottom = notation.text(wave.sine), notation.text(wave.cosine)
-    phase = Text(
-        rf"\operatorname{{atan2}}\left({top.latex}, {bottom.latex}\right)", f"atan2({top.plain}, {bottom.plain})"
-    )
-    return size, phase
+    return Formula(rf"{sign}\frac{{{top.latex.removeprefix(sign)}}}{{{bottom.latex}}}", f"{above}/{below}")
 
 
 def _as_line(factor: Polynomial, moving: set[Atom]) -> tuple[Atom, Polynomial, Polynomial] | None:
@@ -207,26 +172,26 @@ def _as_line(factor: Polynomial, moving: set[Atom]) -> tuple[Atom, Polynomial, P
 
 def _of_line(
     variable: Atom, slope: Polynomial, constant: Polynomial, table: Table, notation: Notation
-) -> tuple[Solution, ...] | None:
-    """Return the solution; () if the slope is zero with these lengths, None if the constant is zero too."""
+) -> list[_Solution] | None:
+    """Return the solution; none if the slope is zero with these lengths, None if the constant is zero too."""
     values = table.atom_values(tuple(0.0 for _ in table.rows), slope.atoms | constant.atoms)
     k, c = slope.value(values), constant.value(values)
     if not k:
-        return () if c else None
+        return [] if c else None
     text = notation.text(-constant)
-    if slope != number(1):
+    if slope != ONE:
         text = _quotient(text, notation.text(slope))
-    return (Solution(variable.indices, text, -c / k + 0.0),)
+    return [_Solution(variable.indices, text, -c / k + 0.0)]
 
 
-def _placed(solution: Solution, table: Table) -> tuple[float, ...]:
+def _placed(solution: _Solution, table: Table) -> list[float]:
     """Return a configuration with this value, the other joints drawn at random."""
     q = list(_drawn(table, Random(0)))  # noqa: S311
     *others, last = solution.variables
     rest = solution.value - sum(q[abs(i) - 1] * (1 if i > 0 else -1) for i in others)
     value = rest if last > 0 else -rest
     q[abs(last) - 1] = _principal(value) if table.rows[abs(last) - 1].is_revolute else value
-    return tuple(q)
+    return q
 
 
 def _drawn(table: Table, random: Random) -> tuple[float, ...]:
@@ -234,7 +199,7 @@ def _drawn(table: Table, random: Random) -> tuple[float, ...]:
     return tuple(random.uniform(0.3, 1.3) * random.choice((-1, 1)) for _ in table.rows)
 
 
-def _found(factor: Polynomial, table: Table) -> tuple[float, ...] | None:
+def _found(factor: Polynomial, table: Table) -> list[float] | None:
     """Return a configuration at which the factor changes its sign, searched for along one joint after the other."""
     indices = sorted({abs(i) for atom in factor.atoms if _moves(atom, table) for i in atom.indices})
     random = Random(0)  # noqa: S311
@@ -243,7 +208,7 @@ def _found(factor: Polynomial, table: Table) -> tuple[float, ...] | None:
         for index in reversed(indices):
             value = _zero_along(factor, table, q, index)
             if value is not None:
-                return (*q[: index - 1], value, *q[index:])
+                return [*q[: index - 1], value, *q[index:]]
     return None
 
 

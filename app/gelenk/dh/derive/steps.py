@@ -1,34 +1,24 @@
 """The worked solution in the order of the lecture: short texts, and the formulas that they refer to."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from gelenk.dh.derive.texts import ConditionText, Formulas, Singularities
-from gelenk.dh.derive.typeset import MatrixText
+from gelenk.course.steps import Step
+from gelenk.dh.derive.texts import Formulas, SingularCondition, Singularities
+from gelenk.dh.derive.typeset import MatrixFormula
 
 _ROWS = (r"v_{x}", r"v_{y}", r"v_{z}", r"\omega_{x}", r"\omega_{y}", r"\omega_{z}")
 
 
-@dataclass(frozen=True, slots=True)
-class DerivationStep:
-    """A section of the solution: a title, the step in words, and formulas, each on a line of its own."""
-
-    title: str
-    text: str
-    latex: list[str]
-
-
-def steps(convention: str, found: Formulas, singular: Singularities | None) -> list[DerivationStep]:
+def steps(convention: str, found: Formulas, singular: Singularities | None) -> list[Step]:
     """Return the solution in sections: table, A_i, position, pose, Jacobian, determinant, singular configurations."""
     standard = convention == "standard"
-    told = [_table(standard, found), _rows(standard, found), _position(found), _pose(found), _jacobian(standard, found)]
+    all_ = [_table(standard, found), _rows(standard, found), _position(found), _pose(found), _jacobian(standard, found)]
     if singular is not None and singular.block is not None:
-        told += [_determinant(singular), _singular(singular)]
-    return [step for step in told if step is not None]
+        all_ += [_determinant(singular), _singular(singular)]
+    return [step for step in all_ if step is not None]
 
 
-def _table(standard: bool, found: Formulas) -> DerivationStep:
-    first = 0 if standard else -1
+def _table(standard: bool, found: Formulas) -> Step:
     links = [("i", "a_i", r"\alpha_i"), ("i", "a_{i-1}", r"\alpha_{i-1}")][not standard]
     head = " & ".join((*links, "d_i", r"\vartheta_i"))
     lines = [" & ".join((str(i), *(text.latex for text in row))) for i, row in enumerate(found.parameters, start=1)]
@@ -37,22 +27,22 @@ def _table(standard: bool, found: Formulas) -> DerivationStep:
         "One row per joint. The variable adds to the angle of a revolute joint and to d of a prismatic one; "
         "a parameter that is zero leaves the formulas, an angle that is a multiple of 90° becomes a number."
     )
-    if first:
+    if not standard:
         text += " In the modified convention a and alpha carry the index of the link before the joint."
-    return DerivationStep("Denavit-Hartenberg table", text, [array])
+    return Step("Denavit-Hartenberg table", text, (array,))
 
 
-def _rows(standard: bool, found: Formulas) -> DerivationStep:
+def _rows(standard: bool, found: Formulas) -> Step:
     rule = (
         r"A_i = R_z(\vartheta_i)\, T_z(d_i)\, T_x(a_i)\, R_x(\alpha_i)"
         if standard
         else r"A_i = R_x(\alpha_{i-1})\, T_x(a_{i-1})\, R_z(\vartheta_i)\, T_z(d_i)"
     )
     text = "Each row put into the rule of the convention gives the pose of frame i in frame i - 1."
-    return DerivationStep("Transforms between neighbours", text, [rule, *_named("A", found.rows)])
+    return Step("Transforms between neighbours", text, (rule, *_named("A", found.rows)))
 
 
-def _position(found: Formulas) -> DerivationStep | None:
+def _position(found: Formulas) -> Step | None:
     if found.chain is None:
         return None
     n = len(found.rows)
@@ -63,22 +53,22 @@ def _position(found: Formulas) -> DerivationStep | None:
         "The position of the tip is best worked out from the right: a matrix times a vector at every step, never a "
         "matrix times a matrix. Superscripts name the frame in which the point is written."
     )
-    return DerivationStep("Position of the tip", text, lines)
+    return Step("Position of the tip", text, tuple(lines))
 
 
-def _pose(found: Formulas) -> DerivationStep:
+def _pose(found: Formulas) -> Step:
     lines = _named("T^{0}", found.frames)
-    placed = found.tip is not None and (not found.frames or found.tip != found.frames[-1])
-    if placed and found.tip is not None:
+    last = found.frames[-1]
+    if found.tip is not None and (last is None or found.tip.latex != last.latex):
         lines.append(rf"T^{{\mathrm{{base}}}}_{{\mathrm{{tool}}}} = {found.tip.latex}")
     text = (
         "T_0_i = A_1 A_2 … A_i. About parallel axes angles add up, so that each sum is in one sine and cosine. "
         "The last column is the position, the first three are the axes of frame i written in frame 0."
     )
-    return DerivationStep("Forward kinematics", text, lines)
+    return Step("Forward kinematics", text, tuple(lines))
 
 
-def _jacobian(standard: bool, found: Formulas) -> DerivationStep | None:
+def _jacobian(standard: bool, found: Formulas) -> Step | None:
     if found.columns is None or found.jacobian is None:
         return None
     lines = []
@@ -97,10 +87,10 @@ def _jacobian(standard: bool, found: Formulas) -> DerivationStep | None:
         "The column of a revolute joint is z × p over z, that of a prismatic one z over 0. The z is that of frame "
         f"{frame}, p leads from its origin to the tip. Linear rows are above angular ones, all in the axes of the base."
     )
-    return DerivationStep("Geometric Jacobian", text, [*lines, f"J = {found.jacobian.latex}"])
+    return Step("Geometric Jacobian", text, (*lines, f"J = {found.jacobian.latex}"))
 
 
-def _determinant(singular: Singularities) -> DerivationStep | None:
+def _determinant(singular: Singularities) -> Step | None:
     block, setting = singular.block, singular.setting
     if block is None:
         return None
@@ -116,8 +106,8 @@ def _determinant(singular: Singularities) -> DerivationStep | None:
             "those of its parts."
         )
     if singular.formula is None:
-        return DerivationStep("Determinant", text + " It is not written out: see the notes.", [])
-    return DerivationStep("Determinant", text, [rf"\det J_{{({rows})}} = {singular.formula.latex}"])
+        return Step("Determinant", text + " It is not written out: see the notes.", ())
+    return Step("Determinant", text, (rf"\det J_{{({rows})}} = {singular.formula.latex}",))
 
 
 def which_block(singular: Singularities) -> str:
@@ -137,25 +127,25 @@ def which_block(singular: Singularities) -> str:
     return words[block.kind]
 
 
-def _singular(singular: Singularities) -> DerivationStep | None:
+def _singular(singular: Singularities) -> Step | None:
     if singular.formula is None:
         return None
-    lines = [rf"{condition.factor.latex} = 0" + _solved(condition) for condition in singular.conditions]
+    lines = [condition.condition.latex + _solved(condition) for condition in singular.conditions]
     if singular.formula.plain == "0":
         text = "The determinant vanishes everywhere: the arm never moves the tip in all these directions."
     elif not lines:
         text = "No factor depends on a joint: there is no singular configuration."
     else:
         text = "The determinant is a product, and vanishes where one of its factors does."
-    return DerivationStep("Singular configurations", text, lines)
+    return Step("Singular configurations", text, tuple(lines))
 
 
-def _solved(condition: ConditionText) -> str:
+def _solved(condition: SingularCondition) -> str:
     if condition.kind == "never":
         return r"\quad\text{(never, with these lengths)}"
-    ways = [f"{solution.variable.latex} = {solution.formula.latex}" for solution in condition.solutions]
-    return r" \;\Leftrightarrow\; " + r" \;\text{or}\; ".join(ways) if ways else ""
+    values = [f"{solution.variable.latex} = {solution.formula.latex}" for solution in condition.solutions]
+    return r" \;\Leftrightarrow\; " + r" \;\text{or}\; ".join(values) if values else ""
 
 
-def _named(letter: str, matrices: Sequence[MatrixText | None]) -> list[str]:
+def _named(letter: str, matrices: Sequence[MatrixFormula | None]) -> list[str]:
     return [f"{letter}_{{{i}}} = {matrix.latex}" for i, matrix in enumerate(matrices, start=1) if matrix is not None]

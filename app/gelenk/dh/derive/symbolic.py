@@ -6,19 +6,22 @@ numbers of the table itself.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
+from typing import Any
 
 from gelenk.dh.derive.algebra import (
     TRIGONOMETRIC,
     Atom,
+    Group,
     Polynomial,
     TooManyTerms,
     Vector,
     applied,
     plus,
     reduced,
+    reduced_vector,
 )
 from gelenk.dh.derive.factors import factorised, without_multiples
 from gelenk.dh.derive.jacobian import (
@@ -32,21 +35,11 @@ from gelenk.dh.derive.jacobian import (
     square_block,
 )
 from gelenk.dh.derive.legend import legend
-from gelenk.dh.derive.singular import Condition, condition
-from gelenk.dh.derive.table import Table, read_table
-from gelenk.dh.derive.texts import (
-    ColumnText,
-    ConditionText,
-    Configuration,
-    Formulas,
-    Grid,
-    Singularities,
-    SolutionText,
-    SymbolicRequest,
-    Values,
-)
-from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS, Transform, before, behind, frames_from, row_transforms
-from gelenk.dh.derive.typeset import MatrixText, Notation, Text, decimal, joined, multiple_of_pi
+from gelenk.dh.derive.singular import singular_condition
+from gelenk.dh.derive.table import Table, Transform, read_table
+from gelenk.dh.derive.texts import ColumnFormulas, Formulas, Grid, Singularities, SymbolicRequest, Values
+from gelenk.dh.derive.transforms import MAX_ENTRY_TERMS, composed, frames_from, row_transforms
+from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, Style, decimal, indexed, multiple_of_pi, summed
 
 MAX_FACTOR_TERMS = 40
 """Maximum number of terms of a factor of a determinant: a longer one is not written out."""
@@ -56,28 +49,29 @@ MAX_FACTOR_TERMS = 40
 def formulas(question: SymbolicRequest) -> Formulas:
     """Return transforms and Jacobian of a table in symbols."""
     table = read_table(question.table)
-    notation = _notation(question, table)
+    notation = notation_of(table, table.group, question.style, {} if question.keeps_symbols else table.values)
     rows, frames = row_transforms(table), frames_from(table, 0)[1:]
-    tip = None if frames[-1] is None else _shown(behind(frames[-1], table.tool, table.group))
-    base_tip = None if tip is None else _shown(before(table.base, tip, table.group))
+    tip = None if frames[-1] is None else _shown(composed(frames[-1], table.tool, table.group))
+    base_tip = None if tip is None else _shown(composed(table.base, tip, table.group))
     found = None if tip is None or base_tip is None else _columns(table, tip)
     shown = [*rows, *(frame for frame in (*frames, base_tip) if frame is not None)]
     entries = [entry for transform in shown for row in transform.rows for entry in row]
-    entries += [entry for column in found or [] for entry in _entries(column)]
+    entries += [entry for column in found or [] for part in column if part is not None for entry in part]
+    atoms = {atom for entry in entries for atom in entry.atoms}
     return Formulas(
         table.as_read,
         table.remarks,
-        legend(entries, table, notation),
+        legend(atoms, table, notation),
         _parameters(table, notation),
-        [notation.matrix(row.rows) for row in rows],
-        [None if frame is None else notation.matrix(frame.rows) for frame in frames],
-        None if base_tip is None else notation.matrix(base_tip.rows),
+        [notation.matrix(f"A_{i}", row.rows) for i, row in enumerate(rows, start=1)],
+        [None if T is None else notation.matrix(f"T_0_{i}", T.rows) for i, T in enumerate(frames, start=1)],
+        None if base_tip is None else notation.matrix("T_base_tool", base_tip.rows),
         None if tip is None else _chain(table, tip, notation),
-        None if base_tip is None else notation.vector(base_tip.position),
-        None if base_tip is None else notation.matrix(base_tip.rotation),
-        None if found is None else [_column_text(column, notation) for column in found],
-        None if found is None else notation.matrix(_grid(found)),
-        [_values(table, q, rows, frames, base_tip, found) for q in question.samples],
+        None if base_tip is None else notation.vector("p", base_tip.position),
+        None if base_tip is None else notation.matrix("R", base_tip.rotation),
+        None if found is None else [_column(i, column, table, notation) for i, column in enumerate(found, start=1)],
+        None if found is None else notation.matrix("J", _grid(found)),
+        [_values(table.atom_values(q, atoms), rows, frames, base_tip, found) for q in question.samples],
     )
 
 
@@ -85,42 +79,39 @@ def formulas(question: SymbolicRequest) -> Formulas:
 def singularities(question: SymbolicRequest) -> Singularities:
     """Return the determinant of a table's square block, and the configurations at which it vanishes."""
     table = read_table(question.table)
-    notation = _notation(question, table)
+    notation = notation_of(table, table.group, question.style, {} if question.keeps_symbols else table.values)
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     if len(frames) <= len(table.rows):
-        return Singularities(None, None, [], None, [], [], [], [])
-    structure = ZeroPattern(table, frames, behind(frames[-1], table.tool, table.group).position)
+        return Singularities()
+    structure = ZeroPattern(table, frames, composed(frames[-1], table.tool, table.group).position)
     block = square_block(table, structure)
     if block is None:
-        return Singularities(None, None, [], None, [], [], [], [])
+        return Singularities()
     setting = best_setting(structure, block, len(table.rows))
     try:
         factor, factors = _product(table, setting) if setting else (Fraction(0), [])
     except TooManyTerms:
-        return Singularities(block, setting, [], None, [], [], [], [])
-    conditions = [condition(part, table, notation) for part in dict.fromkeys(factors)]
+        return Singularities(block, setting)
+    different = list(dict.fromkeys(factors))
+    conditions = [singular_condition(part, table, notation) for part in different]
     atoms = {atom for part in factors for atom in part.atoms}
-    values, sizes = list[float](), list[float]()
-    for q in question.samples:
-        known = table.atom_values(q, atoms)
-        values.append(float(factor) * math.prod(part.value(known) for part in factors))
-        sizes.append(abs(float(factor)) * math.prod(part.size(known) for part in factors))
+    known = [table.atom_values(q, atoms) for q in question.samples]
     return Singularities(
         block,
         setting,
-        legend(factors, table, notation),
+        legend(atoms, table, notation),
         notation.factors(factor, factors),
-        [notation.text(part) for part in dict.fromkeys(factors)],
-        [_condition_text(item, notation) for item in conditions if item is not None],
-        values,
-        sizes,
+        [notation.text(part) for part in different],
+        [condition for condition in conditions if condition is not None],
+        [float(factor) * math.prod(part.value(values) for part in factors) for values in known],
+        [abs(float(factor)) * math.prod(part.size(values) for part in factors) for values in known],
     )
 
 
-def _notation(question: SymbolicRequest, table: Table) -> Notation:
+def notation_of(table: Table, group: Group, style: Style, numbers: Mapping[Atom, float]) -> Notation:
+    """Return the notation of a table's formulas; see `Notation`."""
     offset = {row.index for row in table.rows if row.angle and (row.offset or not row.is_revolute)}
-    numbers = {} if question.keeps_symbols else table.values
-    return Notation(question.style, table.group, offset, numbers, len(table.rows) >= 10)
+    return Notation(style, group, offset, numbers, len(table.rows) >= 10)
 
 
 def _product(table: Table, setting: Setting) -> tuple[Fraction, list[Polynomial]]:
@@ -163,23 +154,24 @@ def _columns(table: Table, tip: Transform) -> list[Column] | None:
     frames = [frame for frame in frames_from(table, 0) if frame is not None]
     try:
         found = columns(table, frames, tip.position)
-        return found if table.base.is_identity else [_turned(column, table) for column in found]
     except TooManyTerms:
         return None
+    if table.base.is_identity:
+        return found
+    return [Column(*map(partial(_in_base, table), column)) for column in found]
 
 
-def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixText] | None:
+def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixFormula] | None:
     """Return A_1 (A_2 ( … (A_n p))): the tip's position in each frame from the last to the first, one matrix at a time.
 
     Raises:
         ArithmeticError: The result differs from the product of matrices from left to right, which never happens.
     """
-    point, found = table.tool.position, [notation.vector(table.tool.position)]
+    point, found = table.tool.position, [notation.vector("p", table.tool.position)]
     try:
         for row in reversed(row_transforms(table)):
-            turned = plus(applied(row.rotation, point), row.position)
-            point = (reduced(turned[0], table.group), reduced(turned[1], table.group), reduced(turned[2], table.group))
-            found.append(notation.vector(point))
+            point = reduced_vector(plus(applied(row.rotation, point), row.position), table.group)
+            found.append(notation.vector("p", point))
     except TooManyTerms:
         return None
     if any(reduced(x - y, table.group) for x, y in zip(point, tip.position, strict=True)):
@@ -187,34 +179,21 @@ def _chain(table: Table, tip: Transform, notation: Notation) -> list[MatrixText]
     return found if max(len(entry) for entry in point) <= MAX_ENTRY_TERMS else None
 
 
-def _parameters(table: Table, notation: Notation) -> list[tuple[Text, Text, Text, Text]]:
+def _parameters(table: Table, notation: Notation) -> list[tuple[Formula, Formula, Formula, Formula]]:
     """Return a, alpha, d and theta of each row as the formulas read them."""
     found = []
     for row, numbers in zip(table.rows, table.as_read.rows, strict=True):
         link = row.index if table.is_standard else row.index - 1
-        symbol = Text(rf"\alpha_{{{link}}}", f"alpha{link}") if not notation.numbers else decimal(numbers.alpha)
-        constant = multiple_of_pi(numbers.theta) or decimal(numbers.theta)
-        variable = Text(f"q_{{{row.index}}}", f"q{row.index}")
-        theta = joined(variable, constant) if row.is_revolute else constant
-        found.append((notation.text(row.a), multiple_of_pi(numbers.alpha) or symbol, notation.text(row.d), theta))
+        alpha = decimal(numbers.alpha) if notation.numbers else indexed(r"\alpha", "alpha", link)
+        theta = multiple_of_pi(numbers.theta) or decimal(numbers.theta)
+        if row.is_revolute:
+            theta = summed((indexed("q", "q", row.index), theta))
+        found.append((notation.text(row.a), multiple_of_pi(numbers.alpha) or alpha, notation.text(row.d), theta))
     return found
 
 
-def _turned(column: Column, table: Table) -> Column:
-    def turn(vector: Vector) -> Vector:
-        x, y, z = applied(table.base.rotation, vector)
-        return reduced(x, table.group), reduced(y, table.group), reduced(z, table.group)
-
-    return Column(
-        turn(column.axis),
-        None if column.arm is None else turn(column.arm),
-        turn(column.linear),
-        turn(column.angular),
-    )
-
-
-def _entries(column: Column) -> list[Polynomial]:
-    return [*column.axis, *(column.arm or ()), *column.linear, *column.angular]
+def _in_base(table: Table, vector: Vector | None) -> Any:
+    return None if vector is None else reduced_vector(applied(table.base.rotation, vector), table.group)
 
 
 def _grid(found: Sequence[Column]) -> list[list[Polynomial]]:
@@ -222,42 +201,31 @@ def _grid(found: Sequence[Column]) -> list[list[Polynomial]]:
     return [[column[i] for column in stacked] for i in range(6)]
 
 
-def _column_text(column: Column, notation: Notation) -> ColumnText:
-    return ColumnText(
-        notation.vector(column.axis),
-        None if column.arm is None else notation.vector(column.arm),
-        notation.vector(column.linear),
-        notation.vector(column.angular),
+def _column(i: int, column: Column, table: Table, notation: Notation) -> ColumnFormulas:
+    return ColumnFormulas(
+        table.as_read.rows[i - 1].name,
+        notation.vector("z", column.axis),
+        None if column.arm is None else notation.vector("p", column.arm),
+        notation.vector(f"J_v_{i}", column.linear),
+        notation.vector(f"J_omega_{i}", column.angular),
     )
 
 
-def _condition_text(item: Condition, notation: Notation) -> ConditionText:
-    solutions = [
-        SolutionText(solution.variables, notation.variables(solution.variables), solution.formula, solution.value)
-        for solution in item.solutions
-    ]
-    return ConditionText(item.kind, notation.text(item.factor), solutions, item.example)
-
-
 def _values(
-    table: Table,
-    q: Configuration,
+    known: Mapping[Atom, float],
     rows: Sequence[Transform],
     frames: Sequence[Transform | None],
     tip: Transform | None,
     found: Sequence[Column] | None,
 ) -> Values:
-    transforms = [*rows, *(frame for frame in (*frames, tip) if frame is not None)]
-    atoms = {atom for transform in transforms for row in transform.rows for entry in row for atom in entry.atoms}
-    atoms |= {atom for column in found or [] for entry in _entries(column) for atom in entry.atoms}
-    known = table.atom_values(q, atoms)
-
-    def grid(rows: Iterable[Iterable[Polynomial]]) -> Grid:
-        return [[entry.value(known) for entry in row] for row in rows]
-
     return Values(
-        [grid(row.rows) for row in rows],
-        [None if frame is None else grid(frame.rows) for frame in frames],
-        None if tip is None else grid(tip.rows),
-        None if found is None else grid(_grid(found)),
+        [grid_of(row.rows, known) for row in rows],
+        [None if frame is None else grid_of(frame.rows, known) for frame in frames],
+        None if tip is None else grid_of(tip.rows, known),
+        None if found is None else grid_of(_grid(found), known),
     )
+
+
+def grid_of(rows: Iterable[Iterable[Polynomial]], known: Mapping[Atom, float]) -> Grid:
+    """Evaluate polynomials row by row."""
+    return [[entry.value(known) for entry in row] for row in rows]

@@ -1,7 +1,7 @@
 """A DH table in exact terms: angles that are multiples of π/2 as such, everything else as a symbol with a value."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Literal, TypeAlias
 
@@ -14,6 +14,7 @@ from gelenk.dh.derive.algebra import (
     ZERO,
     Angle,
     Atom,
+    Group,
     Matrix,
     Polynomial,
     Vector,
@@ -31,22 +32,25 @@ ROTATION_TOLERANCE = 1e-9
 """An entry of a base's or tool's rotation this near to 0, ±1/2, ±√2/2, ±√3/2 or ±1 is read as that."""
 
 _HALF = number(Fraction(1, 2))
-_ROOT_2 = symbol(Atom(ROOT, (2,), "sqrt")) * _HALF
-_ROOT_3 = symbol(Atom(ROOT, (3,), "sqrt")) * _HALF
-_EXACT: tuple[tuple[float, Polynomial], ...] = (
+ROOTS = {Atom(ROOT, (n,), "sqrt"): math.sqrt(n) for n in (2, 3)}
+"""Values of the roots that occur in exact numbers."""
+_EXACT = (
     (0.0, ZERO),
     (0.5, _HALF),
-    (math.sqrt(2) / 2, _ROOT_2),
-    (math.sqrt(3) / 2, _ROOT_3),
+    *((value / 2, symbol(root) * _HALF) for root, value in ROOTS.items()),
     (1.0, ONE),
 )
+
+
+IDENTITY: Matrix = ((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE))
 
 
 @dataclass(frozen=True, slots=True)
 class RowNumbers:
     """A row of the table as given; lengths [m], angles [rad]."""
 
-    is_revolute: bool
+    name: str
+    type: Literal["revolute", "prismatic"]
     a: float
     alpha: float
     d: float
@@ -98,12 +102,27 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class ExactPose:
-    """A constant pose in exact terms."""
+class Transform:
+    """A pose in symbols."""
 
     rotation: Matrix
     position: Vector
-    is_identity: bool
+
+    @property
+    def rows(self) -> list[Vector]:
+        """Homogeneous matrix, (4, 4)."""
+        upper = [(*row, p) for row, p in zip(self.rotation, self.position, strict=True)]
+        return [*upper, (ZERO, ZERO, ZERO, ONE)]
+
+    @property
+    def largest(self) -> int:
+        """Number of terms of the largest entry."""
+        return max(len(entry) for row in self.rows for entry in row)
+
+    @property
+    def is_identity(self) -> bool:
+        """Whether it changes nothing."""
+        return self.rotation == IDENTITY and not any(self.position)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,16 +142,17 @@ class Table:
 
     is_standard: bool
     rows: tuple[Row, ...]
-    base: ExactPose
-    tool: ExactPose
+    base: Transform
+    tool: Transform
     values: dict[Atom, float]
     groups: dict[int, int]
     remarks: tuple[str, ...]
     as_read: TableNumbers
 
-    def group(self, index: int) -> int:
-        """Return the group of parallel axes that a joint angle belongs to."""
-        return self.groups[index]
+    @property
+    def group(self) -> Group:
+        """The group of parallel axes of a joint angle's index."""
+        return self.groups.__getitem__
 
     def axis_frame(self, index: int) -> int:
         """Return the frame whose z is the axis of joint `index` (from 1)."""
@@ -146,7 +166,7 @@ class Table:
             if atom.kind == VARIABLE:
                 result[atom] = q[atom.indices[0] - 1]
             elif atom.kind == ROOT:
-                result[atom] = math.sqrt(atom.indices[0])
+                result[atom] = ROOTS[atom]
             else:
                 angle = sum(angles[abs(index)] * (1 if index > 0 else -1) for index in atom.indices)
                 result[atom] = math.cos(angle) if atom.name == "c" else math.sin(angle)
@@ -165,9 +185,7 @@ class _TableReader:
             if value:
                 self.remarks.append(f"row {row}: {name} = {value:.3g} m is read as 0")
             return ZERO, 0.0
-        atom = Atom(LENGTH, (index,), name)
-        self.values[atom] = value
-        return symbol(atom), value
+        return self.symbol(Atom(LENGTH, (index,), name), value), value
 
     def twist(self, index: int, value: float, row: int) -> tuple[Twist, float]:
         for divisor in (2, 4, 6):
@@ -179,9 +197,8 @@ class _TableReader:
                 assert cosine is not None  # noqa: S101 - multiples of π/2, π/4, π/6 are all in the list
                 assert sine is not None  # noqa: S101
                 return Twist(steps % 4 if divisor == 2 else None, cosine, sine), exact
-        cosine_atom, sine_atom = Atom(CONSTANT, (index,), "ca"), Atom(CONSTANT, (index,), "sa")
-        self.values[cosine_atom], self.values[sine_atom] = math.cos(value), math.sin(value)
-        return Twist(None, symbol(cosine_atom), symbol(sine_atom)), value
+        cosine = self.symbol(Atom(CONSTANT, (index,), "ca"), math.cos(value))
+        return Twist(None, cosine, self.symbol(Atom(CONSTANT, (index,), "sa"), math.sin(value))), value
 
     def angle(self, is_revolute: bool, index: int, value: float) -> tuple[Angle, int, float, float]:
         """Return ϑ_i, its multiples of π/2, its constant part, and the number that θ_i was read as."""
@@ -192,30 +209,25 @@ class _TableReader:
         self._say_angle("theta", value, exact, index)
         return ((index,) if is_revolute else ()), steps % 4, 0.0, exact
 
-    def pose(self, name: str, place: Numbers4) -> tuple[ExactPose, Numbers4]:
-        entries = [[exact_number(place[i][j]) for j in range(3)] for i in range(3)]
-        rows, numbers = [], []
-        for i in range(3):
-            row = [entries[i][j] or self._entry(name, i, j, place[i][j], entries[i][j]) for j in range(3)]
-            rows.append((row[0], row[1], row[2]))
-            read = (_read_as(exact, x) for exact, x in zip(entries[i], place[i], strict=False))
-            numbers.append((*read, place[i][3] if abs(place[i][3]) > LENGTH_TOLERANCE else 0.0))
-        position = [self._coordinate(name, i, place[i][3]) for i in range(3)]
-        rotation = (rows[0], rows[1], rows[2])
-        identity = rotation == IDENTITY and not any(position)
-        return ExactPose(rotation, (position[0], position[1], position[2]), identity), (*numbers, (0.0, 0.0, 0.0, 1.0))
+    def pose(self, name: str, place: Numbers4) -> tuple[Transform, Numbers4]:
+        rotation: list[Vector] = []
+        position: list[Polynomial] = []
+        numbers: list[tuple[float, ...]] = []
+        for i, (*row, p) in enumerate(place[:3], start=1):
+            exact = [self._entry(Atom(CONSTANT, (i, j), f"r{name}"), value) for j, value in enumerate(row, start=1)]
+            rotation.append(tuple(entry for entry, _ in exact))
+            is_zero = abs(p) <= LENGTH_TOLERANCE
+            position.append(ZERO if is_zero else self.symbol(Atom(LENGTH, (i,), f"p{name}"), p))
+            numbers.append((*(number for _, number in exact), 0.0 if is_zero else p))
+        return Transform(tuple(rotation), tuple(position)), (*numbers, (0.0, 0.0, 0.0, 1.0))
 
-    def _entry(self, name: str, i: int, j: int, value: float, exact: Polynomial | None) -> Polynomial:
-        if exact is not None:
-            return exact
-        atom = Atom(CONSTANT, (i + 1, j + 1), f"r{name}")
-        self.values[atom] = value
-        return symbol(atom)
+    def _entry(self, atom: Atom, value: float) -> tuple[Polynomial, float]:
+        """Return an entry of a rotation, and the number that it was read as."""
+        exact = exact_number(value)
+        return (self.symbol(atom, value), value) if exact is None else (exact, exact.value(ROOTS))
 
-    def _coordinate(self, name: str, i: int, value: float) -> Polynomial:
-        if abs(value) <= LENGTH_TOLERANCE:
-            return ZERO
-        atom = Atom(LENGTH, (i + 1,), f"p{name}")
+    def symbol(self, atom: Atom, value: float) -> Polynomial:
+        """Return a symbol with a value."""
         self.values[atom] = value
         return symbol(atom)
 
@@ -226,20 +238,12 @@ class _TableReader:
             )
 
 
-IDENTITY: Matrix = ((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE))
-
-
 def exact_number(value: float) -> Polynomial | None:
     """Return 0, ±1/2, ±√2/2, ±√3/2 or ±1 if the value is one of them up to rounding, else None."""
     for magnitude, polynomial in _EXACT:
         if abs(abs(value) - magnitude) <= ROTATION_TOLERANCE:
             return polynomial if value >= 0 else -polynomial
     return None
-
-
-def _read_as(exact: Polynomial | None, value: float) -> float:
-    """Return the number that an entry of a rotation was read as."""
-    return value if exact is None else exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
 
 
 def read_table(numbers: TableNumbers) -> Table:
@@ -255,11 +259,12 @@ def read_table(numbers: TableNumbers) -> Table:
         a, a_read = reader.length("a", link, row.a, index)
         d, d_read = reader.length("d", index, row.d, index)
         twist, alpha_read = reader.twist(link, row.alpha, index)
-        angle, quarters, offset, theta_read = reader.angle(row.is_revolute, index, row.theta)
-        if not row.is_revolute:
+        is_revolute = row.type == "revolute"
+        angle, quarters, offset, theta_read = reader.angle(is_revolute, index, row.theta)
+        if not is_revolute:
             d = d + symbol(Atom(VARIABLE, (index,), "q"))
-        rows.append(Row(index, row.is_revolute, a, d, twist, angle, quarters, offset))
-        read.append(RowNumbers(row.is_revolute, a_read, alpha_read, d_read, theta_read))
+        rows.append(Row(index, is_revolute, a, d, twist, angle, quarters, offset))
+        read.append(replace(row, a=a_read, alpha=alpha_read, d=d_read, theta=theta_read))
     base, base_read = reader.pose("b", numbers.base)
     tool, tool_read = reader.pose("t", numbers.tool)
     as_read = TableNumbers(numbers.convention, tuple(read), base_read, tool_read)

@@ -1,12 +1,13 @@
-"""Input and output of the symbolic part of a worked solution: plain data, fit for another process."""
+"""Input and output of the symbolic part of a worked solution: plain data, fit for a cache and for an answer."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from gelenk.dh.derive.jacobian import Block, Setting
-from gelenk.dh.derive.singular import Kind
 from gelenk.dh.derive.table import TableNumbers
-from gelenk.dh.derive.typeset import MatrixText, Style, Text
+from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
+from gelenk.robot.result import Result
 
 Configuration: TypeAlias = tuple[float, ...]
 Grid: TypeAlias = list[list[float]]
@@ -30,22 +31,49 @@ class SymbolicRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class SymbolEntry:
-    """A symbol and its meaning: a value, or words."""
+class SymbolEntry(Result):
+    """A symbol and its meaning.
 
-    symbol: Text
-    meaning: Text
+    Attributes:
+        latex: The symbol in LaTeX.
+        plain: The symbol as plain text.
+        meaning_latex: Its meaning, in LaTeX.
+        meaning: Its meaning, as plain text.
+        value: Its value in the table, [m], or a cosine or sine; null for variables.
+    """
+
+    latex: str
+    plain: str
+    meaning_latex: str
+    meaning: str
     value: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class ColumnText:
-    """A column of the Jacobian, each part with three entries; `arm` is None for a prismatic joint."""
+def symbol_entry(symbol: Formula, meaning: Formula | str, value: float | None = None) -> SymbolEntry:
+    """Return the entry of a symbol; a squared unit at the end of words is not text in LaTeX."""
+    if isinstance(meaning, str):
+        square = "^{2}" if meaning.endswith("^2") else ""
+        meaning = Formula(rf"\text{{{meaning.removesuffix('^2')}}}{square}", meaning)
+    return SymbolEntry(symbol.latex, symbol.plain, meaning.latex, meaning.plain, value)
 
-    axis: MatrixText
-    arm: MatrixText | None
-    linear: MatrixText
-    angular: MatrixText
+
+@dataclass(frozen=True, slots=True)
+class ColumnFormulas(Result):
+    """A column of the geometric Jacobian in the axes of the base.
+
+    Attributes:
+        joint: The joint whose rate the column is multiplied by.
+        axis: z of the joint: z_{i-1} in a standard table, z_i in a modified one.
+        arm: p from the joint's frame to the tip; null for a prismatic joint.
+        linear: z × p, simplified; z for a prismatic joint.
+        angular: z; zero for a prismatic joint.
+    """
+
+    joint: str
+    axis: MatrixFormula
+    arm: MatrixFormula | None
+    linear: MatrixFormula
+    angular: MatrixFormula
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,36 +109,67 @@ class Formulas:
     as_read: TableNumbers
     remarks: tuple[str, ...]
     legend: list[SymbolEntry]
-    parameters: list[tuple[Text, Text, Text, Text]]
-    rows: list[MatrixText | None]
-    frames: list[MatrixText | None]
-    tip: MatrixText | None
-    chain: list[MatrixText] | None
-    position: MatrixText | None
-    rotation: MatrixText | None
-    columns: list[ColumnText] | None
-    jacobian: MatrixText | None
+    parameters: list[tuple[Formula, Formula, Formula, Formula]]
+    rows: Sequence[MatrixFormula | None]
+    frames: Sequence[MatrixFormula | None]
+    tip: MatrixFormula | None
+    chain: list[MatrixFormula] | None
+    position: MatrixFormula | None
+    rotation: MatrixFormula | None
+    columns: list[ColumnFormulas] | None
+    jacobian: MatrixFormula | None
     values: list[Values]
 
 
 @dataclass(frozen=True, slots=True)
-class SolutionText:
-    """A value of a variable, or of a sum of variables, at which a factor vanishes."""
+class FormulaCertificate(Result):
+    """Comparison of the formulas with numbers from the table's own product of transforms, at random configurations.
 
-    variables: tuple[int, ...]
-    variable: Text
-    formula: Text
+    Attributes:
+        samples: Configurations at which every formula was evaluated.
+        max_error: Largest difference of an entry; [m] or no unit.
+        seed: Random seed of the sampling.
+    """
+
+    samples: int
+    max_error: float
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class SingularValue(Result):
+    """A value at which a factor vanishes.
+
+    Attributes:
+        joints: The joints whose variables, added with `signs`, have the value.
+        signs: 1 or -1 for each of these.
+        value: [rad] in (-π, π], or [m].
+    """
+
+    joints: list[str]
+    signs: list[int]
+    variable: Formula
+    formula: Formula
     value: float
 
 
 @dataclass(frozen=True, slots=True)
-class ConditionText:
-    """A factor that vanishes at singular configurations."""
+class SingularCondition(Result):
+    """A factor of the determinant that some configurations make vanish.
 
-    kind: Kind
-    factor: Text
-    solutions: list[SolutionText]
-    example: Configuration | None
+    Attributes:
+        kind: Solved for a variable, left as an equation, or without a real solution with these lengths.
+        condition: The factor that is zero.
+        example: A configuration that fulfils the condition, the other joints drawn at random, [rad or m]; null where
+            none was found.
+        example_singular_value: Smallest singular value of the block at the example, by the numbers of the table.
+    """
+
+    kind: Literal["solved", "equation", "never"]
+    condition: Formula
+    solutions: list[SingularValue]
+    example: list[float] | None
+    example_singular_value: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,11 +187,11 @@ class Singularities:
         sizes: Sizes of the terms that add up to these values.
     """
 
-    block: Block | None
-    setting: Setting | None
-    legend: list[SymbolEntry]
-    formula: Text | None
-    factors: list[Text]
-    conditions: list[ConditionText]
-    values: list[float]
-    sizes: list[float]
+    block: Block | None = None
+    setting: Setting | None = None
+    legend: Sequence[SymbolEntry] = ()
+    formula: Formula | None = None
+    factors: Sequence[Formula] = ()
+    conditions: Sequence[SingularCondition] = ()
+    values: Sequence[float] = ()
+    sizes: Sequence[float] = ()

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from gelenk.dh.derive.algebra import (
+    ONE,
     ZERO,
     Angle,
     Group,
@@ -21,37 +22,17 @@ from gelenk.dh.derive.algebra import (
     applied,
     column,
     cosine,
-    minus,
-    number,
     plus,
     product,
-    reduced,
+    reduced_matrix,
+    reduced_vector,
     scaled,
     sine,
 )
-from gelenk.dh.derive.table import IDENTITY, ExactPose, Row, Table, Twist
+from gelenk.dh.derive.table import IDENTITY, Row, Table, Transform, Twist
 
 MAX_ENTRY_TERMS = 64
 """Maximum number of terms of an entry: beyond that a matrix stays numeric."""
-
-
-@dataclass(frozen=True, slots=True)
-class Transform:
-    """A pose in symbols."""
-
-    rotation: Matrix
-    position: Vector
-
-    @property
-    def rows(self) -> list[list[Polynomial]]:
-        """Homogeneous matrix, (4, 4)."""
-        upper = [[*row, p] for row, p in zip(self.rotation, self.position, strict=True)]
-        return [*upper, [ZERO, ZERO, ZERO, number(1)]]
-
-    @property
-    def largest(self) -> int:
-        """Number of terms of the largest entry."""
-        return max(len(entry) for row in self.rows for entry in row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,17 +68,14 @@ class Moving:
         if twist.quarters == 0:
             return self
         if twist.quarters == 2:
-            turned = product(self.turned, ((number(1), ZERO, ZERO), (ZERO, number(-1), ZERO), (ZERO, ZERO, number(-1))))
+            turned = product(self.turned, rotation_x(twist))
             return Moving(turned, angle_sum((), self.angle, -1), -self.quarters % 4, self.position)
-        c, s = twist.cosine, twist.sine if sign == 1 else -twist.sine
-        about_x: Matrix = ((number(1), ZERO, ZERO), (ZERO, c, -s), (ZERO, s, c))
-        return Moving(product(self.rotation, about_x), (), 0, self.position)
+        return Moving(product(self.rotation, rotation_x(twist, sign)), (), 0, self.position)
 
     @property
     def rotation(self) -> Matrix:
         """Rotation matrix R."""
-        c, s = cosine(self.angle, self.quarters), sine(self.angle, self.quarters)
-        return product(self.turned, ((c, -s, ZERO), (s, c, ZERO), (ZERO, ZERO, number(1))))
+        return product(self.turned, rotation_z(self.angle, self.quarters))
 
     def along(self, row: Row, standard: bool) -> "Moving":
         """Multiply by A_i."""
@@ -115,7 +93,19 @@ class Moving:
 
     def transform(self, group: Group) -> Transform:
         """Return the pose so far."""
-        return Transform(_reduced_matrix(self.rotation, group), _reduced_vector(self.position, group))
+        return Transform(reduced_matrix(self.rotation, group), reduced_vector(self.position, group))
+
+
+def rotation_x(twist: Twist, sign: Literal[1, -1] = 1) -> Matrix:
+    """Return Rx(± α)."""
+    c, s = twist.cosine, twist.sine if sign == 1 else -twist.sine
+    return (ONE, ZERO, ZERO), (ZERO, c, -s), (ZERO, s, c)
+
+
+def rotation_z(angle: Angle, quarters: int) -> Matrix:
+    """Return Rz(angle + quarters · π/2)."""
+    c, s = cosine(angle, quarters), sine(angle, quarters)
+    return (c, -s, ZERO), (s, c, ZERO), (ZERO, ZERO, ONE)
 
 
 Step: TypeAlias = Callable[[Moving, Row, bool], Moving]
@@ -147,29 +137,8 @@ def _journey(table: Table, rows: Sequence[Row], step: Step, most: int) -> list[T
     return [*found, *[None] * (len(rows) - len(found))]
 
 
-def before(pose: ExactPose, transform: Transform, group: Group) -> Transform:
-    """Return pose · transform."""
-    rotation = product(pose.rotation, transform.rotation)
-    position = plus(pose.position, applied(pose.rotation, transform.position))
-    return Transform(_reduced_matrix(rotation, group), _reduced_vector(position, group))
-
-
-def behind(transform: Transform, pose: ExactPose, group: Group) -> Transform:
-    """Return transform · pose."""
-    rotation = product(transform.rotation, pose.rotation)
-    position = plus(transform.position, applied(transform.rotation, pose.position))
-    return Transform(_reduced_matrix(rotation, group), _reduced_vector(position, group))
-
-
-def difference(left: Vector, right: Vector, group: Group) -> Vector:
-    """Return left - right, reduced."""
-    return _reduced_vector(minus(left, right), group)
-
-
-def _reduced_vector(vector: Vector, group: Group) -> Vector:
-    return reduced(vector[0], group), reduced(vector[1], group), reduced(vector[2], group)
-
-
-def _reduced_matrix(matrix: Matrix, group: Group) -> Matrix:
-    first, second, third = (_reduced_vector(row, group) for row in matrix)
-    return first, second, third
+def composed(left: Transform, right: Transform, group: Group) -> Transform:
+    """Return left · right."""
+    rotation = product(left.rotation, right.rotation)
+    position = plus(left.position, applied(left.rotation, right.position))
+    return Transform(reduced_matrix(rotation, group), reduced_vector(position, group))

@@ -15,7 +15,9 @@ from gelenk.dh.derive.table import LENGTH_TOLERANCE, RowNumbers
 
 if TYPE_CHECKING:  # the symbolic part shares nothing with the numeric one, not even types
     from gelenk.robot.arrays import Configuration
+    from gelenk.robot.dh import DhJoint
 
+Row: TypeAlias = "RowNumbers | DhJoint"
 Line: TypeAlias = Literal["x", "next axis", "own axis"]
 Point: TypeAlias = tuple[float, float, float]
 
@@ -52,16 +54,16 @@ class Gravity:
         return self.size * x, self.size * y, self.size * z
 
 
-def line_of(rows: Sequence[RowNumbers], i: int, standard: bool) -> Line:
+def line_of(rows: Sequence[Row], i: int, standard: bool) -> Line:
     """Return the line on which the centre of mass of link i (from 0) is measured."""
-    if not rows[i].is_revolute:
+    if rows[i].type == "prismatic":
         return "own axis"
-    if i + 1 == len(rows) or rows[i + 1].is_revolute:
+    if i + 1 == len(rows) or rows[i + 1].type == "revolute":
         return "x"
     return "next axis" if abs(rows[i if standard else i + 1].a) <= LENGTH_TOLERANCE else "x"
 
 
-def center_in_frame(rows: Sequence[RowNumbers], i: int, standard: bool, center: float | Point) -> Point:
+def center_in_frame(rows: Sequence[Row], i: int, standard: bool, center: float | Point) -> Point:
     """Return the centre of mass of link i (from 0) in frame i, [m]."""
     if isinstance(center, tuple):
         return center

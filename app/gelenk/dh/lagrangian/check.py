@@ -13,29 +13,10 @@ import pinocchio as pin
 from gelenk.dh.derive.check import TOLERANCE
 from gelenk.dh.lagrangian.bodies import LinkBody
 from gelenk.dh.lagrangian.numeric import NumericMotion, centers_in_frames
-from gelenk.dh.lagrangian.texts import MotionSample, MotionValues
+from gelenk.dh.lagrangian.texts import EquationsCertificate, MotionSample, MotionValues
 from gelenk.errors import CertificationFailed
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
-
-
-@dataclass(frozen=True, slots=True)
-class EquationCertificate:
-    """Differences of equations of motion from Pinocchio's.
-
-    Attributes:
-        samples: Number of states at which they were compared.
-        seed: Random seed of the samples; None if the states were given.
-        mass_matrix: Largest difference of an entry of M, [kg], [kg m] or [kg m²].
-        coriolis: Largest difference of a Christoffel symbol, and so of C per unit of velocity, in the same units.
-        gravity: Largest difference of an entry of g, [N m or N].
-    """
-
-    samples: int
-    seed: int | None
-    mass_matrix: float
-    coriolis: float
-    gravity: float
 
 
 class Judge:
@@ -184,7 +165,7 @@ def _scales(table: DhTable, bodies: Sequence[LinkBody], gravity: Array) -> _Scal
 
 def certify_formulas(
     table: DhTable, gravity: Array, samples: Sequence[MotionSample], values: Sequence[MotionValues], seed: int
-) -> EquationCertificate:
+) -> EquationsCertificate:
     """Compare every formula with Pinocchio at the samples.
 
     Args:
@@ -203,12 +184,12 @@ def certify_formulas(
         found = judge.errors(np.array(sample.q), value.mass_matrix, value.christoffel, value.gravity_vector)
         judge.energies_error(sample, value)
         worst = np.maximum(worst, found)
-    return EquationCertificate(len(samples), seed, *worst.tolist())
+    return _certificate(len(samples), worst, seed)
 
 
 def certify_numbers(
     table: DhTable, bodies: Sequence[LinkBody], gravity: Array, found: Sequence[NumericMotion]
-) -> EquationCertificate:
+) -> EquationsCertificate:
     """Compare M, C and g at given configurations with Pinocchio's.
 
     Raises:
@@ -217,4 +198,9 @@ def certify_numbers(
     judge, worst = Judge(table, bodies, gravity), np.zeros(3)
     for one in found:
         worst = np.maximum(worst, judge.errors(one.q, one.mass_matrix, one.christoffel, one.gravity_vector))
-    return EquationCertificate(len(found), None, *worst.tolist())
+    return _certificate(len(found), worst, None)
+
+
+def _certificate(samples: int, worst: Array, seed: int | None) -> EquationsCertificate:
+    mass_matrix, coriolis, gravity = worst.tolist()
+    return EquationsCertificate(samples, mass_matrix, coriolis, gravity, seed)

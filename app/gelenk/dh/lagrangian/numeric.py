@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.dh.derive.table import RowNumbers
 from gelenk.dh.lagrangian.bodies import LinkBody, Point, center_in_frame
 from gelenk.robot.arrays import Array
 from gelenk.robot.dh import DhTable
@@ -49,10 +48,9 @@ class NumericMotion:
 
 def centers_in_frames(table: DhTable, bodies: Sequence[LinkBody]) -> list[Point]:
     """Return each centre of mass in its link's frame, [m]; one that was left out is at zero on its line."""
-    rows = [RowNumbers(row.type == "revolute", row.a, row.alpha, row.d, row.theta) for row in table.joints]
     standard = table.convention == "standard"
     given = [0.0 if body.center is None else body.center for body in bodies]
-    return [center_in_frame(rows, i, standard, center) for i, center in enumerate(given)]
+    return [center_in_frame(table.joints, i, standard, center) for i, center in enumerate(given)]
 
 
 def numeric_motion(

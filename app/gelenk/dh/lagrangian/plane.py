@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 
 from gelenk.dh.derive.algebra import (
     LENGTH,
-    ONE,
     ZERO,
     Angle,
     Atom,
@@ -25,11 +24,14 @@ from gelenk.dh.derive.algebra import (
     plus,
     product,
     reduced,
+    reduced_matrix,
+    reduced_vector,
     scaled,
     sine,
     symbol,
 )
 from gelenk.dh.derive.table import IDENTITY, LENGTH_TOLERANCE, Row, Table, Twist
+from gelenk.dh.derive.transforms import rotation_x, rotation_z
 from gelenk.dh.lagrangian.bodies import Line, LinkBody, line_of
 
 
@@ -61,7 +63,7 @@ def one_group(_: int) -> int:
 
 def shortened(vector: Vector) -> Vector:
     """Return a vector with each entry reduced."""
-    return reduced(vector[0], one_group), reduced(vector[1], one_group), reduced(vector[2], one_group)
+    return reduced_vector(vector, one_group)
 
 
 @dataclass(slots=True)
@@ -91,7 +93,7 @@ class _Walk:
     def about_x(self, a: Polynomial, twist: Twist) -> None:
         """Multiply by Tx(a) Rx(α)."""
         self.move(a, column(self.fixed, 0))
-        self.fixed = _turned_x(self.fixed, twist)
+        self.turn(rotation_x(twist))
 
     def about_z(self, row: Row) -> None:
         """Multiply by Rz(θ) Tz(d) of a joint."""
@@ -103,9 +105,12 @@ class _Walk:
             sense = 0
             self.slides.append(z)
         self.senses.append(sense)
-        c, s = cosine(angle, row.quarters), sine(angle, row.quarters)
-        self.fixed = _short_matrix(product(self.fixed, ((c, -s, ZERO), (s, c, ZERO), (ZERO, ZERO, ONE))))
+        self.turn(rotation_z(angle, row.quarters))
         self.move(row.d, z)
+
+    def turn(self, rotation: Matrix) -> None:
+        """Multiply by a constant rotation."""
+        self.fixed = reduced_matrix(product(self.fixed, rotation), one_group)
 
     def _sense(self, z: Vector, index: int) -> int:
         if self.normal is None:
@@ -138,18 +143,15 @@ def planar_arm(table: Table, bodies: tuple[LinkBody, ...], values: dict[Atom, fl
         if table.is_standard:
             walk.about_x(row.a, row.twist)
         line = line_of(table.as_read.rows, i, table.is_standard)
-        following = walk.fixed if table.is_standard or line != "next axis" else _ahead(walk, table.rows[i + 1])
-        ways = {"x": across, "own axis": axis, "next axis": column(following, 2)}
+        ahead = walk.fixed
+        if line == "next axis" and not table.is_standard:
+            ahead = reduced_matrix(product(ahead, rotation_x(table.rows[i + 1].twist)), one_group)
+        directions = {"x": across, "own axis": axis, "next axis": column(ahead, 2)}
         start = foot if line == "x" else walk.position
-        centers.append(_center(walk, row.index, bodies[i].center, start, ways[line], values))
+        centers.append(_center(walk, row.index, bodies[i].center, start, directions[line], values))
         lines.append(line)
     _demand_plane(walk)
     return PlanarArm(walk.normal, tuple(walk.senses), tuple(centers), tuple(lines))
-
-
-def _ahead(walk: _Walk, row: Row) -> Matrix:
-    """Return the constant part of the frame after the next row has turned it about x."""
-    return _turned_x(walk.fixed, row.twist)
 
 
 def _center(
@@ -157,15 +159,14 @@ def _center(
     index: int,
     given: float | tuple[float, float, float] | None,
     start: Vector,
-    way: Vector,
+    direction: Vector,
     values: dict[Atom, float],
 ) -> Vector:
     """Return a centre of mass, given along the link's line or by its coordinates in the link's frame."""
     if not isinstance(given, tuple):
-        return shortened(plus(start, scaled(_length("lc", index, given, values), walk.seen(way))))
-    inside = [_length(name, index, value, values) for name, value in zip(("xc", "yc", "zc"), given, strict=True)]
-    offset = walk.seen(_shortened_product(walk.fixed, (inside[0], inside[1], inside[2])))
-    return shortened(plus(walk.position, offset))
+        return shortened(plus(start, scaled(_length("lc", index, given, values), walk.seen(direction))))
+    inside = tuple(_length(name, index, value, values) for name, value in zip(("xc", "yc", "zc"), given, strict=True))
+    return shortened(plus(walk.position, walk.seen(shortened(applied(walk.fixed, inside)))))
 
 
 def _length(name: str, index: int, value: float | None, values: dict[Atom, float]) -> Polynomial:
@@ -191,17 +192,3 @@ def _demand_plane(walk: _Walk) -> None:
                 raise NotPlanar(f"the axis of the prismatic joint {number} is not across those of the revolute joints")
     elif len(slides) == 3 and reduced(dot(slides[0], cross(slides[1], slides[2])), one_group):
         raise NotPlanar("its three prismatic joints slide in three independent directions")
-
-
-def _turned_x(matrix: Matrix, twist: Twist) -> Matrix:
-    c, s = twist.cosine, twist.sine
-    return _short_matrix(product(matrix, ((ONE, ZERO, ZERO), (ZERO, c, -s), (ZERO, s, c))))
-
-
-def _shortened_product(matrix: Matrix, vector: Vector) -> Vector:
-    return shortened(applied(matrix, vector))
-
-
-def _short_matrix(matrix: Matrix) -> Matrix:
-    first, second, third = (shortened(row) for row in matrix)
-    return first, second, third

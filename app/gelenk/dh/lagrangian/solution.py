@@ -1,19 +1,18 @@
 """The equations of motion of a table: formulas, and numbers at given configurations, each compared with Pinocchio."""
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.course.steps import Step
 from gelenk.dh.derive.check import Checks
-from gelenk.dh.derive.steps import DerivationStep
-from gelenk.dh.derive.table import exact_number
+from gelenk.dh.derive.table import ROOTS, exact_number
 from gelenk.dh.derive.texts import SymbolicRequest
-from gelenk.dh.lagrangian.bodies import Gravity, LinkBody, MassProperties
-from gelenk.dh.lagrangian.check import EquationCertificate, certify_formulas, certify_numbers
+from gelenk.dh.lagrangian.bodies import LinkBody, MassProperties
+from gelenk.dh.lagrangian.check import certify_formulas, certify_numbers
 from gelenk.dh.lagrangian.numeric import NumericMotion, numeric_motion
 from gelenk.dh.lagrangian.steps import motion_steps
-from gelenk.dh.lagrangian.texts import MotionQuestion, MotionSample, MotionTexts
+from gelenk.dh.lagrangian.texts import EquationsCertificate, MotionQuestion, MotionSample, MotionTexts
 from gelenk.errors import CertificationFailed, InvalidField, counted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
@@ -39,10 +38,10 @@ class MotionSolution:
 
     texts: MotionTexts
     numeric: list[NumericMotion]
-    steps: list[DerivationStep]
+    steps: list[Step]
     notes: list[str]
-    certificate: EquationCertificate
-    numeric_certificate: EquationCertificate | None
+    certificate: EquationsCertificate
+    numeric_certificate: EquationsCertificate | None
 
 
 def checked_dynamics(
@@ -71,8 +70,8 @@ def checked_dynamics(
 
 def motion_question(question: SymbolicRequest, table: DhTable, dynamics: MassProperties, seed: int) -> MotionQuestion:
     """Return the input of the symbolic part: gravity in frame 0, and samples with a number for every symbol."""
-    direction = tuple(_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
-    gravity = Gravity(dynamics.gravity.size, (direction[0], direction[1], direction[2]))
+    x, y, z = (_snapped(float(x)) for x in table.base[:3, :3].T @ dynamics.gravity.direction)
+    gravity = replace(dynamics.gravity, direction=(x, y, z))
     random = np.random.default_rng(seed)
     samples = []
     for q in question.samples:
@@ -88,9 +87,7 @@ def motion_question(question: SymbolicRequest, table: DhTable, dynamics: MassPro
 def _snapped(component: float) -> float:
     """Return a component of a unit vector as the formulas read it."""
     exact = exact_number(component)
-    if exact is None:
-        return component
-    return exact.value({root: math.sqrt(root.indices[0]) for root in exact.atoms})
+    return component if exact is None else exact.value(ROOTS)
 
 
 def _filled(body: LinkBody, mass: float, center: float, inertia: float) -> LinkBody:
@@ -149,7 +146,7 @@ def motion_solution(
 
 def _notes(texts: MotionTexts, question: MotionQuestion, count: int) -> list[str]:
     notes = []
-    if question.gravity.size and all(row == ["0"] for row in texts.gravity_vector.plain):
+    if question.gravity.size and all(row == ["0"] for row in texts.gravity_vector.plain or ()):
         notes.append(
             "gravity does no work in the plane of motion, so that g(q) = 0; for an arm in a vertical plane turn the "
             "base, or give another direction of gravity"

@@ -1,48 +1,49 @@
 """The equations of motion in the order of the lecture: short texts, and the formulas that they refer to."""
 
-from gelenk.dh.derive.steps import DerivationStep
+from gelenk.course.steps import Step
 from gelenk.dh.lagrangian.texts import MotionTexts
 
 
-def motion_steps(found: MotionTexts) -> list[DerivationStep]:
+def motion_steps(found: MotionTexts) -> list[Step]:
     """Return the steps: centres of mass, energies, mass matrix, Coriolis and gravity terms, equations of motion."""
     return [_centers(found), _energies(found), _mass_matrix(found), _coriolis(found), _gravity(found), _rows(found)]
 
 
-def _centers(found: MotionTexts) -> DerivationStep:
+def _centers(found: MotionTexts) -> Step:
     lines = []
     for i, body in enumerate(found.bodies, start=1):
         lines.append(
-            rf"p_{{c{i}}} = {body.center.latex},\quad v_{{c{i}}} = \dot{{p}}_{{c{i}}} = {body.velocity.latex},\quad "
+            rf"p_{{c{i}}} = {body.center_of_mass.latex},\quad "
+            rf"v_{{c{i}}} = \dot{{p}}_{{c{i}}} = {body.velocity.latex},\quad "
             rf"\omega_{{{i}}} = {body.angular_velocity.latex}"
         )
     text = (
         "The position of each link's centre of mass in frame 0, differentiated by the chain rule, and the angular "
         "velocity about the normal of the plane: the sum of the joint velocities before it."
     )
-    return DerivationStep("Centres of mass and their velocities", text, lines)
+    return Step("Centres of mass and their velocities", text, tuple(lines))
 
 
-def _energies(found: MotionTexts) -> DerivationStep:
+def _energies(found: MotionTexts) -> Step:
     rule = r"T_i = \frac{1}{2} m_i\, v_{ci}^{\mathsf T} v_{ci} + \frac{1}{2} I_i\, \omega_i^{2}"
     lines = [rf"{rule},\quad U_i = -m_i\, g^{{\mathsf T}} p_{{ci}}", f"g = {found.gravity.latex}"]
     for i, body in enumerate(found.bodies, start=1):
-        lines += [f"T_{{{i}}} = {body.kinetic.latex}", f"U_{{{i}}} = {body.potential.latex}"]
+        lines += [f"T_{{{i}}} = {body.kinetic_energy.latex}", f"U_{{{i}}} = {body.potential_energy.latex}"]
     lines.append(r"L = \sum_i T_i - \sum_i U_i")
     text = (
         "A link's kinetic energy is that of its mass moving with the centre and that of its turning about it. The "
         "potential energy counts from the origin of frame 0, in whose axes gravity is written."
     )
-    return DerivationStep("Kinetic and potential energy", text, lines)
+    return Step("Kinetic and potential energy", text, tuple(lines))
 
 
-def _mass_matrix(found: MotionTexts) -> DerivationStep:
+def _mass_matrix(found: MotionTexts) -> Step:
     lines = [r"\sum_i T_i = \frac{1}{2} \dot{q}^{\mathsf T} M(q)\, \dot{q}", f"M(q) = {found.mass_matrix.latex}"]
     text = "The kinetic energy is a quadratic form of the joint velocities; its symmetric matrix is the mass matrix."
-    return DerivationStep("Mass matrix", text, lines)
+    return Step("Mass matrix", text, tuple(lines))
 
 
-def _coriolis(found: MotionTexts) -> DerivationStep:
+def _coriolis(found: MotionTexts) -> Step:
     rule = (
         r"c_{ijk} = \frac{1}{2} \left(\frac{\partial M_{ij}}{\partial q_k} + \frac{\partial M_{ik}}{\partial q_j} "
         r"- \frac{\partial M_{jk}}{\partial q_i}\right)"
@@ -50,7 +51,7 @@ def _coriolis(found: MotionTexts) -> DerivationStep:
     lines = [rule]
     for one in found.christoffel:
         same = "" if one.j == one.k else rf" = c_{{{one.i}{one.k}{one.j}}}"
-        lines.append(rf"c_{{{one.i}{one.j}{one.k}}}{same} = {one.formula.latex}")
+        lines.append(rf"c_{{{one.i}{one.j}{one.k}}}{same} = {one.latex}")
     lines += [
         rf"C_{{ij}} = \sum_k c_{{ijk}}\, \dot{{q}}_k:\quad C(q, \dot{{q}}) = {found.coriolis.latex}",
         rf"C\, \dot{{q}} = {found.coriolis_vector.latex}",
@@ -63,18 +64,16 @@ def _coriolis(found: MotionTexts) -> DerivationStep:
         else "The mass matrix is constant: all Christoffel symbols are zero, and so is C."
     )
     text += " With C built from them Ṁ - 2C is skew symmetric."
-    return DerivationStep("Christoffel symbols and Coriolis matrix", text, lines)
+    return Step("Christoffel symbols and Coriolis matrix", text, tuple(lines))
 
 
-def _gravity(found: MotionTexts) -> DerivationStep:
+def _gravity(found: MotionTexts) -> Step:
     line = rf"g_i(q) = \frac{{\partial}}{{\partial q_i}} \sum_j U_j:\quad g(q) = {found.gravity_vector.latex}"
-    return DerivationStep(
-        "Gravity", "The torques that hold the arm at rest are the slope of the potential energy.", [line]
-    )
+    return Step("Gravity", "The torques that hold the arm at rest are the slope of the potential energy.", (line,))
 
 
-def _rows(found: MotionTexts) -> DerivationStep:
+def _rows(found: MotionTexts) -> Step:
     rule = r"\frac{d}{dt} \frac{\partial L}{\partial \dot{q}} - \frac{\partial L}{\partial q} = \tau"
     lines = [rf"{rule} \;\Leftrightarrow\; M(q)\, \ddot{{q}} + C(q, \dot{{q}})\, \dot{{q}} + g(q) = \tau"]
     lines += [row.latex for row in found.rows]
-    return DerivationStep("Equations of motion", "Lagrange's equations, one row per joint.", lines)
+    return Step("Equations of motion", "Lagrange's equations, one row per joint.", tuple(lines))

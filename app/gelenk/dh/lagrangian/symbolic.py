@@ -8,34 +8,25 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from gelenk.dh.derive.algebra import GRAVITY, LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms, symbol
+from gelenk.dh.derive.algebra import GRAVITY, LENGTH, MASS, RATE, Atom, Polynomial, TooManyTerms
 from gelenk.dh.derive.legend import legend
+from gelenk.dh.derive.symbolic import grid_of, notation_of
 from gelenk.dh.derive.table import Table, read_table
-from gelenk.dh.derive.texts import Grid, SymbolEntry
-from gelenk.dh.derive.typeset import MatrixText, Notation, Text
+from gelenk.dh.derive.texts import SymbolEntry, symbol_entry
+from gelenk.dh.derive.typeset import Formula, MatrixFormula, Notation, indexed, matrix_of, summed
 from gelenk.dh.lagrangian.bodies import Line, LinkBody
 from gelenk.dh.lagrangian.equations import Equations, equations, rate
 from gelenk.dh.lagrangian.plane import NotPlanar, one_group, planar_arm
 from gelenk.dh.lagrangian.texts import (
-    BodyText,
-    ChristoffelText,
+    ChristoffelSymbol,
+    LinkFormulas,
     MotionQuestion,
     MotionSample,
     MotionTexts,
     MotionValues,
     NoMotion,
 )
-from gelenk.dh.lagrangian.writing import (
-    BY_ENERGY,
-    BY_HEIGHT,
-    BY_MASS,
-    BY_WAVE,
-    BY_WEIGHT,
-    Manner,
-    summed,
-    written,
-    written_matrix,
-)
+from gelenk.dh.lagrangian.writing import BY_ENERGY, BY_HEIGHT, BY_MASS, BY_WAVE, BY_WEIGHT, Manner, written
 
 MAX_JOINTS = 3
 """Maximum number of joints: with more, the equations are too long to write out."""
@@ -58,81 +49,74 @@ def motion(question: MotionQuestion) -> MotionTexts | NoMotion:
     except TooManyTerms:
         return NoMotion("the equations of motion have too many terms to be written out")
     known = {**table.values, **values}
-    offset = {row.index for row in table.rows if row.angle and (row.offset or not row.is_revolute)}
-    notation = Notation(question.style, one_group, offset, {} if question.keeps_symbols else known)
-    needed = {atom for entry in _of_motion(found) for atom in entry.atoms if atom.name in _MOVING - {"qd"}}
+    notation = notation_of(table, one_group, question.style, {} if question.keeps_symbols else known)
+    of_motion = [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
+    needed = {atom for entry in of_motion for atom in entry.atoms if atom.name in _MOVING - {"qd"}}
+
+    def matrix(name: str, rows: Sequence[Sequence[Polynomial]], manner: Manner) -> MatrixFormula:
+        return matrix_of(name, rows, lambda entry: written(entry, notation, manner))
+
+    def column(name: str, entries: Sequence[Polynomial], manner: Manner) -> MatrixFormula:
+        return matrix(name, [[entry] for entry in entries], manner)
+
+    links = [
+        LinkFormulas(
+            row.name,
+            notation.vector(f"p_c{i + 1}", found.centers[i]),
+            column(f"v_c{i + 1}", found.velocities[i], BY_WAVE),
+            notation.text(found.turns[i]),
+            written(found.kinetic[i], notation, BY_ENERGY),
+            written(found.potential[i], notation, BY_HEIGHT),
+        )
+        for i, row in enumerate(question.table.rows)
+    ]
     return MotionTexts(
         _legend(found, arm.lines, replace(table, values=known), notation),
-        notation.vector(found.gravity),
-        [_body(found, i, notation) for i in range(len(table.rows))],
-        written_matrix(found.mass_matrix, notation, BY_MASS),
+        notation.vector("g", found.gravity),
+        links,
+        matrix("M", found.mass_matrix, BY_MASS),
         _christoffel(found, notation),
-        written_matrix(found.coriolis, notation, BY_WAVE),
-        _column(found.coriolis_vector, notation, BY_WAVE),
-        _column(found.gravity_vector, notation, BY_WEIGHT),
-        written_matrix(found.skew, notation, BY_WAVE),
-        [_row(found, i, notation) for i in range(len(table.rows))],
+        matrix("C", found.coriolis, BY_WAVE),
+        column("C qd", found.coriolis_vector, BY_WAVE),
+        column("g", found.gravity_vector, BY_WEIGHT),
+        matrix("Md - 2 C", found.skew, BY_WAVE),
+        [_row(found, i, notation) for i in range(len(links))],
         tuple(notation.atom(atom).plain for atom in sorted(needed - known.keys())),
         [_values(found, table, values, sample) for sample in question.samples],
     )
 
 
-def _of_motion(found: Equations) -> Iterable[Polynomial]:
-    """Return the entries of M, C and g."""
-    return [entry for row in (*found.mass_matrix, *found.coriolis, found.gravity_vector) for entry in row]
+def _christoffel(found: Equations, notation: Notation) -> list[ChristoffelSymbol]:
+    symbols = []
+    for i, rows in enumerate(found.christoffel, start=1):
+        for j, row in enumerate(rows, start=1):
+            for k, entry in enumerate(row, start=1):
+                if j <= k and entry:
+                    text = written(entry, notation, BY_WAVE)
+                    symbols.append(ChristoffelSymbol(i, j, k, text.latex, text.plain))
+    return symbols
 
 
-def _column(entries: Sequence[Polynomial], notation: Notation, manner: Manner) -> MatrixText:
-    return written_matrix([[entry] for entry in entries], notation, manner)
-
-
-def _body(found: Equations, i: int, notation: Notation) -> BodyText:
-    return BodyText(
-        notation.vector(found.centers[i]),
-        _column(found.velocities[i], notation, BY_WAVE),
-        notation.text(found.turns[i]),
-        written(found.kinetic[i], notation, BY_ENERGY),
-        written(found.potential[i], notation, BY_HEIGHT),
-    )
-
-
-def _christoffel(found: Equations, notation: Notation) -> list[ChristoffelText]:
-    size = range(len(found.christoffel))
-    return [
-        ChristoffelText(i + 1, j + 1, k + 1, written(found.christoffel[i][j][k], notation, BY_WAVE))
-        for i in size
-        for j in size
-        for k in size
-        if j <= k and found.christoffel[i][j][k]
-    ]
-
-
-def _row(found: Equations, i: int, notation: Notation) -> Text:
+def _row(found: Equations, i: int, notation: Notation) -> Formula:
     """Write a row of M q̈ + C q̇ + g = τ."""
     parts = [written(M * rate(j, 2), notation, BY_MASS) for j, M in enumerate(found.mass_matrix[i], start=1)]
     parts.append(written(found.coriolis_vector[i], notation, BY_WAVE))
     parts.append(written(found.gravity_vector[i], notation, BY_WEIGHT))
-    left = summed(parts)
-    return Text(rf"{left.latex} = \tau_{{{i + 1}}}", f"{left.plain} = tau{i + 1}")
+    left, right = summed(parts), indexed(r"\tau", "tau", i + 1)
+    return Formula(f"{left.latex} = {right.latex}", f"{left.plain} = {right.plain}")
 
 
 def _legend(found: Equations, lines: Sequence[Line], table: Table, notation: Notation) -> list[SymbolEntry]:
     """Return the legend: first the symbols of the table, then those of the equations of motion alone."""
     atoms = {atom for entry in found.all for atom in entry.atoms}
-    entries = legend((symbol(atom) for atom in atoms if atom.name not in _MOVING), table, notation)
+    entries = legend((atom for atom in atoms if atom.name not in _MOVING), table, notation)
     for atom in sorted(atoms):
         if atom.name in _MOVING and atom not in notation.numbers:
-            entries.append(SymbolEntry(notation.atom(atom), _meaning(_words(atom, lines)), table.values.get(atom)))
-    for i in range(1, len(lines) + 1):
-        words = f"torque of joint {i}, in N m" if lines[i - 1] != "own axis" else f"force of joint {i}, in N"
-        entries.append(SymbolEntry(Text(rf"\tau_{{{i}}}", f"tau{i}"), _meaning(words), None))
+            entries.append(symbol_entry(notation.atom(atom), _words(atom, lines), table.values.get(atom)))
+    for i, line in enumerate(lines, start=1):
+        words = f"torque of joint {i}, in N m" if line != "own axis" else f"force of joint {i}, in N"
+        entries.append(symbol_entry(indexed(r"\tau", "tau", i), words))
     return entries
-
-
-def _meaning(words: str) -> Text:
-    """Write words; a squared unit at their end is not text in LaTeX."""
-    square = "^{2}" if words.endswith("^2") else ""
-    return Text(rf"\text{{{words.removesuffix('^2')}}}{square}", words)
 
 
 def _words(atom: Atom, lines: Sequence[Line]) -> str:
@@ -145,12 +129,12 @@ def _words(atom: Atom, lines: Sequence[Line]) -> str:
     if atom.kind == LENGTH and atom.name != "lc":
         return f"coordinate {atom.name[0]} of the centre of mass of link {i} in frame {i}, in m"
     if atom.kind == LENGTH:
-        ways = {
+        places = {
             "x": f"the axis of joint {i}, along x of frame {i}",
             "next axis": f"the axis of joint {i}, along that of joint {i + 1}",
             "own axis": f"the origin of frame {i}, along the axis of joint {i}",
         }
-        return f"where the centre of mass of link {i} is from {ways[lines[i - 1]]}, in m"
+        return f"where the centre of mass of link {i} is from {places[lines[i - 1]]}, in m"
     if atom.kind == RATE:
         unit = "m/s" if lines[i - 1] == "own axis" else "rad/s"
         return f"velocity of joint {i}, in {unit}" if atom.name == "qd" else f"acceleration of joint {i}, in {unit}^2"
@@ -166,20 +150,17 @@ def _values(found: Equations, table: Table, values: dict[Atom, float], sample: M
     def row(entries: Iterable[Polynomial]) -> list[float]:
         return [entry.value(known) for entry in entries]
 
-    def grid(rows: Iterable[Iterable[Polynomial]]) -> Grid:
-        return [row(entries) for entries in rows]
-
     return MotionValues(
-        grid(found.centers),
-        grid(found.velocities),
+        grid_of(found.centers, known),
+        grid_of(found.velocities, known),
         row(found.kinetic),
         row(found.potential),
-        grid(found.mass_matrix),
-        [grid(rows) for rows in found.christoffel],
-        grid(found.coriolis),
+        grid_of(found.mass_matrix, known),
+        [grid_of(rows, known) for rows in found.christoffel],
+        grid_of(found.coriolis, known),
         row(found.coriolis_vector),
         row(found.gravity_vector),
-        grid(found.skew),
+        grid_of(found.skew, known),
         row(found.torques),
     )
 

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 from gelenk.dh.derive.table import TableNumbers
 from gelenk.dh.derive.texts import Configuration, Grid, SymbolEntry
-from gelenk.dh.derive.typeset import MatrixText, Style, Text
+from gelenk.dh.derive.typeset import Formula, MatrixFormula, Style
 from gelenk.dh.lagrangian.bodies import Gravity, LinkBody
+from gelenk.robot.result import Result
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,24 +48,62 @@ class MotionQuestion:
 
 
 @dataclass(frozen=True, slots=True)
-class BodyText:
-    """A link: its centre of mass, its motion, and its energies."""
+class LinkFormulas(Result):
+    """A link in the Lagrangian; vectors in the axes of frame 0.
 
-    center: MatrixText
-    velocity: MatrixText
-    angular_velocity: Text
-    kinetic: Text
-    potential: Text
+    Attributes:
+        joint: The joint that moves the body.
+        center_of_mass: p_ci from the origin of frame 0.
+        velocity: v_ci, of the centre of mass.
+        angular_velocity: ω_i about the normal of the plane.
+        kinetic_energy: T_i.
+        potential_energy: U_i, zero at the origin of frame 0.
+    """
+
+    joint: str
+    center_of_mass: MatrixFormula
+    velocity: MatrixFormula
+    angular_velocity: Formula
+    kinetic_energy: Formula
+    potential_energy: Formula
 
 
 @dataclass(frozen=True, slots=True)
-class ChristoffelText:
-    """A Christoffel symbol c_ijk = c_ikj; joints are numbered from 1, and j ≤ k."""
+class ChristoffelSymbol(Result):
+    """A Christoffel symbol of the first kind, c_ijk = c_ikj.
+
+    Attributes:
+        i: Number of the row of C, from 1.
+        j: Number of the column, from 1.
+        k: Number of the velocity beside it, from j on.
+        latex: For KaTeX or LaTeX with amsmath.
+        plain: An expression of Python and of most computer algebra systems.
+    """
 
     i: int
     j: int
     k: int
-    formula: Text
+    latex: str
+    plain: str
+
+
+@dataclass(frozen=True, slots=True)
+class EquationsCertificate(Result):
+    """Comparison of the equations of motion with Pinocchio, which builds the arm from the table with these masses.
+
+    Attributes:
+        samples: States that were compared; in symbols, also with random values for what has none.
+        max_mass_matrix_error: Largest difference of an entry of M, [kg m², kg m or kg].
+        max_coriolis_error: Of a Christoffel symbol, [kg m², kg m or kg].
+        max_gravity_error: Of an entry of g, [N m or N].
+        seed: Random seed of the sampling; null where configurations were given.
+    """
+
+    samples: int
+    max_mass_matrix_error: float
+    max_coriolis_error: float
+    max_gravity_error: float
+    seed: int | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,15 +143,15 @@ class MotionTexts:
     """
 
     legend: list[SymbolEntry]
-    gravity: MatrixText
-    bodies: list[BodyText]
-    mass_matrix: MatrixText
-    christoffel: list[ChristoffelText]
-    coriolis: MatrixText
-    coriolis_vector: MatrixText
-    gravity_vector: MatrixText
-    skew: MatrixText
-    rows: list[Text]
+    gravity: MatrixFormula
+    bodies: list[LinkFormulas]
+    mass_matrix: MatrixFormula
+    christoffel: list[ChristoffelSymbol]
+    coriolis: MatrixFormula
+    coriolis_vector: MatrixFormula
+    gravity_vector: MatrixFormula
+    skew: MatrixFormula
+    rows: list[Formula]
     missing: tuple[str, ...]
     values: list[MotionValues]
 

@@ -23,10 +23,13 @@ from gelenk.dh.derive.algebra import (
     Monomial,
     Polynomial,
     monomial_product,
+    quotient,
+    shared_monomial,
+    shared_number,
     total,
 )
 from gelenk.dh.derive.factors import separated
-from gelenk.dh.derive.typeset import MatrixText, Notation, Text, monomial_quotient, shared_number
+from gelenk.dh.derive.typeset import Formula, Notation, in_brackets, summed
 from gelenk.dh.lagrangian.squares import is_rate, place_of, rate_factors, square_within
 
 Key: TypeAlias = Callable[[Atom], bool]
@@ -81,45 +84,23 @@ BY_WEIGHT = Manner(((_is_wave, _is_mass),), (True,))
 """For g: likewise, with gravity in each product."""
 
 
-def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Text:
+def written(polynomial: Polynomial, notation: Notation, manner: Manner) -> Formula:
     """Write a polynomial in a manner."""
     plain = notation.numbered(polynomial)
     if not plain:
-        return Text("0", "0")
-    ways = product(manner.groupings, manner.distributes)
-    options = [_Writer(notation, keys, shared, manner.keeps_lengths).whole(plain) for keys, shared in ways]
-    return min(options, key=_length)
+        return Formula("0", "0")
+    options = product(manner.groupings, manner.distributes)
+    texts = (_Writer(notation, keys, shared, manner.keeps_lengths).whole(plain) for keys, shared in options)
+    return min(texts, key=_length)
 
 
-def written_matrix(rows: Sequence[Sequence[Polynomial]], notation: Notation, manner: Manner) -> MatrixText:
-    """Write a matrix of polynomials in a manner."""
-    texts = [[written(entry, notation, manner) for entry in row] for row in rows]
-    body = r" \\ ".join(" & ".join(text.latex for text in row) for row in texts)
-    return MatrixText(rf"\begin{{bmatrix}} {body} \end{{bmatrix}}", [[text.plain for text in row] for row in texts])
-
-
-def _length(text: Text) -> int:
+def _length(text: Formula) -> int:
     """Return the length of a formula; nested brackets count extra."""
     depth, deepest = 0, 0
     for character in text.plain:
         depth += {"(": 1, ")": -1}.get(character, 0)
         deepest = max(deepest, depth)
     return len(text.plain) + _NESTING * max(0, deepest - 1)
-
-
-def summed(texts: Sequence[Text]) -> Text:
-    """Write a sum of formulas; a minus at the front of one becomes the sum's."""
-    latex, plain = "", ""
-    for text in texts:
-        if text.plain == "0":
-            continue
-        if not plain:
-            latex, plain = text
-        elif text.plain.startswith("-"):
-            latex, plain = f"{latex} - {text.latex[1:].lstrip()}", f"{plain} - {text.plain[1:]}"
-        else:
-            latex, plain = f"{latex} + {text.latex}", f"{plain} + {text.plain}"
-    return Text(latex, plain) if plain else Text("0", "0")
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +124,7 @@ class _Writer:
     distributes: bool
     keeps_lengths: bool
 
-    def whole(self, polynomial: Polynomial) -> Text:
+    def whole(self, polynomial: Polynomial) -> Formula:
         """Write a formula that stands alone; if `distributes`, a factor that all groups share stays in each."""
         whole = self._product(polynomial)
         if whole.is_a_sum or (self.distributes and len(_groups(polynomial, self.keys[0])) > 1):
@@ -169,13 +150,10 @@ class _Writer:
         return _Product(factor, atoms, tuple((part, 1) for part in rate_factors(rest)))
 
     def _taken_out(self, polynomial: Polynomial) -> tuple[Fraction, Monomial, Polynomial]:
-        powers = [dict(monomial) for monomial in polynomial.terms]
-        shared = {atom: min(power.get(atom, 0) for power in powers) for atom in powers[0]}
-        kept = self.keeps_lengths and len(_groups(polynomial, _is_wave)) > 1
-        common = tuple(sorted((a, power) for a, power in shared.items() if power and not (kept and a.kind == LENGTH)))
-        factor = self._shared_number(polynomial)
-        rest = Polynomial({monomial_quotient(m, common): value / factor for m, value in polynomial})
-        return factor, common, rest
+        shared, factor = shared_monomial(polynomial), self._shared_number(polynomial)
+        if self.keeps_lengths and len(_groups(polynomial, _is_wave)) > 1:
+            shared = tuple(item for item in shared if item[0].kind != LENGTH)
+        return factor, shared, quotient(polynomial, factor, shared)
 
     def _shared_number(self, polynomial: Polynomial) -> Fraction:
         """Return the number before the bracket; a decimal number only if the bracket gets shorter."""
@@ -191,30 +169,22 @@ class _Writer:
     def _is_tidy(self, parts: Sequence[Polynomial]) -> bool:
         return not self.notation.numbers or all(_is_small(x) for part in parts[1:] for x in part.terms.values())
 
-    def _text(self, whole: _Product) -> Text:
+    def _text(self, whole: _Product) -> Formula:
         factor = whole.factor
-        pieces = [((atom.kind, 0, atom.indices), self._atoms(((atom, power),))) for atom, power in whole.atoms]
+        pieces = [
+            ((atom.kind, 0, atom.indices), self.notation.monomial(Fraction(1), ((atom, power),)))
+            for atom, power in whole.atoms
+        ]
         for bracket, power in whole.brackets:
             inner = self._sum(bracket)
             if inner.plain.startswith("-"):
                 factor, inner = (-factor if power % 2 else factor), self._sum(-bracket)
-            raised = Text("" if power == 1 else f"^{{{power}}}", "" if power == 1 else f"**{power}")
             place = min(bracket.atoms, default=Atom(MASS, (), ""))
-            text = Text(rf"\left({inner.latex}\right){raised.latex}", f"({inner.plain}){raised.plain}")
-            pieces.append(((place.kind, 1, place.indices), text))
+            pieces.append(((place.kind, 1, place.indices), in_brackets(inner, power)))
         pieces.sort(key=lambda piece: piece[0])
-        texts = [text for _, text in pieces]
-        sign = "-" if factor < 0 else ""
-        if abs(factor) != 1 or not texts:
-            size = self.notation.number(abs(factor))
-            plain = f"({size.plain})" if "/" in size.plain and texts else size.plain
-            texts.insert(0, Text(size.latex, plain))
-        return Text(sign + " ".join(t.latex for t in texts), sign + "*".join(t.plain for t in texts))
+        return self.notation.signed(factor, [text for _, text in pieces])
 
-    def _atoms(self, monomial: Monomial) -> Text:
-        return self.notation.monomial(Fraction(1), monomial)
-
-    def _sum(self, polynomial: Polynomial) -> Text:
+    def _sum(self, polynomial: Polynomial) -> Formula:
         return summed([self._text(self._product(part)) for part in self._summands(polynomial, self.keys)])
 
     def _summands(self, polynomial: Polynomial, keys: Sequence[Key]) -> list[Polynomial]:
@@ -254,5 +224,5 @@ def _same_rates(polynomial: Polynomial) -> list[Polynomial]:
     for group in _groups(polynomial, _is_static):
         rates = {tuple(item for item in m if is_rate(item[0])): value for m, value in group}
         first = rates[min(rates)]
-        alike.setdefault(Polynomial({m: value / first for m, value in rates.items()}), []).append(group)
+        alike.setdefault(quotient(Polynomial(rates), first), []).append(group)
     return [total(groups) for groups in alike.values()]

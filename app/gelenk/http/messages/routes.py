@@ -6,10 +6,8 @@ model (the tests do that instead). So a `DocumentedRoute` keeps the documentatio
 finds operations on a robot, which are called thousands of times a second, before anything else.
 """
 
-import asyncio
 import re
 from collections.abc import Awaitable, Callable
-from concurrent.futures import Executor
 from typing import Any
 
 from fastapi import FastAPI
@@ -109,8 +107,3 @@ def prefixed(scope: Scope, root_path: str) -> Scope:
     path: str = scope["path"]
     has_it = path == root_path or path.startswith(f"{root_path}/")
     return scope if has_it else {**scope, "path": root_path + path}
-
-
-async def in_thread(executor: Executor, work: Callable[[], Response]) -> Response:
-    """Run work in a thread, so that it does not block the event loop."""
-    return await asyncio.get_running_loop().run_in_executor(executor, work)

@@ -2,9 +2,8 @@
 
 from gelenk.contract.pose import Pose
 from gelenk.contract.shapes import BoxShape, CylinderShape, LinkShape
-from gelenk.robot.appearance import Solid
+from gelenk.robot.appearance import Solid, skeleton
 from gelenk.robot.notations import quaternions_xyzw_from_rotations
-from gelenk.robot.skeleton import skeleton
 from gelenk.store.records import LoadedRobot
 
 

@@ -7,9 +7,11 @@ from pydantic import Field
 from gelenk.contract.common import Answer, Payload
 from gelenk.contract.dh import DhTablePayload
 from gelenk.contract.endpoint import Endpoint
-from gelenk.contract.formulas import FormulaInfo, Grid, MatrixInfo
 from gelenk.contract.kinematics import Configuration
-from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload
+from gelenk.contract.lagrangian import EXAMPLE_MOTION, MAX_CONFIGURATIONS, DynamicsInfo, DynamicsPayload, Grid
+from gelenk.course.steps import Step
+from gelenk.dh.derive.texts import ColumnFormulas, FormulaCertificate, SingularCondition, SymbolEntry
+from gelenk.dh.derive.typeset import Formula, MatrixFormula
 
 
 class DeriveRequest(Payload):
@@ -39,31 +41,11 @@ class DeriveRequest(Payload):
     )
 
 
-class LegendEntry(Answer):
-    """A symbol and its meaning."""
-
-    latex: str = Field(description="The symbol in LaTeX.")
-    plain: str = Field(description="The symbol as plain text.")
-    meaning_latex: str = Field(description="Its meaning, in LaTeX.")
-    meaning: str = Field(description="Its meaning, as plain text.")
-    value: float | None = Field(description="Its value in the table, [m], or a cosine or sine; null for variables.")
-
-
-class ColumnInfo(Answer):
-    """A column of the geometric Jacobian in the axes of the base."""
-
-    joint: str = Field(description="The joint whose rate the column is multiplied by.")
-    axis: MatrixInfo = Field(description="z of the joint: z_{i-1} in a standard table, z_i in a modified one.")
-    arm: MatrixInfo | None = Field(description="p from the joint's frame to the tip; null for a prismatic joint.")
-    linear: MatrixInfo = Field(description="z × p, simplified; z for a prismatic joint.")
-    angular: MatrixInfo = Field(description="z; zero for a prismatic joint.")
-
-
 class JacobianInfo(Answer):
     """The geometric Jacobian, linear rows first, in the axes of the base, at the tip."""
 
-    matrix: MatrixInfo
-    columns: list[ColumnInfo]
+    matrix: MatrixFormula
+    columns: list[ColumnFormulas]
 
 
 class DeterminantInfo(Answer):
@@ -81,34 +63,7 @@ class DeterminantInfo(Answer):
         description="The determinant as a product; null where it has too many terms, or failed its check."
     )
     plain: str | None = Field(description="The product as plain text; null where `determinant` is.")
-    factors: list[FormulaInfo] = Field(description="The factors of the product beside its number, each one once.")
-
-
-class SingularValueInfo(Answer):
-    """A value at which a factor vanishes."""
-
-    joints: list[str] = Field(description="The joints whose variables, added with `signs`, have the value.")
-    signs: list[int] = Field(description="1 or -1 for each of these.")
-    variable: FormulaInfo
-    formula: FormulaInfo
-    value: float = Field(description="[rad] in (-π, π], or [m].")
-
-
-class SingularConditionInfo(Answer):
-    """A factor of the determinant that some configurations make vanish."""
-
-    kind: Literal["solved", "equation", "never"] = Field(
-        description="Solved for a variable, left as an equation, or without a real solution with these lengths."
-    )
-    condition: FormulaInfo = Field(description="The factor that is zero.")
-    solutions: list[SingularValueInfo]
-    example: list[float] | None = Field(
-        description="A configuration that fulfils the condition, the other joints drawn at random, [rad or m]; null "
-        "where none was found."
-    )
-    example_singular_value: float | None = Field(
-        description="Smallest singular value of the block at the example, by the numbers of the table."
-    )
+    factors: list[Formula] = Field(description="The factors of the product beside its number, each one once.")
 
 
 class NumericColumnInfo(Answer):
@@ -136,22 +91,6 @@ class NumericInfo(Answer):
     determinant: float | None = Field(description="Of the block that `determinant` names; null where none is square.")
 
 
-class StepInfo(Answer):
-    """A section of the worked solution."""
-
-    title: str = Field(description="What the step computes.")
-    text: str = Field(description="The step in a sentence or two.")
-    latex: list[str] = Field(description="Formulas, one per line.")
-
-
-class DeriveCertificate(Answer):
-    """Comparison of the formulas with numbers from the table's own product of transforms, at random configurations."""
-
-    samples: int = Field(description="Configurations at which every formula was evaluated.")
-    max_error: float = Field(description="Largest difference of an entry; [m] or no unit.")
-    seed: int = Field(description="Random seed of the sampling.")
-
-
 class NumericCertificate(Answer):
     """Comparison of the numbers at the given configurations with Pinocchio's."""
 
@@ -168,24 +107,24 @@ class DeriveAnswer(Answer):
     joint_names: list[str] = Field(description="The order of a configuration.")
     notation: Literal["short", "full"] = Field(description="As requested.")
     symbolic: bool = Field(description="Whether the answer has formulas, or numbers alone.")
-    legend: list[LegendEntry] = Field(description="Meaning of each symbol.")
-    A: list[MatrixInfo] = Field(description="A_1 … A_n.")
-    T_0: list[MatrixInfo] = Field(description="T_0_1 … T_0_n.")
-    T_base_tool: MatrixInfo | None
-    position: MatrixInfo | None = Field(description="Of the tool in the base.")
-    rotation: MatrixInfo | None = Field(description="Of the tool in the base.")
+    legend: list[SymbolEntry] = Field(description="Meaning of each symbol.")
+    A: list[MatrixFormula] = Field(description="A_1 … A_n.")
+    T_0: list[MatrixFormula] = Field(description="T_0_1 … T_0_n.")
+    T_base_tool: MatrixFormula | None
+    position: MatrixFormula | None = Field(description="Of the tool in the base.")
+    rotation: MatrixFormula | None = Field(description="Of the tool in the base.")
     jacobian: JacobianInfo | None
     determinant: DeterminantInfo | None = Field(description="Null where no block is square, or without time.")
-    singularities: list[SingularConditionInfo] = Field(
+    singularities: list[SingularCondition] = Field(
         description="One for each factor of the determinant that depends on a joint."
     )
     dynamics: DynamicsInfo | None = Field(
         description="The equations of motion; null if they were not requested, or if `notes` says why there are none."
     )
     numeric: list[NumericInfo] = Field(description="One entry per configuration.")
-    steps: list[StepInfo] = Field(description="The solution step by step, in the order of a lecture.")
+    steps: list[Step] = Field(description="The solution step by step, in the order of a lecture.")
     notes: list[str] = Field(description="What was read differently, what stays numeric or failed its check, and why.")
-    certificate: DeriveCertificate | None = Field(description="Null where there are no formulas.")
+    certificate: FormulaCertificate | None = Field(description="Null where there are no formulas.")
     numeric_certificate: NumericCertificate | None = Field(description="Null where there are no configurations.")
 
 

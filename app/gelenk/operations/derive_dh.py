@@ -1,0 +1,194 @@
+"""The worked solution of a DH table. What is not derived in time stays numeric."""
+
+import signal
+import time
+from collections.abc import Callable, Sequence
+from itertools import chain
+from types import FrameType
+from typing import Any, TypeVar
+
+from gelenk.contract.common import as_lists
+from gelenk.contract.derive_dh import DeriveRequest
+from gelenk.dh.derive.jacobian import ROW_NAMES
+from gelenk.dh.derive.numeric import NumericSolution
+from gelenk.dh.derive.steps import which_block
+from gelenk.dh.derive.texts import Singularities, SymbolEntry
+from gelenk.dh.derive.typeset import MatrixFormula
+from gelenk.dh.lagrangian.numeric import NumericMotion
+from gelenk.dh.lagrangian.solution import MotionSolution
+from gelenk.dh.worked import WorkedSolution, worked_solution
+from gelenk.operations.outcome import Outcome
+
+SECONDS = 8.0
+"""Time limit of the symbolic part, [s]; what is not done by then stays numeric."""
+_IMPORT = "<frozen importlib._bootstrap>"
+_AFTER_IMPORT = 0.02
+_Question = TypeVar("_Question")
+_Result = TypeVar("_Result")
+
+
+def run(call: DeriveRequest) -> Outcome:
+    """Derive the worked solution of a DH table in symbols, and evaluate it."""
+    return Outcome(lambda: _derived(call))
+
+
+def is_heavy(_: DeriveRequest) -> bool:
+    """Return True: a derivation takes tens of milliseconds, and up to its time limit."""
+    return True
+
+
+def in_time(function: Callable[[_Question], _Result], question: _Question, seconds: float) -> _Result:
+    """Run a function in this process's main thread, and break it off in time, though never while it imports a module.
+
+    Raises:
+        TimeoutError: The function takes longer.
+        Exception: Whatever the function raises.
+    """
+
+    def stop(_: int, frame: FrameType | None) -> None:
+        while frame is not None:
+            if frame.f_code.co_filename == _IMPORT:
+                signal.setitimer(signal.ITIMER_REAL, _AFTER_IMPORT)
+                return
+            frame = frame.f_back
+        raise _Overdue
+
+    if seconds <= 0.0:
+        raise TimeoutError
+    signal.signal(signal.SIGALRM, stop)
+    try:
+        try:
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+            return function(question)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+    except _Overdue:
+        raise TimeoutError from None
+
+
+class _Overdue(BaseException):
+    """No handler of other exceptions must stop this one."""
+
+
+def _derived(call: DeriveRequest) -> dict[str, Any]:
+    solution = worked_solution(
+        call.dh.table(),
+        call.joint_positions,
+        call.notation,
+        keeps_symbols=call.symbolic,
+        dynamics=None if call.dynamics is None else call.dynamics.dynamics(),
+        run=in_time,
+        deadline=time.monotonic() + SECONDS,
+    )
+    found, singular, names = solution.formulas, solution.singularities, solution.joint_names
+    jacobian = None
+    if found is not None and found.columns is not None:
+        jacobian = {"matrix": found.jacobian, "columns": found.columns}
+    return {
+        "convention": call.dh.convention,
+        "joint_names": names,
+        "notation": call.notation,
+        "symbolic": call.symbolic,
+        "legend": _legend(solution),
+        "A": _matrices("A", [None] * len(names) if found is None else found.rows),
+        "T_0": _matrices("T_0", [None] * len(names) if found is None else found.frames),
+        "T_base_tool": found and found.tip,
+        "position": found and found.position,
+        "rotation": found and found.rotation,
+        "jacobian": jacobian,
+        "determinant": singular and _determinant(singular),
+        "singularities": singular.conditions if singular else (),
+        "dynamics": solution.motion and _dynamics(solution.motion),
+        "numeric": [
+            _numbers(one, determinant) for one, determinant in zip(solution.numeric, solution.determinants, strict=True)
+        ],
+        "steps": solution.steps,
+        "notes": solution.notes,
+        "certificate": solution.certificate,
+        "numeric_certificate": _numeric_certificate(solution),
+    }
+
+
+def _legend(solution: WorkedSolution) -> list[SymbolEntry]:
+    parts = (solution.formulas, solution.singularities, solution.motion.texts if solution.motion else None)
+    unique: dict[str, SymbolEntry] = {}
+    for entry in chain.from_iterable(part.legend for part in parts if part is not None):
+        unique.setdefault(entry.plain, entry)
+    return list(unique.values())
+
+
+def _matrices(letter: str, matrices: Sequence[MatrixFormula | None]) -> list[MatrixFormula]:
+    """Return matrices, with nulls in place of those that are too long."""
+    return [matrix or MatrixFormula(f"{letter}_{i}", None, None) for i, matrix in enumerate(matrices, start=1)]
+
+
+def _determinant(singular: Singularities) -> dict[str, Any] | None:
+    block, formula = singular.block, singular.formula
+    if block is None:
+        return None
+    return {
+        "block": block.kind,
+        "rows": [ROW_NAMES[i] for i in block.rows],
+        "frame": block.frame,
+        "why": which_block(singular),
+        "latex": formula and formula.latex,
+        "plain": formula and formula.plain,
+        "factors": singular.factors,
+    }
+
+
+def _numbers(one: NumericSolution, determinant: float | None) -> dict[str, Any]:
+    fields = ("axis", "arm", "linear", "angular")
+    numbers: dict[str, Any] = as_lists(
+        {
+            "joint_positions": one.q,
+            "A": one.rows,
+            "T_0": one.frames,
+            "T_base_tool": one.tip,
+            "position": one.tip[:3, 3],
+            "rotation": one.tip[:3, :3],
+            "columns": [{name: getattr(column, name) for name in fields} for column in one.columns],
+            "jacobian": one.jacobian,
+            "singular_values": one.singular_values,
+            "rank": one.rank,
+            "determinant": determinant,
+        }
+    )
+    return numbers
+
+
+def _numeric_certificate(solution: WorkedSolution) -> dict[str, Any] | None:
+    poses, jacobians = solution.pose_certificate, solution.jacobian_certificate
+    if poses is None or jacobians is None:
+        return None
+    return {
+        "samples": poses.samples,
+        "max_position_error": poses.max_position_error,
+        "max_orientation_error": poses.max_orientation_error,
+        "max_jacobian_error": jacobians.max_error,
+    }
+
+
+def _dynamics(motion: MotionSolution) -> dict[str, Any]:
+    texts = motion.texts
+    return {
+        "gravity": texts.gravity,
+        "links": texts.bodies,
+        "mass_matrix": texts.mass_matrix,
+        "christoffel": texts.christoffel,
+        "coriolis": texts.coriolis,
+        "coriolis_vector": texts.coriolis_vector,
+        "gravity_vector": texts.gravity_vector,
+        "skew": texts.skew,
+        "equations_of_motion": texts.rows,
+        "numeric": [_motion_numbers(one) for one in motion.numeric],
+        "certificate": motion.certificate,
+        "numeric_certificate": motion.numeric_certificate,
+    }
+
+
+def _motion_numbers(one: NumericMotion) -> dict[str, Any]:
+    names = ("mass_matrix", "coriolis", "coriolis_vector", "gravity_vector")
+    quantities = {name: getattr(one, name) for name in names}
+    numbers: dict[str, Any] = as_lists({"joint_positions": one.q, "joint_velocities": one.v, **quantities})
+    return numbers
