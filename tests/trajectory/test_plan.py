@@ -171,7 +171,7 @@ def test_a_blend_beyond_its_acceleration_fails_the_audit() -> None:
     judged = audit(PANDA, ARM, found.motion, demands)
     assert [reason.check for reason in judged.reasons] == ["tip"]
     assert "the limit is 0.3 m/s²" in judged.reasons[0].detail
-    ratio = judged.tip["acceleration"].ratio
+    ratio = judged.tip.acceleration.ratio
     assert ratio is not None
     assert ratio > 1.0
     stretch = Demands(
@@ -397,9 +397,9 @@ def test_damping_states_what_it_costs() -> None:
     damped = plan(arm, chain, replace(problem, following=replace(xy, near_singularity="damp")))
     cost = damped.segments[0].joint_deviation
     assert cost is not None
-    assert cost[0] > xy.position_tolerance
+    assert cost.distance > xy.position_tolerance
     assert damped.audit.path_deviation is not None
-    assert damped.audit.path_deviation.value == pytest.approx(cost[0], rel=0.05)
+    assert damped.audit.path_deviation.value == pytest.approx(cost.distance, rel=0.05)
 
 
 def test_a_motion_that_fails_its_audit_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -33,7 +33,8 @@ from gelenk.trajectory.joints.via_blends import via_blends
 from gelenk.trajectory.joints.waypoints import WITHIN, check_within
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
-from gelenk.trajectory.problem.problem import Segment, SegmentReport, TimingComparison, TrajectoryProblem
+from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
+from gelenk.trajectory.problem.result import TimingComparison
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",

@@ -13,7 +13,8 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, LimitedInterval, PathError, TipLimits
+from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, LimitedInterval, TipLimits
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
@@ -25,15 +26,8 @@ from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.paths.segment_paths import SegmentsPath, path_through
 from gelenk.trajectory.paths.spline_paths import PolynomialPath
 from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
-from gelenk.trajectory.problem.problem import (
-    BlendReport,
-    Following,
-    Segment,
-    SegmentLimits,
-    SegmentReport,
-    TimingComparison,
-    TrajectoryProblem,
-)
+from gelenk.trajectory.problem.problem import Following, Segment, SegmentLimits, SegmentReport, TrajectoryProblem
+from gelenk.trajectory.problem.result import Damping, SegmentBlend, TimingComparison
 from gelenk.trajectory.timing.passing_times import passing_at
 from gelenk.trajectory.timing.timing import Timed, compared, timed
 
@@ -127,7 +121,7 @@ def _timed(
         raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
 
 
-def _blends(way: SegmentsPath, joints: FollowedPath, law: PiecewisePolynomial) -> list[BlendReport]:
+def _blends(way: SegmentsPath, joints: FollowedPath, law: PiecewisePolynomial) -> list[SegmentBlend]:
     """Return reports of the blends that the motion reaches."""
     blends = []
     for corner in way.corners:
@@ -135,7 +129,7 @@ def _blends(way: SegmentsPath, joints: FollowedPath, law: PiecewisePolynomial) -
             break
         times = _times_at(law, corner.begin, min(corner.end, joints.reached))
         limit = corner.acceleration if math.isfinite(corner.acceleration) else None
-        blends.append(BlendReport(corner.radius, *times, limit))
+        blends.append(SegmentBlend(corner.radius, *times, limit))
     return blends
 
 
@@ -178,9 +172,9 @@ def _demands(
 
 
 def _path_error(joints: FollowedPath, timing: Timed, limits: SegmentLimits) -> PathError:
-    """Bound how much ratios to limits differ from those of the exact path; ∞ if unknown, as off the path."""
+    """Bound how much ratios to limits differ from those of the exact path; None if unknown, as off the path."""
     if joints.bend_errors is None:
-        return PathError(math.inf, math.inf, math.inf)
+        return PathError(None, None, None)
     return path_error(joints.positions, joints.bend_errors, timing, limits)
 
 
@@ -209,7 +203,7 @@ def _reports(
     segments: Sequence[Segment],
     first: int,
     following: Following,
-    blends: Sequence[BlendReport],
+    blends: Sequence[SegmentBlend],
 ) -> tuple[SegmentReport, ...]:
     """Return reports of the segments that were started."""
     begins = (0.0, *way.ends[:-1])
@@ -229,7 +223,7 @@ def _reports(
             done,
             length,
             angle,
-            (joints.path_deviation, joints.orientation_deviation) if damped else None,
+            Damping(joints.path_deviation, joints.orientation_deviation) if damped else None,
             i + 1 < len(segments),
             blends[i] if i < len(blends) else None,
             (*way.notes, *_of_corners(segments), *timing.notes),

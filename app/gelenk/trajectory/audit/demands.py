@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.audit.tip import PathOfTime
 
 
@@ -71,21 +72,6 @@ class LimitedInterval:
     begin: float
     end: float
     tip: TipLimits
-
-
-@dataclass(frozen=True, slots=True)
-class PathError:
-    """Bounds on how much ratios to limits differ from those of the exact path at the same time law.
-
-    Attributes:
-        velocity: Of the joints; ∞ if unknown.
-        acceleration: Likewise.
-        jerk: Likewise.
-    """
-
-    velocity: float
-    acceleration: float
-    jerk: float
 
 
 @dataclass(frozen=True, slots=True)

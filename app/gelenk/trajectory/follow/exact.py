@@ -5,10 +5,12 @@ get more knots, many at once: the exact path is a few Newton steps away from a q
 exact configuration is taken.
 """
 
+import math
+
 import numpy as np
 
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.trajectory.audit.demands import PathError
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import Course
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
@@ -71,12 +73,11 @@ def path_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: S
     with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
         errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
     bounds = (limits.velocity, limits.acceleration, limits.jerk)
-    return PathError(
-        *(
-            float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
-            for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
-        )
-    )
+    found = [
+        float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
+        for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
+    ]
+    return PathError(*(value if math.isfinite(value) else None for value in found))
 
 
 def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:

@@ -10,7 +10,8 @@ from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem.problem import SegmentReport, TimingComparison
+from gelenk.trajectory.problem.problem import SegmentReport
+from gelenk.trajectory.problem.result import TimingComparison
 
 
 @dataclass(frozen=True, slots=True)
