@@ -17,7 +17,7 @@ from gelenk.kinematics.judge.judge import MAX_SAMPLES, PoseCertificate, certify_
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, LimitedInterval
+from gelenk.trajectory.audit.demands import Demands, Zone
 from gelenk.trajectory.audit.pieces import Extremes, Pieces, extremes, largest_jumps, pieces_of
 from gelenk.trajectory.audit.result import (
     Continuity,
@@ -37,8 +37,8 @@ DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
-_STRETCH = 200
-"""Samples of a stretch that has its own limits."""
+_ZONE_SAMPLES = 200
+"""Samples of a zone that has its own limits."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
 
 
@@ -241,18 +241,16 @@ def _tip(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) 
         (tip if of_tip else deviations)[quantity] = Peak(ratio, found.value, None, found.time)
         if ratio is not None and not ratio <= 1.0 + demands.tolerance:
             reasons.append(_tip_reason(quantity, found.value, limit, found.time))
-    for stretch in demands.stretches:
-        within = tip_peaks(pieces.between(stretch.begin, stretch.end), chain, None, least=_STRETCH)
+    for zone in demands.zones:
+        within = tip_peaks(pieces.between(zone.begin, zone.end), chain, None, least=_ZONE_SAMPLES)
         for quantity in _TIP_UNITS:
-            tip[quantity] = _in_stretch(tip[quantity], quantity, within[quantity], stretch, demands, reasons)
+            tip[quantity] = _in_zone(tip[quantity], quantity, within[quantity], zone, demands, reasons)
     return TipPeaks(**tip), deviations
 
 
-def _in_stretch(
-    peak: Peak, quantity: str, found: Largest, stretch: LimitedInterval, demands: Demands, reasons: list[Reason]
-) -> Peak:
-    """Raise a peak's ratio to that of a stretch with its own limit if larger, and add a reason if it is exceeded."""
-    limit = getattr(stretch.tip, quantity)
+def _in_zone(peak: Peak, quantity: str, found: Largest, zone: Zone, demands: Demands, reasons: list[Reason]) -> Peak:
+    """Raise a peak's ratio to that of a zone with its own limit if larger, and add a reason if it is exceeded."""
+    limit = getattr(zone.tip, quantity)
     if not math.isfinite(limit):
         return peak
     ratio = found.value / limit

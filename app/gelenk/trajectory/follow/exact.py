@@ -55,15 +55,17 @@ def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePo
     return positions, off
 
 
-def path_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: SegmentLimits) -> PathError:
-    """Bound how much a motion's ratios to limits differ from those of the exact path.
+def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, limits: SegmentLimits) -> PathError:
+    """Bound how much a motion's ratios to limits differ from those of the exact path; None where unknown.
 
     Args:
         joints: q(s), in M pieces.
-        off: Largest error of q'' in each piece; shape (M, n).
+        off: Largest error of q'' in each piece; shape (M, n). None off the path.
         timing: Its motion in time.
         limits: Of the joints.
     """
+    if off is None:
+        return PathError(None, None, None)
     breaks, law = timing.motion.breaks, timing.law
     times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
     s, v, a, j = (np.abs(law.derivative(order).at(times)) for order in range(4))

@@ -81,9 +81,9 @@ def standing(configuration: Array) -> PiecewisePolynomial:
 
 
 def _slowed_demands(demands: Demands, factor: float) -> Demands:
-    stretches = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.stretches)
+    zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.zones)
     path = None if demands.path is None else _slowed(demands.path, factor)
-    return replace(demands, path=path, stretches=stretches)
+    return replace(demands, path=path, zones=zones)
 
 
 def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:

@@ -17,10 +17,11 @@ from typing import Final
 import numpy as np
 
 from gelenk.errors import InvalidField
+from gelenk.trajectory.audit.demands import Zone
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.motion.composition import in_time
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
-from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, Zone, geometry_of
+from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, geometry_of
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.chain_laws import chain_law
