@@ -12,7 +12,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import transform
 from gelenk.trajectory.audit.audit import audit
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
-from gelenk.trajectory.laws.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.laws.jerk_limited import at_rest, jerk_limited
 from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
 from gelenk.trajectory.motion.composition import in_time, times_at
 from gelenk.trajectory.motion.time_laws import between
@@ -221,7 +221,7 @@ def test_when_a_law_is_where() -> None:
 def test_profiles_of_least_jerk_are_those_of_ruckig(seed: int) -> None:
     rng = np.random.default_rng(seed)
     caps = 10.0 ** rng.uniform(-1.5, 1.5, 3)
-    other = jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), JerkLimits(*caps[:, None]))
+    other = jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), caps[:, None])
     found = planned(caps)
     assert found.duration == pytest.approx(other.duration, rel=1e-4)
     assert lasting(caps[None])[0] == pytest.approx(other.duration, rel=1e-9)
