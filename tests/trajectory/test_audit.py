@@ -14,7 +14,7 @@ from gelenk.kinematics.simd.kernels import chain_jacobians, chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.audit.audit import Audit, audit
+from gelenk.trajectory.audit.audit import DERIVATIVES, Audit, audit
 from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, TipLimits
 from gelenk.trajectory.audit.pieces import extremes, pieces_of
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -97,7 +97,7 @@ def test_a_joint_that_stands_still_and_a_chain_without_joints() -> None:
     assert found.passed
     assert found.velocity is not None
     assert found.velocity.value == 0.0
-    assert found.tip["speed"].value == 0.0
+    assert found.tip.speed.value == 0.0
     fixed = PANDA.chain("panda_link0", "panda_link0")
     nothing = audit(PANDA, fixed, PiecewisePolynomial(np.array([0.0, 1.0]), np.zeros((1, 1, 0))), Demands())
     assert nothing.passed
@@ -203,10 +203,11 @@ def test_a_jump_where_two_pieces_meet(order: int) -> None:
     promised = Demands(continuous=order, ends=Ends(MIDDLE, MIDDLE))
     found = judged(motion, promised)
     assert only_reason(found) == ("continuity", "panda_joint3", 2.5)
-    jump = found.jumps[order]
+    jumps = [getattr(found.continuity, name) for name in DERIVATIVES]
+    jump = jumps[order]
     assert (jump.joint, jump.time) == ("panda_joint3", 2.5)
     assert jump.value == pytest.approx(1e-3, abs=1e-12)
-    assert [below.value for below in found.jumps[:order]] == pytest.approx([0.0] * order, abs=1e-12)
+    assert [below.value for below in jumps[:order]] == pytest.approx([0.0] * order, abs=1e-12)
     if order:
         assert judged(motion, replace(promised, continuous=order - 1)).passed, "nobody promised more"
 
@@ -245,7 +246,7 @@ def test_a_joint_beyond_its_limits_between_samples() -> None:
     assert only_reason(found)[:2] == ("joint_limit", "panda_joint2")
     assert found.limit_margin is not None
     assert found.limit_margin.bound == "upper"
-    assert found.limit_margin.distance == pytest.approx(-0.01)
+    assert found.limit_margin.value == pytest.approx(-0.01)
     assert found.limit_margin.time == pytest.approx(0.5, abs=1e-6)
     wider = JointLimits(lower=ARM.lower - 0.1, upper=ARM.upper + 0.1)
     assert judged(motion, Demands(wider, ends=ends)).passed
@@ -256,7 +257,7 @@ def test_a_lower_limit() -> None:
     assert only_reason(found) == ("joint_limit", "panda_joint4", 2.0)
     assert found.limit_margin is not None
     assert found.limit_margin.bound == "lower"
-    assert found.limit_margin.distance == pytest.approx(-0.2)
+    assert found.limit_margin.value == pytest.approx(-0.2)
 
 
 # The path
@@ -379,10 +380,10 @@ def test_speeds_and_accelerations_of_the_tip_by_differences() -> None:
     ):
         i = int(values.argmax())
         if 1e-2 < times[i] < 4.0 - 1e-2:
-            assert found.tip[quantity].value == pytest.approx(values[i], rel=1e-3)
-            assert found.tip[quantity].time == pytest.approx(times[i], abs=2e-3)
+            assert getattr(found.tip, quantity).value == pytest.approx(values[i], rel=1e-3)
+            assert getattr(found.tip, quantity).time == pytest.approx(times[i], abs=2e-3)
         else:
-            assert found.tip[quantity].value >= values[i] * (1.0 - 1e-4)
+            assert getattr(found.tip, quantity).value >= values[i] * (1.0 - 1e-4)
 
 
 def test_the_tip_s_acceleration_is_exact() -> None:
@@ -390,7 +391,7 @@ def test_the_tip_s_acceleration_is_exact() -> None:
     from gelenk.kinematics.simd.kernels import chain_hessians
 
     motion = some_motion(ARM, 5)
-    peak = judged(motion).tip["acceleration"]
+    peak = judged(motion).tip.acceleration
 
     def acceleration(t: float) -> float:
         q, v, a = (np.ascontiguousarray((motion.derivative(k) if k else motion).at(np.array([t]))) for k in range(3))
@@ -419,11 +420,11 @@ def test_a_limit_of_nothing() -> None:
 def test_a_tip_that_is_too_fast() -> None:
     motion = some_motion(ARM)
     peaks = judged(motion).tip
-    for quantity, peak in peaks.items():
-        limits = TipLimits(**{quantity: peak.value / 1.5})
+    for quantity in peaks.__slots__:
+        limits = TipLimits(**{quantity: getattr(peaks, quantity).value / 1.5})
         found = judged(motion, Demands(ends=ends_of(motion), tip=limits))
         assert only_reason(found)[0] == "tip"
-        assert found.tip[quantity].ratio == pytest.approx(1.5)
+        assert getattr(found.tip, quantity).ratio == pytest.approx(1.5)
         assert quantity.replace("_", " ") in found.reasons[0].detail
 
 

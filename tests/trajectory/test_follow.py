@@ -22,7 +22,7 @@ from gelenk.robot.urdf import read_urdf
 from gelenk.trajectory.follow import integrate as follow_trace
 from gelenk.trajectory.follow.follow import FollowedPath, follow
 from gelenk.trajectory.motion.splines import cubic_spline
-from gelenk.trajectory.paths.paths import Path, PathSamples, Unit, circle, line, sequence
+from gelenk.trajectory.paths.paths import Path, PathSamples, PathSequence, Unit, circle, line
 from gelenk.trajectory.paths.spline_paths import blended_lines, spline
 from gelenk.trajectory.problem.problem import Following
 from tests.robots import of_table, robot, rows, samples
@@ -334,7 +334,7 @@ def test_the_lectures_line_of_two_links() -> None:
     for count, deviation in ((5, 0.037935626952), (9, 0.007526883659), (17, 0.001922985419)):
         shares = np.linspace(0.0, 1.0, count)
         Ts = [moved(T, share * (end - T)[:3, 3], np.zeros(3)) for share in shares]
-        path = sequence([line(a, b) for a, b in pairwise(Ts)])
+        path = PathSequence(tuple(line(a, b) for a, b in pairwise(Ts)))
         way = follow(arm, chain, path, q, Following(task=XY))
         assert way.stop is None
         knots = way.positions.at(np.array([0.0, *path.breaks, path.extent]))
@@ -405,7 +405,7 @@ def test_parts_of_almost_no_length() -> None:
     q = starts(chain, FULL_POSE, 1, seed=5)[0]
     T = pose(chain, q)
     Ts = [T, *(moved(T, np.array([x, 0.0, 0.0]), np.zeros(3)) for x in (0.05, 0.05 + 2e-9, 0.1))]
-    path = sequence([line(a, b) for a, b in pairwise(Ts)])
+    path = PathSequence(tuple(line(a, b) for a, b in pairwise(Ts)))
     way = follow(arm, chain, path, q, Following())
     assert way.stop is None
     assert set(path.breaks) <= set(way.positions.breaks.tolist())

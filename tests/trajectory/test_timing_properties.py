@@ -154,7 +154,8 @@ def test_the_time_optimal_law_under_limits_of_the_tip_is_near_that_of_a_finer_gr
         found.law.derivative(order).at(times)[:, 0] if order else found.law.at(times)[:, 0] for order in range(3)
     )
     samples = path.at(s)
-    twists, changes = samples.twists(v), samples.accelerations(v, u)
+    twists = samples.first * v[:, None]
+    changes = samples.first * u[:, None] + samples.second * v[:, None] ** 2
     parts = (
         np.linalg.norm(twists[:, :3], axis=1) / 0.5,
         np.linalg.norm(twists[:, 3:], axis=1) / 1.0,

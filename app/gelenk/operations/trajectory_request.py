@@ -49,7 +49,7 @@ class SourcedProblem:
     segment_bounds: tuple[SourcedLimits, ...]
 
 
-def asked(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
+def parse(robot: RobotModel, chain: Chain, call: TrajectoryRequest) -> SourcedProblem:
     """Convert a request into the problem for the core.
 
     Raises:

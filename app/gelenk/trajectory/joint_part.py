@@ -27,7 +27,8 @@ from gelenk.trajectory.joints.waypoints import check_within
 from gelenk.trajectory.laws.laws import scaled_law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
-from gelenk.trajectory.problem.problem import Segment, SegmentReport, TimingComparison, TrajectoryProblem
+from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
+from gelenk.trajectory.problem.result import TimingComparison
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",

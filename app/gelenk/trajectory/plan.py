@@ -15,12 +15,14 @@ from gelenk.robot.configuration import check_limits
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.audit import Audit, audit
 from gelenk.trajectory.audit.demands import Demands
+from gelenk.trajectory.audit.result import TipPeaks
 from gelenk.trajectory.joint_part import joint_part
 from gelenk.trajectory.motion.extremes import peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.segment_paths import is_blended
 from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
-from gelenk.trajectory.problem.problem import PlanningFailure, Segment, Trajectory, TrajectoryProblem
+from gelenk.trajectory.problem.problem import Segment, Trajectory, TrajectoryProblem
+from gelenk.trajectory.problem.result import PlanningFailure
 from gelenk.trajectory.tip_part import tip_part
 from gelenk.trajectory.whole_audit import whole
 
@@ -199,7 +201,9 @@ def _excess(found: Audit) -> float:
         return 1.0
     checks = {reason.check for reason in found.reasons}
     peaks = {"velocity": found.velocity, "acceleration": found.acceleration, "jerk": found.jerk}
-    beyond = [peak for check, peak in peaks.items() if check in checks] + list(found.tip.values())
+    beyond = [peak for check, peak in peaks.items() if check in checks] + [
+        getattr(found.tip, name) for name in TipPeaks.__slots__
+    ]
     return max(peak.ratio or 0.0 for peak in beyond if peak is not None)
 
 
@@ -220,4 +224,4 @@ def refuse_failed(judgement: Audit) -> None:
 
 
 def _failure(halt: Halt, time: float) -> PlanningFailure:
-    return PlanningFailure(halt.reason, halt.segment, time, halt.position, halt.joint, halt.detail)
+    return PlanningFailure(halt.reason, halt.segment, time, tuple(halt.position.tolist()), halt.joint, halt.detail)

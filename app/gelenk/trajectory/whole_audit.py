@@ -4,15 +4,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import astuple, replace
 from typing import TypeVar
 
-import numpy as np
-
 from gelenk.kinematics.judge.judge import PoseCertificate
 from gelenk.robot.chain import Chain
-from gelenk.trajectory.audit.audit import Audit, Margin, Peak, Reason, Singularity, meetings
-from gelenk.trajectory.audit.demands import PathError
+from gelenk.trajectory.audit.audit import Audit, continuity_of
+from gelenk.trajectory.audit.result import LimitMargin, PathError, Peak, Reason, SmallestSingularValue, TipPeaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-_Timed = TypeVar("_Timed", Peak, Margin, Singularity, Reason)
+_Timed = TypeVar("_Timed", Peak, LimitMargin, SmallestSingularValue, Reason)
 
 
 def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], starts: Sequence[float]) -> Audit:
@@ -27,30 +25,33 @@ def whole(chain: Chain, motion: PiecewisePolynomial, audits: Sequence[Audit], st
     if len(audits) == 1:
         return audits[0]
     timed = list(zip(audits, starts, strict=True))
-    jumps, reasons = meetings(chain, motion)
+    continuity, meeting = continuity_of(chain, motion)
+    reasons = (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *meeting)
+    margins = (_moved(one.limit_margin, at) for one, at in timed if one.limit_margin)
+    sigmas = (_moved(one.min_singular_value, at) for one, at in timed if one.min_singular_value)
     return Audit(
+        not reasons,
         _worst((one.velocity, at) for one, at in timed),
         _worst((one.acceleration, at) for one, at in timed),
         _worst((one.jerk, at) for one, at in timed),
-        jumps,
-        min((_moved(one.limit_margin, at) for one, at in timed if one.limit_margin), key=_distance, default=None),
-        {**_of(audits[0], "start"), **_of(audits[-1], "end")},
-        {name: _of_tip([_moved(one.tip[name], at) for one, at in timed]) for name in audits[0].tip},
         _worst((one.path_deviation, at) for one, at in timed),
         _worst((one.orientation_deviation, at) for one, at in timed),
-        min(
-            (_moved(one.min_singular_value, at) for one, at in timed if one.min_singular_value),
-            key=lambda singularity: singularity.value,
-            default=None,
-        ),
+        continuity,
+        min(sigmas, key=lambda one: one.value, default=None),
+        min(margins, key=lambda one: one.value, default=None),
+        {**_of(audits[0], "start"), **_of(audits[-1], "end")},
+        TipPeaks(*(_of_tip([_moved(getattr(one.tip, name), at) for one, at in timed]) for name in TipPeaks.__slots__)),
         _certificate(audits),
-        (*(_moved(reason, at) for one, at in timed for reason in one.reasons), *reasons),
         _path_error([one.way_error for one in audits if one.way_error is not None]),
+        reasons,
     )
 
 
 def _path_error(errors: Sequence[PathError]) -> PathError | None:
-    return PathError(*np.max([astuple(one) for one in errors], axis=0).tolist()) if errors else None
+    if not errors:
+        return None
+    columns = zip(*(astuple(error) for error in errors), strict=True)
+    return PathError(*(None if None in column else max(column) for column in columns))
 
 
 def _worst(peaks: Iterable[tuple[Peak | None, float]]) -> Peak | None:
@@ -66,10 +67,6 @@ def _of_tip(peaks: Sequence[Peak]) -> Peak:
     """Return the largest value of all parts, with the largest ratio to the limit of a part."""
     largest = max(peaks, key=lambda peak: peak.value)
     return replace(largest, ratio=max((peak.ratio for peak in peaks if peak.ratio is not None), default=None))
-
-
-def _distance(margin: Margin) -> float:
-    return margin.distance
 
 
 def _moved(one: _Timed, start: float) -> _Timed:

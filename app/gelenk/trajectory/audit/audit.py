@@ -17,8 +17,18 @@ from gelenk.kinematics.judge.judge import MAX_SAMPLES, PoseCertificate, certify_
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, LimitedInterval, PathError
+from gelenk.trajectory.audit.demands import Demands, Zone
 from gelenk.trajectory.audit.pieces import Extremes, Pieces, extremes, largest_jumps, pieces_of
+from gelenk.trajectory.audit.result import (
+    Continuity,
+    Jump,
+    LimitMargin,
+    PathError,
+    Peak,
+    Reason,
+    SmallestSingularValue,
+    TipPeaks,
+)
 from gelenk.trajectory.audit.tip import Largest, poses_at, smallest_singular_value, tip_peaks
 from gelenk.trajectory.audit.words import Check
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -27,61 +37,9 @@ DERIVATIVES = ("position", "velocity", "acceleration", "jerk")
 _RATES: tuple[Check, ...] = ("velocity", "acceleration", "jerk")
 _DIGIT = 10.0
 """Factor by which the tolerated jump grows with each derivative: coefficients hold fewer digits of higher ones."""
-_STRETCH = 200
-"""Samples of a stretch that has its own limits."""
+_ZONE_SAMPLES = 200
+"""Samples of a zone that has its own limits."""
 _TIP_UNITS = {"speed": "m/s", "angular_speed": "rad/s", "acceleration": "m/s²", "angular_acceleration": "rad/s²"}
-
-
-@dataclass(frozen=True, slots=True)
-class Peak:
-    """The peak of a quantity.
-
-    Attributes:
-        ratio: Magnitude over limit; None without a limit, infinite where the limit is 0 and the value is not.
-        value: Value at the peak, with its sign.
-        joint: Name of the joint; None for the tip.
-        time: Time of the peak, [s].
-    """
-
-    ratio: float | None
-    value: float
-    joint: str | None
-    time: float
-
-
-@dataclass(frozen=True, slots=True)
-class Margin:
-    """The smallest distance of a joint from its limits, [rad or m]; negative beyond a limit."""
-
-    distance: float
-    joint: str
-    bound: Literal["lower", "upper"]
-    time: float
-
-
-@dataclass(frozen=True, slots=True)
-class Singularity:
-    """The smallest singular value of the rows of the geometric Jacobian that count; metres and radians are mixed."""
-
-    value: float
-    time: float
-
-
-@dataclass(frozen=True, slots=True)
-class Reason:
-    """A reason why a motion does not pass.
-
-    Attributes:
-        check: The check that fails.
-        detail: A sentence that explains it.
-        joint: Name of the joint, if one is responsible.
-        time: Time of the failure, [s].
-    """
-
-    check: Check
-    detail: str
-    joint: str | None
-    time: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,39 +47,36 @@ class Audit:
     """The result of auditing a motion.
 
     Attributes:
+        passed: Whether the motion passes, with no reason against it.
         velocity: The joint velocity nearest to or furthest beyond its limit; None without joints.
         acceleration: Likewise.
-        jerk: Likewise, within pieces: a jump of acceleration, where jerk is infinite, appears in `jumps` only.
-        jumps: The largest jump of position, velocity, acceleration and jerk where pieces meet.
+        jerk: Likewise, within pieces: a jump of acceleration, where jerk is infinite, appears in `continuity` only.
+        path_deviation: Largest distance from the demanded path, [m]; None without one.
+        orientation_deviation: Largest angle from its orientation, [rad]; None without one.
+        continuity: The largest jump of position, velocity, acceleration and jerk where pieces meet.
+        min_singular_value: None without joints.
         limit_margin: Distance to the joint limits; None if no joint has limits.
         ends: Largest joint error of each demanded quantity at an end, such as `end_velocity`, [rad or m per sᵏ].
         tip: Largest speed, angular speed, acceleration and angular acceleration, [m/s, rad/s, m/s², rad/s²].
-        path_deviation: Largest distance from the demanded path, [m]; None without one.
-        orientation_deviation: Largest angle from its orientation, [rad]; None without one.
-        min_singular_value: None without joints.
         certificate: How far Pinocchio's poses are from ours at some samples.
-        reasons: Reasons why the motion does not pass.
         way_error: How much ratios to joint limits may differ from the exact path's; None without such a path.
+        reasons: Reasons why the motion does not pass.
     """
 
+    passed: bool
     velocity: Peak | None
     acceleration: Peak | None
     jerk: Peak | None
-    jumps: tuple[Peak, ...]
-    limit_margin: Margin | None
-    ends: dict[str, float]
-    tip: dict[str, Peak]
     path_deviation: Peak | None
     orientation_deviation: Peak | None
-    min_singular_value: Singularity | None
+    continuity: Continuity
+    min_singular_value: SmallestSingularValue | None
+    limit_margin: LimitMargin | None
+    ends: dict[str, float]
+    tip: TipPeaks
     certificate: PoseCertificate
+    way_error: PathError | None
     reasons: tuple[Reason, ...]
-    way_error: PathError | None = None
-
-    @property
-    def passed(self) -> bool:
-        """Whether the motion passes, with no reason against it."""
-        return not self.reasons
 
 
 def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands: Demands) -> Audit:
@@ -144,28 +99,32 @@ def audit(robot: RobotModel, chain: Chain, motion: PiecewisePolynomial, demands:
     peaks = _joint_peaks(pieces, names, demands, reasons)
     tip, deviations = _tip(pieces, chain, demands, reasons)
     qs, poses = poses_at(pieces, chain, MAX_SAMPLES)
+    continuity = _continuity(pieces, names, demands, peaks, reasons)
+    margin = _margin(pieces, chain, demands, reasons)
+    ends = _ends(pieces, names, demands, peaks, reasons)
     return Audit(
+        not reasons,
         peaks.get("velocity"),
         peaks.get("acceleration"),
         peaks.get("jerk"),
-        _jumps(pieces, names, demands, peaks, reasons),
-        _margin(pieces, chain, demands, reasons),
-        _ends(pieces, names, demands, peaks, reasons),
-        tip,
         deviations.get("position"),
         deviations.get("orientation"),
-        _singularity(pieces, chain, demands),
+        continuity,
+        smallest_singular_value(pieces, chain, demands.task) if names else None,
+        margin,
+        ends,
+        tip,
         certify_poses(robot, chain, qs, {chain.tip_frame: poses}),
-        tuple(reasons),
         demands.way_error,
+        tuple(reasons),
     )
 
 
-def meetings(chain: Chain, motion: PiecewisePolynomial) -> tuple[tuple[Peak, ...], tuple[Reason, ...]]:
+def continuity_of(chain: Chain, motion: PiecewisePolynomial) -> tuple[Continuity, tuple[Reason, ...]]:
     """Return the largest jumps where pieces meet, and a reason for each of position or velocity; no other checks."""
     reasons: list[Reason] = []
-    jumps = _jumps(pieces_of(motion), chain.joint_names, Demands(), {}, reasons)
-    return jumps, tuple(reasons)
+    found = _continuity(pieces_of(motion), chain.joint_names, Demands(), {}, reasons)
+    return found, tuple(reasons)
 
 
 def _joint_peaks(pieces: Pieces, names: tuple[str, ...], demands: Demands, reasons: list[Reason]) -> dict[str, Peak]:
@@ -204,22 +163,23 @@ def _ratios(sizes: Array, bounds: Array) -> Array:
     return ratios
 
 
-def _jumps(
+def _continuity(
     pieces: Pieces, names: tuple[str, ...], demands: Demands, peaks: dict[str, Peak], reasons: list[Reason]
-) -> tuple[Peak, ...]:
+) -> Continuity:
     """Find the largest jump of each derivative, and add reasons."""
+    if not names:
+        return Continuity(None, None, None, None)
     jumps = []
     for order, quantity in enumerate(DERIVATIVES):
-        if not names:
-            break
-        jump = _worst(largest_jumps(pieces, order), names, None)
+        found = _worst(largest_jumps(pieces, order), names, None)
+        jump = Jump(found.value, found.joint, found.time)
         jumps.append(jump)
         if order <= demands.continuous and not jump.value <= _DIGIT**order * demands.tolerance * _scale(
             peaks, quantity
         ):
             detail = f"{quantity} jumps by {jump.value:.6g}"
             reasons.append(Reason("continuity", detail, jump.joint, jump.time))
-    return tuple(jumps)
+    return Continuity(*jumps)
 
 
 def _scale(peaks: dict[str, Peak], quantity: str) -> float:
@@ -227,7 +187,7 @@ def _scale(peaks: dict[str, Peak], quantity: str) -> float:
     return max(1.0, abs(peaks[quantity].value)) if quantity in peaks else 1.0
 
 
-def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> Margin | None:
+def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> LimitMargin | None:
     """Find the smallest distance to a joint limit, and add a reason if it is beyond."""
     lower = chain.lower if demands.joints.lower is None else demands.joints.lower
     upper = chain.upper if demands.joints.upper is None else demands.joints.upper
@@ -238,9 +198,9 @@ def _margin(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason
     bound: Literal["lower", "upper"] = "lower" if below.min() < above.min() else "upper"
     distances, times = (below, lowest.times) if bound == "lower" else (above, highest.times)
     joint = int(distances.argmin())
-    margin = Margin(float(distances[joint]), chain.joint_names[joint], bound, float(times[joint]))
-    if not margin.distance >= -demands.tolerance:
-        detail = f"the joint goes {-margin.distance:.6g} beyond its {bound} limit"
+    margin = LimitMargin(float(distances[joint]), chain.joint_names[joint], bound, float(times[joint]))
+    if not margin.value >= -demands.tolerance:
+        detail = f"the joint goes {-margin.value:.6g} beyond its {bound} limit"
         reasons.append(Reason("joint_limit", detail, margin.joint, margin.time))
     return margin
 
@@ -269,9 +229,7 @@ def _ends(
     return errors
 
 
-def _tip(
-    pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]
-) -> tuple[dict[str, Peak], dict[str, Peak]]:
+def _tip(pieces: Pieces, chain: Chain, demands: Demands, reasons: list[Reason]) -> tuple[TipPeaks, dict[str, Peak]]:
     """Find the peaks of the tip and its deviations from the path, and add reasons."""
     tolerances = {"position": demands.path_tolerance, "orientation": demands.orientation_tolerance}
     tip: dict[str, Peak] = {}
@@ -283,18 +241,16 @@ def _tip(
         (tip if of_tip else deviations)[quantity] = Peak(ratio, found.value, None, found.time)
         if ratio is not None and not ratio <= 1.0 + demands.tolerance:
             reasons.append(_tip_reason(quantity, found.value, limit, found.time))
-    for stretch in demands.stretches:
-        within = tip_peaks(pieces.between(stretch.begin, stretch.end), chain, None, least=_STRETCH)
+    for zone in demands.zones:
+        within = tip_peaks(pieces.between(zone.begin, zone.end), chain, None, least=_ZONE_SAMPLES)
         for quantity in _TIP_UNITS:
-            tip[quantity] = _in_stretch(tip[quantity], quantity, within[quantity], stretch, demands, reasons)
-    return tip, deviations
+            tip[quantity] = _in_zone(tip[quantity], quantity, within[quantity], zone, demands, reasons)
+    return TipPeaks(**tip), deviations
 
 
-def _in_stretch(
-    peak: Peak, quantity: str, found: Largest, stretch: LimitedInterval, demands: Demands, reasons: list[Reason]
-) -> Peak:
-    """Raise a peak's ratio to that of a stretch with its own limit if larger, and add a reason if it is exceeded."""
-    limit = getattr(stretch.tip, quantity)
+def _in_zone(peak: Peak, quantity: str, found: Largest, zone: Zone, demands: Demands, reasons: list[Reason]) -> Peak:
+    """Raise a peak's ratio to that of a zone with its own limit if larger, and add a reason if it is exceeded."""
+    limit = getattr(zone.tip, quantity)
     if not math.isfinite(limit):
         return peak
     ratio = found.value / limit
@@ -311,10 +267,3 @@ def _tip_reason(quantity: str, value: float, limit: float, time: float) -> Reaso
     unit = "m" if quantity == "position" else "rad"
     detail = f"the tip's {quantity} is {value:.6g} {unit} from the path; the limit is {limit:g} {unit}"
     return Reason("path", detail, None, time)
-
-
-def _singularity(pieces: Pieces, chain: Chain, demands: Demands) -> Singularity | None:
-    if not len(chain):
-        return None
-    found = smallest_singular_value(pieces, chain, demands.task)
-    return Singularity(found.value, found.time)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.audit.tip import PathOfTime
 
 
@@ -59,33 +60,18 @@ class Ends:
 
 
 @dataclass(frozen=True, slots=True)
-class LimitedInterval:
-    """A time interval in which the tip has its own limits, in addition to those of the whole motion.
+class Zone:
+    """A part of a motion or a path on which the tip has its own limits, in addition to those that hold everywhere.
 
     Attributes:
-        begin: [s].
-        end: [s].
-        tip: The limits.
+        begin: Time or place at its beginning.
+        end: Time or place at its end.
+        tip: Additional limits of the tip.
     """
 
     begin: float
     end: float
     tip: TipLimits
-
-
-@dataclass(frozen=True, slots=True)
-class PathError:
-    """Bounds on how much ratios to limits differ from those of the exact path at the same time law.
-
-    Attributes:
-        velocity: Of the joints; ∞ if unknown.
-        acceleration: Likewise.
-        jerk: Likewise.
-    """
-
-    velocity: float
-    acceleration: float
-    jerk: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +87,7 @@ class Demands:
         path_tolerance: Allowed distance from the path, [m].
         orientation_tolerance: Allowed angle from the path's orientation, [rad].
         continuous: Order up to which derivatives must not jump; 1 means C¹.
-        stretches: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
+        zones: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
         keeps_jerk: Whether exceeding a jerk limit fails the audit; otherwise jerk is only compared.
         stated_jerk: Jerk limits enforced within pieces even if `keeps_jerk` is False; shape (n,), [rad/s³ or m/s³].
         way_error: How far the planned motion is from the exact path; None if it follows no path.
@@ -117,7 +103,7 @@ class Demands:
     path_tolerance: float = 1e-4
     orientation_tolerance: float = 1e-3
     continuous: int = 1
-    stretches: tuple[LimitedInterval, ...] = ()
+    zones: tuple[Zone, ...] = ()
     keeps_jerk: bool = True
     stated_jerk: Array | None = None
     way_error: PathError | None = None

@@ -17,6 +17,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.peaks import highest, promising
 from gelenk.trajectory.audit.pieces import Pieces
+from gelenk.trajectory.audit.result import SmallestSingularValue
 
 PathOfTime: TypeAlias = Callable[[Array], Poses]
 """The demanded pose T_base_tip at times of shape (N,), [s]."""
@@ -101,7 +102,7 @@ def tip_peaks(
     }
 
 
-def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> Largest:
+def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE) -> SmallestSingularValue:
     """Find the smallest σ of the Jacobian's rows that count along the motion; metres and radians are mixed.
 
     It is the last of min(m, n), with m rows. Eigenvalues of J Jᵀ (or Jᵀ J if smaller) locate it, an SVD of J gives it.
@@ -133,7 +134,7 @@ def smallest_singular_value(pieces: Pieces, chain: Chain, task: Task = FULL_POSE
     value, _, time = _between(
         times, values, np.arange(1, len(times) - 1), np.zeros(len(times), dtype=np.int64), exact, np.zeros(1)
     )[0]
-    return Largest(-value, time)
+    return SmallestSingularValue(-value, time)
 
 
 def _chunks(count: int) -> list[slice]:

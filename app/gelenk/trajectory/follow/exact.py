@@ -5,10 +5,12 @@ get more knots, many at once: the exact path is a few Newton steps away from a q
 exact configuration is taken.
 """
 
+import math
+
 import numpy as np
 
 from gelenk.robot.arrays import Array, Flags, Indices
-from gelenk.trajectory.audit.demands import PathError
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.follow.bounds import SLACK
 from gelenk.trajectory.follow.rate_field import Course
 from gelenk.trajectory.follow.rows import row_derivatives, task_rows
@@ -53,15 +55,17 @@ def refined(course: Course, positions: PiecewisePolynomial) -> tuple[PiecewisePo
     return positions, off
 
 
-def path_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: SegmentLimits) -> PathError:
-    """Bound how much a motion's ratios to limits differ from those of the exact path.
+def path_error(joints: PiecewisePolynomial, off: Array | None, timing: Timed, limits: SegmentLimits) -> PathError:
+    """Bound how much a motion's ratios to limits differ from those of the exact path; None where unknown.
 
     Args:
         joints: q(s), in M pieces.
-        off: Largest error of q'' in each piece; shape (M, n).
+        off: Largest error of q'' in each piece; shape (M, n). None off the path.
         timing: Its motion in time.
         limits: Of the joints.
     """
+    if off is None:
+        return PathError(None, None, None)
     breaks, law = timing.motion.breaks, timing.law
     times = (breaks[:-1] + np.array([[1e-6], [0.5], [1.0 - 1e-6]]) * np.diff(breaks)).ravel()
     s, v, a, j = (np.abs(law.derivative(order).at(times)) for order in range(4))
@@ -71,12 +75,11 @@ def path_error(joints: PiecewisePolynomial, off: Array, timing: Timed, limits: S
     with np.errstate(invalid="ignore"):  # An unknown error times a rate of zero is NaN.
         errors = (first * v, first * a + second * v**2, first * j + 3.0 * second * v * a + third * v**3)
     bounds = (limits.velocity, limits.acceleration, limits.jerk)
-    return PathError(
-        *(
-            float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
-            for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
-        )
-    )
+    found = [
+        float(np.fmax.reduce(error / bound, axis=None, initial=0.0)) + known
+        for error, bound, known in zip(errors, bounds, RATES_KNOWN, strict=True)
+    ]
+    return PathError(*(value if math.isfinite(value) else None for value in found))
 
 
 def _errors(course: Course, positions: PiecewisePolynomial) -> tuple[Array, Indices]:

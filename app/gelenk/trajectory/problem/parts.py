@@ -12,7 +12,8 @@ from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem.problem import SegmentReport, TimingComparison
+from gelenk.trajectory.problem.problem import SegmentReport
+from gelenk.trajectory.problem.result import TimingComparison
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,9 +92,9 @@ def in_field(field: str) -> Iterator[None]:
 
 
 def _slowed_demands(demands: Demands, factor: float) -> Demands:
-    stretches = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.stretches)
+    zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.zones)
     path = None if demands.path is None else _slowed(demands.path, factor)
-    return replace(demands, path=path, stretches=stretches)
+    return replace(demands, path=path, zones=zones)
 
 
 def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:

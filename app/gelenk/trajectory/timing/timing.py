@@ -17,12 +17,13 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gelenk.errors import InvalidField
+from gelenk.trajectory.audit.demands import Zone
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.laws.laws import LAWS, POLYNOMIALS
 from gelenk.trajectory.motion.composition import in_time
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.motion.time_laws import rest_to_rest
-from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, Zone, geometry_of
+from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, geometry_of
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import SegmentLimits
