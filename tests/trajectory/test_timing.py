@@ -20,8 +20,19 @@ from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.paths.paths import circle, line
 from gelenk.trajectory.paths.spline_paths import blended_lines
 from gelenk.trajectory.problem.problem import SegmentLimits
-from gelenk.trajectory.timing.timing import Timed, compared, timed
-from tests.trajectory.timed_ways import LAWS, SMOOTH, at_breaks, gantry, joint_ratios, limits, planar_line, straight
+from gelenk.trajectory.timing.timing import Timed
+from tests.trajectory.timed_ways import (
+    LAWS,
+    SMOOTH,
+    at_breaks,
+    compared,
+    gantry,
+    joint_ratios,
+    limits,
+    planar_line,
+    straight,
+    timed,
+)
 
 # The lecture's numbers
 

@@ -20,18 +20,20 @@ from gelenk.trajectory.paths.path_geometry import geometry_of, tip_through
 from gelenk.trajectory.paths.paths import circle
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.time_optimal import time_optimal
-from gelenk.trajectory.timing.timing import Timed, compared, timed
+from gelenk.trajectory.timing.timing import Timed
 from gelenk.trajectory.timing.tip_constraints import tip_rows
 from tests.robots import robot
 from tests.trajectory.timed_ways import (
     LAWS,
     SMOOTH,
+    compared,
     gantry,
     instants,
     joint_ratios,
     limits,
     planar_line,
     random_way,
+    timed,
 )
 
 PANDA = robot("panda")

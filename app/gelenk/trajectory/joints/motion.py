@@ -176,18 +176,18 @@ def _beside_line(
 def _along_line(start: Array, steps: Array, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
     """Return the fastest motion on the straight line, from the limits of s."""
     moves = steps != 0.0
-    bounds = (limits.joints[:, moves] / np.abs(steps[moves])).min(axis=1)
-    s = _jerk_limited(bounds.tolist()) if law == "jerk_limited" else _polynomial(law, bounds)
+    bounds = (limits.joints[:, moves] / np.abs(steps[moves])).min(axis=1).tolist()
+    s = _jerk_limited(bounds) if law == "jerk_limited" else _polynomial(law, bounds)
     coefficients = s.coefficients * steps
     coefficients[:, 0] += start
     return PiecewisePolynomial(s.breaks, coefficients)
 
 
-def _polynomial(law: Law, bounds: Array) -> PiecewisePolynomial:
-    s = rest_to_rest(0.0, 1.0, POLYNOMIALS[law])
-    velocity, acceleration, jerk = bounds[:, None]
-    limits = ScalingLimits(velocity, acceleration, jerk if LAWS[law].keeps_jerk else None)
-    return s.scaled(uniform_scaling(s, limits).binding.factor)
+def _polynomial(law: Law, bounds: Sequence[float]) -> PiecewisePolynomial:
+    peaks = zip(LAWS[law].peaks, bounds, strict=False)
+    duration = max((peak / bound) ** (1.0 / k) for k, (peak, bound) in enumerate(peaks, 1))
+    c = rest_to_rest(0.0, 1.0, POLYNOMIALS[law]).coefficients
+    return PiecewisePolynomial(np.array([0.0, duration]), c / duration ** np.arange(c.shape[1])[:, None])
 
 
 def _jerk_limited(bounds: Sequence[float]) -> PiecewisePolynomial:
@@ -205,7 +205,8 @@ def _trapezoid(start: Array, steps: Array, limits: SegmentLimits, duration: floa
         for L, v, a, high in zip(steps, limits.velocity, limits.acceleration, most, strict=True)
     ]
     if duration is not None and duration > max(fastest(task).duration for task in tasks) * (1.0 + ROUNDING):
-        return point_to_point(start, _in_long_time(tasks, duration), duration).motion.lasting(duration)
+        motion = point_to_point(start, _in_long_time(tasks, duration), duration).motion
+        return PiecewisePolynomial(np.append(motion.breaks[:-1], duration), motion.coefficients)
     motion = point_to_point(start, tasks).motion
     return motion if duration is None else lasting(motion, duration, kept_limits("trapezoidal", limits))
 

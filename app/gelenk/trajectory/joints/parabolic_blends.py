@@ -102,17 +102,16 @@ def _end_blend(length: float, distance: Array, acceleration: Array, ends: int, s
 
 
 def shared(durations: Array) -> Array:
-    """Return the time that blends take of each segment: half of an inner one, all of an end one; (N - 1, n)."""
-    shares = np.full((len(durations), 1), 0.5)
-    shares[0] = shares[-1] = 1.0
-    parts = durations * shares
-    taken: Array = parts[:-1] + parts[1:]
-    return taken
+    """Return the time that blends take of each adjacent segment: half of an inner one, all of an end one; (N, n)."""
+    parts = 0.5 * durations
+    parts[[0, -1]] = durations[[0, -1]]
+    return parts
 
 
 def _check_room(lengths: Array, durations: Array, field: str) -> None:
     """Check that each segment has room for its blends."""
-    taken = shared(durations)
+    parts = shared(durations)
+    taken = parts[:-1] + parts[1:]
     late = np.argwhere(taken > lengths[:, None] * (1.0 + _ROUNDING))
     if len(late) > 0:
         k, j = (int(i) for i in late[0])
@@ -133,7 +132,8 @@ def _assembled(
     times: Array, points: Array, velocities: Array, accelerations: Array, durations: Array, field: str
 ) -> Blends:
     """Assemble each joint's motion from alternating blends and straight lines."""
-    straights = np.maximum(np.diff(times)[:, None] - shared(durations), 0.0)
+    parts = shared(durations)
+    straights = np.maximum(np.diff(times)[:, None] - parts[:-1] - parts[1:], 0.0)
     phases = np.zeros((points.shape[1], 2 * len(times) - 1, 2))
     phases[:, ::2] = np.stack((durations, accelerations), axis=-1).swapaxes(0, 1)
     phases[:, 1::2, 0] = straights.T

@@ -29,6 +29,7 @@ from gelenk.trajectory.laws.laws import LAWS
 from gelenk.trajectory.laws.time_scaling import Scaling, check_limits, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
+from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import Segment
 from gelenk.trajectory.timing.time_optimal import time_optimal
@@ -120,7 +121,7 @@ class JointSpline:
         """Compare the law of a segment without `times` with the fastest motion along the same path."""
         limits = self.segment.limits
         if not self._is_scaled():
-            return compared(None, self.path, self.segment.law, limits)
+            return compared(geometry_of(None, self.path, limits), self.segment.law)
         optimal = time_optimal(self.path, limits.velocity, limits.acceleration).motion.duration
         return timings(self._fastest(), limits, optimal)
 
@@ -167,7 +168,7 @@ class JointSpline:
             return self.path.scaled(uniform_scaling(self.path, kept_limits(law, limits)).factor or 1.0)
         if law == "time_optimal":
             return time_optimal(self.path, limits.velocity, limits.acceleration).motion
-        return timed(None, self.path, law, limits).motion
+        return timed(geometry_of(None, self.path, limits), law).motion
 
 
 class SmoothnessClass(NamedTuple):

@@ -112,7 +112,9 @@ def _loads(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
     velocities = steps / np.maximum(h - 0.5 * sides * blends, _LEAST_SHARE * h)
     durations = np.abs(np.diff(velocities, axis=0, prepend=0.0, append=0.0)) / limits.acceleration
     durations[0], durations[-1] = blends[0], blends[-1]
-    largest: Array = np.maximum(shared(durations) / h, np.abs(velocities) / limits.velocity).max(axis=1)
+    parts = shared(durations)
+    loads = np.maximum((parts[:-1] + parts[1:]) / h, np.abs(velocities) / limits.velocity)
+    largest: Array = loads.max(axis=1)
     return largest
 
 

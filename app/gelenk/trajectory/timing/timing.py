@@ -17,16 +17,13 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from gelenk.errors import InvalidField
-from gelenk.trajectory.audit.demands import Zone
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.laws.laws import LAWS, POLYNOMIALS
 from gelenk.trajectory.motion.composition import in_time
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.motion.time_laws import rest_to_rest
-from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, geometry_of
-from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.paths.path_geometry import LimitedPath
 from gelenk.trajectory.problem.parts import standing
-from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.chain_laws import chain_law
 from gelenk.trajectory.timing.path_laws import s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
@@ -62,18 +59,7 @@ class Timed:
     notes: tuple[str, ...] = ()
 
 
-def timed(
-    path: Path | None,
-    joints: PiecewisePolynomial,
-    law: Law,
-    limits: SegmentLimits,
-    *,
-    duration: float | None = None,
-    slow_down: bool = False,
-    tip_motion: TipMotion | None = None,
-    zones: tuple[Zone, ...] = (),
-    corners: tuple[tuple[float, float], ...] = (),
-) -> Timed:
+def timed(geometry: LimitedPath, law: Law, *, duration: float | None = None, slow_down: bool = False) -> Timed:
     """Plan the fastest motion with a law, slowed down uniformly if a longer duration is requested.
 
     The motion stops where q' jumps. Where q'' jumps, the acceleration jumps with any law, and a jerk limit holds only
@@ -84,31 +70,17 @@ def timed(
     places at which they are checked. If the trapezoidal law takes no longer, it is used, because it has fewer pieces.
 
     Args:
-        path: Path of the tip, for its limits and the places where it bends; None for a path of the joints alone.
-        joints: q(s) from s = 0, possibly ending before the path does.
+        geometry: The path of the joints, possibly ending before the path of the tip does, and the limits.
         law: Time law.
-        limits: Limits of joints and tip.
         duration: Requested duration, [s]; the shortest within the limits if None.
         slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
             replaces `law`.
-        tip_motion: Function from the joints' motion to the tip's (`tip_through`), to which the tip limits then apply;
-            by default they apply to the motion along `path`, from which joints that follow it within a tolerance differ
-            slightly. With neither, the tip has no limits.
-        zones: Parts of the path on which the tip has its own limits.
-        corners: s at the beginning and the end of each blend of lines.
 
     Raises:
         InvalidField: The duration is shorter than the limits allow, or limits and path differ too much in magnitude.
     """
-    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
-    chosen: Law = "time_optimal" if slow_down else law
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
-    if parts:
-        found = _in_a_row(parts)
-    else:
-        end = joints.breaks[-1:]
-        found = Timed(standing(joints.at(end)[0]), standing(end), 2, True, "nothing moves")
+        found = _whole(geometry, "time_optimal" if slow_down else law)
     if not np.isfinite(found.motion.coefficients).all():
         raise InvalidField("limits", "these limits and this path are too many powers of ten apart")
     if slow_down and law != "time_optimal":
@@ -134,28 +106,34 @@ class Timings(NamedTuple):
     time_optimal_duration: float
 
 
-def compared(
-    path: Path | None,
-    joints: PiecewisePolynomial,
-    law: Law,
-    limits: SegmentLimits,
-    *,
-    tip_motion: TipMotion | None = None,
-    zones: tuple[Zone, ...] = (),
-    corners: tuple[tuple[float, float], ...] = (),
-) -> Timings:
-    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path.
-
-    For the arguments see `timed`. Nothing takes any time if nothing moves.
-    """
-    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones, corners=corners)
-    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones, corners=corners)
-    lasting = uniform.motion.duration
-    if lasting == 0.0:
+def compared(geometry: LimitedPath, law: Law) -> Timings:
+    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path."""
+    uniform, optimal = timed(geometry, law), timed(geometry, "time_optimal")
+    duration = uniform.motion.duration
+    if duration == 0.0:
         return Timings(0.0, 0.0, 0.0, 0.0)
-    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
     peaks = peaks_of(geometry, uniform.motion, uniform.law, with_jerk=False)
-    return Timings(lasting, peaks.of_order(1) * lasting, peaks.of_order(2) * lasting**2, optimal.motion.duration)
+    return Timings(duration, peaks.of_order(1) * duration, peaks.of_order(2) * duration**2, optimal.motion.duration)
+
+
+def _whole(geometry: LimitedPath, law: Law) -> Timed:
+    """Time the parts of a path, with a stop between each two."""
+    if geometry.stands_still:
+        end = geometry.joints.breaks[-1:]
+        return Timed(standing(geometry.joints.at(end)[0]), standing(end), 2, True, "nothing moves")
+    parts = [_fastest(part, law) for part in geometry.parts()]
+    if len(parts) == 1:
+        return parts[0]
+    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
+    notes = dict.fromkeys(note for part in parts for note in part.notes)
+    return Timed(
+        joined([part.motion for part in parts]),
+        joined([part.law for part in parts]),
+        min(part.continuous for part in parts),
+        all(part.has_bounded_jerk for part in parts),
+        parts[0].binding,
+        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
+    )
 
 
 def _fastest(geometry: LimitedPath, law: Law) -> Timed:
@@ -210,22 +188,6 @@ def _time_optimal(geometry: LimitedPath) -> Timed:
 def _scaled(timing: Timed, factor: float) -> Timed:
     """Return the same motion in `factor` times the time."""
     return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
-
-
-def _in_a_row(parts: list[Timed]) -> Timed:
-    """Join motions with a stop between each two."""
-    if len(parts) == 1:
-        return parts[0]
-    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
-    notes = dict.fromkeys(note for part in parts for note in part.notes)
-    return Timed(
-        joined([part.motion for part in parts]),
-        joined([part.law for part in parts]),
-        min(part.continuous for part in parts),
-        all(part.has_bounded_jerk for part in parts),
-        parts[0].binding,
-        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
-    )
 
 
 def _lasting(fastest: Timed, duration: float) -> Timed:
