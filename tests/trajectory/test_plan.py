@@ -354,7 +354,7 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
         ((line(SIDE, blend_time=0.1), line(ABOVE)), "segments.0.blend_time", "tip_velocity"),
         ((line(SIDE, blend_radius=0.1, orientation="zyz"), line(ABOVE)), "segments.1.orientation", "axis_angle"),
         ((line(SIDE, blend_radius=0.1), line(SIDE)), "segments.1.target", "share one position"),
-        ((joint(READY + 9.0),), "segments.0.target", "panda_joint1 at 9 is outside its limits"),
+        ((joint(READY + 9.0),), "segments.0.target", "joint panda_joint1 at 9 is outside its limits"),
         (
             (Segment("circle", "cubic", LIMITS, via=moved(HERE, 0.0, 0.1, 0.0), pose=SIDE),),
             "segments.0.via",

@@ -8,23 +8,22 @@ from typing import cast
 
 import numpy as np
 
-from gelenk.errors import InvalidField
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
-from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.laws.laws import scaled_law
 from gelenk.trajectory.laws.time_scaling import QUANTITIES
 from gelenk.trajectory.motion.composition import times_at
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.paths.path_geometry import tip_through
+from gelenk.trajectory.paths.path_geometry import LimitedPath, geometry_of, tip_through
 from gelenk.trajectory.paths.segment_paths import SegmentsPath, path_through
 from gelenk.trajectory.paths.spline_paths import PolynomialPath
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
 from gelenk.trajectory.problem.problem import Following, Segment, SegmentLimits, SegmentReport, TrajectoryProblem
 from gelenk.trajectory.problem.result import Damping, SegmentBlend, TimingComparison
 from gelenk.trajectory.timing.passing_times import passing_at
@@ -99,35 +98,25 @@ class _TipPart:
         """Whether a corner slows the tip down only there: accelerate, coast and brake on each line and corner."""
         return len(self.segments) > 1 and self.segments[0].law == "trapezoidal"
 
+    @cached_property
+    def geometry(self) -> LimitedPath:
+        """The path of the joints with all limits."""
+        motion, path = tip_through(self.chain), self.path
+        return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones, path.edges)
+
     def timed(self) -> Timed:
         """Time the path; an incomplete path gets the shortest time, whatever the request."""
-        is_whole, segment, path = self.joints.stop is None, self.segments[0], self.path
-        try:
+        is_whole, segment = self.joints.stop is None, self.segments[0]
+        with in_field(f"segments.{self.first}"):
             if segment.times is not None and is_whole:
-                places, motion = cast(PolynomialPath, path.path).knots[1:], tip_through(self.chain)
-                return passing_at(path.path, self.joints.positions, places, segment.times, self.limits, motion)
-            return timed(
-                path.path,
-                self.joints.positions,
-                segment.law,
-                self.limits,
-                duration=segment.duration if is_whole else None,
-                slow_down=self.slows_at_corners,
-                tip_motion=tip_through(self.chain),
-                zones=path.zones,
-                corners=path.edges,
-            )
-        except InvalidField as error:
-            raise InvalidField(f"segments.{self.first}.{error.field}", error.reason) from error
+                return passing_at(self.geometry, cast(PolynomialPath, self.path.path).knots[1:], segment.times)
+            duration = segment.duration if is_whole else None
+            return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_at_corners)
 
     def comparison(self) -> TimingComparison:
         """Compare the timing of the path by its law with the time-optimal one."""
-        # As in the course, scale the cubic: comparing the time-optimal law with itself would say nothing.
-        law: Law = "cubic" if self.segments[0].law == "time_optimal" else self.segments[0].law
-        path, motion = self.path, tip_through(self.chain)
-        numbers = compared(
-            path.path, self.joints.positions, law, self.limits, tip_motion=motion, zones=path.zones, corners=path.edges
-        )
+        law = scaled_law(self.segments[0].law)
+        numbers = compared(self.geometry, law)
         return TimingComparison(tuple(range(self.first, self.first + len(self.segments))), law, *numbers)
 
     def demands(self, timing: Timed) -> Demands:

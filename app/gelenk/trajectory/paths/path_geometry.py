@@ -200,7 +200,7 @@ def geometry_of(
     path: Path | None,
     joints: PiecewisePolynomial,
     limits: SegmentLimits,
-    tip_motion: TipMotion | None,
+    tip_motion: TipMotion | None = None,
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> LimitedPath:

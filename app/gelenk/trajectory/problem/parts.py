@@ -1,10 +1,12 @@
 """A part of a trajectory, from rest to rest: one segment, or lines blended into one path."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import Demands
@@ -75,9 +77,18 @@ class PlannedPart:
         return tuple(report.moved(start) for report in self.reports)
 
 
-def standing(configuration: Array) -> PiecewisePolynomial:
-    """Return a motion of zero duration at a configuration of shape (n,)."""
-    return PiecewisePolynomial(np.zeros(2), configuration[None, None, :].copy())
+def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
+    """Return joints that stand still at a configuration of shape (n,) for a duration, [s]."""
+    return PiecewisePolynomial(np.array([0.0, duration]), configuration[None, None].copy())
+
+
+@contextmanager
+def in_field(field: str) -> Iterator[None]:
+    """Name the part of the request in refusals of its fields."""
+    try:
+        yield
+    except InvalidField as error:
+        raise InvalidField(f"{field}.{error.field}", error.reason) from error
 
 
 def _slowed_demands(demands: Demands, factor: float) -> Demands:

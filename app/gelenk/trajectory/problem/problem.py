@@ -8,6 +8,8 @@ two segments unless they are blended lines.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
@@ -34,6 +36,11 @@ class SegmentLimits:
     acceleration: Array
     jerk: Array
     tip: TipLimits = field(default_factory=TipLimits)
+
+    @property
+    def joints(self) -> Array:
+        """Limits of velocity, acceleration and jerk; shape (3, n)."""
+        return np.array([self.velocity, self.acceleration, self.jerk])
 
 
 @dataclass(frozen=True, slots=True)
