@@ -9,7 +9,7 @@ import orjson
 
 from gelenk.contract.trajectory_request import TrajectoryRequest
 from gelenk.errors import TooLarge
-from gelenk.kinematics.judge.judge import PoseCertificate
+from gelenk.kinematics.judge.words import PoseCertificate
 from gelenk.kinematics.poses.forward import forward_kinematics
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.operations.outcome import PictureFormat
