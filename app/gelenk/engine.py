@@ -240,7 +240,7 @@ class Robot:
             AuditFailed: The motion does not pass its audit.
         """
         call = _checked(TrajectoryRequest, {**self._ends(), "start": start, "segments": segments, **options})
-        return plan(self.core, self.chain, trajectory_request.asked(self.core, self.chain, call).problem)
+        return plan(self.core, self.chain, trajectory_request.parse(self.core, self.chain, call).problem)
 
     def _ends(self) -> dict[str, str]:
         return {"base_frame": self.chain.base_frame, "tip_frame": self.chain.tip_frame}

@@ -8,6 +8,7 @@ import numpy as np
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.joints.splines import JointSpline
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary
 from gelenk.trajectory.problem.problem import Segment, SegmentLimits
@@ -65,6 +66,10 @@ WAYPOINTS = np.array([[0.6, 0.1], [0.2, -0.4], [1.0, 0.3]])
 def through(law: Law = "trapezoidal", bound: SegmentLimits = SLOW, **kept: object) -> Segment:
     segment = Segment("spline", law, bound, configurations=WAYPOINTS)
     return replace(segment, **kept)  # type: ignore[arg-type]
+
+
+def spline_motion(start: Array, segment: Segment, chain: Chain) -> PiecewisePolynomial:
+    return JointSpline.of(start, segment, chain).motion()
 
 
 def excess(motion: PiecewisePolynomial, limits: SegmentLimits, *, jerk: bool, per_piece: int = 40) -> float:

@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.joints.splines import compared_spline, promised, spline_motion, spline_path
+from gelenk.trajectory.joints.splines import JointSpline, promised
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary
 from gelenk.trajectory.problem.problem import Segment
@@ -28,6 +28,7 @@ from tests.trajectory.arms import (
     free,
     jump,
     limits,
+    spline_motion,
     through,
 )
 
@@ -56,8 +57,8 @@ def test_the_exam_tells_by_how_much_its_times_are_too_short() -> None:
     with pytest.raises(
         InvalidField, match=r"joint 1 reaches 1\.54056 times its limit of velocity at 1\.27218 s"
     ) as refusal:
-        spline_motion(np.radians([45.0]), segment, free(1), field="segments.2")
-    assert refusal.value.field == "segments.2.times"
+        spline_motion(np.radians([45.0]), segment, free(1))
+    assert refusal.value.field == "times"
     assert float(refusal.value.reason.split()[-1]) == pytest.approx(308.111510782 / 200.0, abs=5e-10)
     slow_at = limits([float(np.radians(5000.0))], [float(np.radians(500.0))])
     with pytest.raises(InvalidField, match=r"limit of acceleration at 1 s") as refusal:
@@ -73,7 +74,7 @@ def test_the_way_is_the_spline_that_scipy_finds(boundary: Boundary) -> None:
     waypoints = np.concatenate((WAYPOINTS, [START]))
     knots = np.concatenate(([START], waypoints))
     segment = through(boundary=boundary, configurations=waypoints, limits=limits([1.0, 0.4], [3.0, 3.0]))
-    way = spline_path(START, segment, free(2))
+    way = JointSpline.of(START, segment, free(2)).path
     steps = [max(abs(step[0]), abs(step[1]) / 0.4) for step in np.diff(knots, axis=0)]
     np.testing.assert_allclose(way.breaks, np.concatenate(([0.0], np.cumsum(steps))), rtol=1e-14)
     other = CubicSpline(way.breaks, knots, bc_type=boundary.replace("_", "-"))
@@ -192,7 +193,7 @@ def test_what_is_compared_is_what_is_answered() -> None:
         for law in LAWS:
             waypoints = np.concatenate((WAYPOINTS, [START]))
             segment = through(law, configurations=waypoints, boundary=boundary)
-            found = compared_spline(START, segment, free(2))
+            found = JointSpline.of(START, segment, free(2)).timings()
             assert found.uniform_duration == pytest.approx(spline_motion(START, segment, free(2)).duration, rel=1e-9)
             optimal = spline_motion(START, replace(segment, law="time_optimal"), free(2))
             assert found.time_optimal_duration == pytest.approx(optimal.duration, rel=1e-9)
@@ -243,8 +244,8 @@ _TIMES = np.array([1.0, 2.0, 3.0])
 def test_what_is_refused(segment: Segment, field: str, reason: str) -> None:
     chain = free(2, -5.0, 6.0)
     with pytest.raises(InvalidField, match=reason) as refusal:
-        spline_motion(START, segment, chain, field="segments.1")
-    assert refusal.value.field == f"segments.1.{field}"
+        spline_motion(START, segment, chain)
+    assert refusal.value.field == field
 
 
 @pytest.mark.parametrize("law", LAWS)

@@ -13,7 +13,7 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory import plan as planning
 from gelenk.trajectory.audit.audit import audit
-from gelenk.trajectory.audit.demands import Demands, LimitedInterval, TipLimits
+from gelenk.trajectory.audit.demands import Demands, TipLimits, Zone
 from gelenk.trajectory.audit.words import Law, OrientationLaw
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.plan import plan
@@ -165,18 +165,14 @@ def test_a_blend_beyond_its_acceleration_fails_the_audit() -> None:
     blend = found.segments[0].blend
     assert blend is not None
     assert blend.acceleration is None
-    demands = Demands(
-        tip=TIP.tip, stretches=(LimitedInterval(blend.start_time, blend.end_time, TipLimits(acceleration=0.3)),)
-    )
+    demands = Demands(tip=TIP.tip, zones=(Zone(blend.start_time, blend.end_time, TipLimits(acceleration=0.3)),))
     judged = audit(PANDA, ARM, found.motion, demands)
     assert [reason.check for reason in judged.reasons] == ["tip"]
     assert "the limit is 0.3 m/s²" in judged.reasons[0].detail
-    ratio = judged.tip["acceleration"].ratio
+    ratio = judged.tip.acceleration.ratio
     assert ratio is not None
     assert ratio > 1.0
-    stretch = Demands(
-        tip=TIP.tip, stretches=(LimitedInterval(blend.start_time, blend.end_time, TipLimits(acceleration=1.5)),)
-    )
+    stretch = Demands(tip=TIP.tip, zones=(Zone(blend.start_time, blend.end_time, TipLimits(acceleration=1.5)),))
     assert audit(PANDA, ARM, found.motion, stretch).passed
 
 
@@ -358,7 +354,7 @@ def test_a_spline_that_swings_beyond_a_limit_ends_at_an_earlier_waypoint() -> No
         ((line(SIDE, blend_time=0.1), line(ABOVE)), "segments.0.blend_time", "tip_velocity"),
         ((line(SIDE, blend_radius=0.1, orientation="zyz"), line(ABOVE)), "segments.1.orientation", "axis_angle"),
         ((line(SIDE, blend_radius=0.1), line(SIDE)), "segments.1.target", "share one position"),
-        ((joint(READY + 9.0),), "segments.0.target", "panda_joint1 at 9 is outside its limits"),
+        ((joint(READY + 9.0),), "segments.0.target", "joint panda_joint1 at 9 is outside its limits"),
         (
             (Segment("circle", "cubic", LIMITS, via=moved(HERE, 0.0, 0.1, 0.0), pose=SIDE),),
             "segments.0.via",
@@ -397,9 +393,9 @@ def test_damping_states_what_it_costs() -> None:
     damped = plan(arm, chain, replace(problem, following=replace(xy, near_singularity="damp")))
     cost = damped.segments[0].joint_deviation
     assert cost is not None
-    assert cost[0] > xy.position_tolerance
+    assert cost.distance > xy.position_tolerance
     assert damped.audit.path_deviation is not None
-    assert damped.audit.path_deviation.value == pytest.approx(cost[0], rel=0.05)
+    assert damped.audit.path_deviation.value == pytest.approx(cost.distance, rel=0.05)
 
 
 def test_a_motion_that_fails_its_audit_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,7 +12,7 @@ from gelenk.robot.chain import Chain
 from gelenk.robot.poses import transform
 from gelenk.trajectory.audit.audit import audit
 from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits
-from gelenk.trajectory.laws.jerk_limited import JerkLimits, at_rest, jerk_limited
+from gelenk.trajectory.laws.jerk_limited import at_rest, jerk_limited
 from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
 from gelenk.trajectory.motion.composition import in_time, times_at
 from gelenk.trajectory.motion.time_laws import between
@@ -20,18 +20,20 @@ from gelenk.trajectory.paths.path_geometry import geometry_of, tip_through
 from gelenk.trajectory.paths.paths import circle
 from gelenk.trajectory.problem.problem import SegmentLimits
 from gelenk.trajectory.timing.time_optimal import time_optimal
-from gelenk.trajectory.timing.timing import Timed, compared, timed
+from gelenk.trajectory.timing.timing import Timed
 from gelenk.trajectory.timing.tip_constraints import tip_rows
 from tests.robots import robot
 from tests.trajectory.timed_ways import (
     LAWS,
     SMOOTH,
+    compared,
     gantry,
     instants,
     joint_ratios,
     limits,
     planar_line,
     random_way,
+    timed,
 )
 
 PANDA = robot("panda")
@@ -154,7 +156,8 @@ def test_the_time_optimal_law_under_limits_of_the_tip_is_near_that_of_a_finer_gr
         found.law.derivative(order).at(times)[:, 0] if order else found.law.at(times)[:, 0] for order in range(3)
     )
     samples = path.at(s)
-    twists, changes = samples.twists(v), samples.accelerations(v, u)
+    twists = samples.first * v[:, None]
+    changes = samples.first * u[:, None] + samples.second * v[:, None] ** 2
     parts = (
         np.linalg.norm(twists[:, :3], axis=1) / 0.5,
         np.linalg.norm(twists[:, 3:], axis=1) / 1.0,
@@ -221,7 +224,7 @@ def test_when_a_law_is_where() -> None:
 def test_profiles_of_least_jerk_are_those_of_ruckig(seed: int) -> None:
     rng = np.random.default_rng(seed)
     caps = 10.0 ** rng.uniform(-1.5, 1.5, 3)
-    other = jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), JerkLimits(*caps[:, None]))
+    other = jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), caps[:, None])
     found = planned(caps)
     assert found.duration == pytest.approx(other.duration, rel=1e-4)
     assert lasting(caps[None])[0] == pytest.approx(other.duration, rel=1e-9)

@@ -9,13 +9,26 @@ from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.demands import TipLimits
 from gelenk.trajectory.audit.words import Law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.paths.path_geometry import geometry_of
 from gelenk.trajectory.paths.paths import Path
 from gelenk.trajectory.problem.problem import SegmentLimits
-from gelenk.trajectory.timing.timing import Timed
+from gelenk.trajectory.timing import timing
+from gelenk.trajectory.timing.timing import Timed, Timings
 
 LAWS: tuple[Law, ...] = ("cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal")
 SMOOTH = ("quintic", "septic", "jerk_limited")
 LOOSE = 1e6
+
+
+def timed(path: Path | None, joints: PiecewisePolynomial, law: Law, limits: SegmentLimits, **options: object) -> Timed:
+    """The motion along a path, with options of the geometry and of the timing."""
+    of_geometry = {name: options.pop(name) for name in ("tip_motion", "zones", "corners") if name in options}
+    geometry = geometry_of(path, joints, limits, **of_geometry)  # type: ignore[arg-type]
+    return timing.timed(geometry, law, **options)  # type: ignore[arg-type]
+
+
+def compared(path: Path | None, joints: PiecewisePolynomial, law: Law, limits: SegmentLimits) -> Timings:
+    return timing.compared(geometry_of(path, joints, limits), law)
 
 
 def limits(

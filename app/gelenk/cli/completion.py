@@ -7,15 +7,17 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 from urllib.parse import quote
 
 import typer
 
 from gelenk.package_data import catalogue
+from gelenk.trajectory.audit.words import Law
 
 METHODS = ("auto", "analytic", "newton", "gradient", "gradient_then_newton", "damped_least_squares")
-LAWS = ("trapezoidal", "cubic", "quintic", "septic", "jerk_limited", "time_optimal")
+LAWS = sorted(get_args(Law), key=lambda law: law != "trapezoidal")
+"""Time laws of a trajectory, the default first."""
 REFERENCES = ("local_world_aligned", "local", "world")
 REPRESENTATIONS = ("geometric", "zyz", "rpy")
 CONVENTIONS = ("standard", "modified")

@@ -17,8 +17,9 @@ from gelenk.contract.course_motion import (
 )
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
+from gelenk.trajectory.audit.words import PolynomialLaw
 
-Law: TypeAlias = Literal["cubic", "quintic", "septic", "4-3-4", "trapezoidal", "parabolic_blends"]
+Law: TypeAlias = Literal[PolynomialLaw, "4-3-4", "trapezoidal", "parabolic_blends"]
 
 _BlendTimeList = Annotated[list[Duration], Field(min_length=1, max_length=MAX_KNOTS, fail_fast=True)]
 BlendTimes = Annotated[_BlendTimeList, BeforeValidator(one_joint, json_schema_input_type=Duration | _BlendTimeList)]

@@ -16,6 +16,7 @@ from gelenk.contract.course_motion import (
 )
 from gelenk.contract.endpoint import Endpoint
 from gelenk.contract.quantities import Steps, Warnings
+from gelenk.trajectory.audit.words import PolynomialLaw
 from gelenk.trajectory.laws.time_scaling import Quantity
 from gelenk.trajectory.motion.splines import Boundary
 
@@ -24,9 +25,7 @@ class TimeScalingRequest(SampledRequest):
     """A motion by a time law (`displacement`, `duration`), or through samples (`times`, `waypoints`); and limits."""
 
     limits: MotionLimits = Field(description="Limits; at least one of them.")
-    law: Literal["cubic", "quintic", "septic"] = Field(
-        default="cubic", description="From rest to rest; of a motion by `displacement`."
-    )
+    law: PolynomialLaw = Field(default="cubic", description="From rest to rest; of a motion by `displacement`.")
     displacement: Coordinates | None = Field(default=None, description="Δq of each joint, [rad or m].")
     duration: Duration | None = Field(default=None, description="T of this motion, [s].")
     times: Times | None = Field(default=None, description="Of the waypoints, increasing, [s].")

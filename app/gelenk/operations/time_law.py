@@ -28,13 +28,19 @@ from gelenk.operations.course_motion import (
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations, with_blend_times
+from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import ScalingLimits
 from gelenk.trajectory.laws.trapezoid import JointMove, PointToPoint, Profile, point_to_point
 from gelenk.trajectory.motion.splines import checked_times
 from gelenk.trajectory.motion.time_laws import between, normalised, quartic_cubic_quartic
 
 _RATES = ("velocity", "acceleration", "jerk")
-_GIVEN_RATES = {"cubic": 1, "quintic": 2, "septic": 3, "4-3-4": 2, "trapezoidal": 1, "parabolic_blends": 0}
+_GIVEN_RATES: dict[str, int] = {
+    **{law: conditions - 1 for law, conditions in POLYNOMIALS.items()},
+    "4-3-4": 2,
+    "trapezoidal": 1,
+    "parabolic_blends": 0,
+}
 _KNOTS = {"4-3-4", "parabolic_blends"}
 
 

@@ -21,12 +21,12 @@ from gelenk.operations.course_motion import (
 )
 from gelenk.operations.outcome import Outcome
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.laws.laws import POLYNOMIALS
 from gelenk.trajectory.laws.time_scaling import Bound, Scaling, ScalingLimits, uniform_scaling
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline, through_samples
 from gelenk.trajectory.motion.time_laws import between
 
-_ORDERS = {"cubic": 2, "quintic": 3, "septic": 4}
 _AT_REST = 1e-9
 
 
@@ -63,7 +63,7 @@ def _plan(call: TimeScalingRequest) -> PlannedMotion:
             "warnings": _warnings(motion, scaling, peaks, limits),
         }
 
-    rest = np.zeros((_ORDERS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
+    rest = np.zeros((POLYNOMIALS[call.law] - 1 if call.waypoints is None else 0, knots.shape[1]))
     when = factor * (times - times[0])
     when[-1] = scaled.breaks[-1]
     return PlannedMotion(scaled, limits, when, knots, rest, rest, continuity, f"Scaled by k = {factor:.6g}", told)
@@ -74,7 +74,7 @@ def _motion(call: TimeScalingRequest) -> tuple[PiecewisePolynomial, Array, Array
     if call.waypoints is None:
         unused(call, ("times", "velocities", "accelerations", "boundary"), "needs `waypoints`, which are missing")
         needed(call, ("displacement", "duration"), "for a motion by a law; or give `times` and `waypoints`")
-        ends = np.zeros((_ORDERS[call.law], len(call.displacement or ())))
+        ends = np.zeros((POLYNOMIALS[call.law], len(call.displacement or ())))
         ends[0] = call.displacement
         motion = between(np.zeros_like(ends), ends, call.duration or 1.0)
         return motion, motion.breaks, np.array([np.zeros_like(ends[0]), ends[0]]), len(ends) - 1

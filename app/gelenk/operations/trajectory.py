@@ -15,7 +15,7 @@ def run(loaded: LoadedRobot, call: TrajectoryRequest, limits: Limits) -> Outcome
 
     def content() -> dict[str, Any]:
         times = planned.times()
-        return planned.told(planned.told_samples(times), planned.certificate(times))
+        return planned.to_json(planned.samples_json(times), planned.certificate(times))
 
     def array() -> tuple[Array, dict[str, str]]:
         return planned.table(planned.times()), planned.headers

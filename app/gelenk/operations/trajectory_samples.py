@@ -13,14 +13,14 @@ _NEARLY = 1e-6
 
 def sample_times(duration: float, period: float) -> Array:
     """Return every multiple of a period before the end, and the end, [s]; for a duration of zero only 0."""
-    count, rate = np.arange(_before_end(duration, period)), round(1.0 / period)
+    count, rate = np.arange(sample_count(duration, period) - 1), round(1.0 / period)
     # 3 · 0.05 is not the double that is nearest to 0.15; 3 / 20 is.
     return np.append(count / rate if rate * period == 1.0 else count * period, duration)
 
 
 def sample_count(duration: float, period: float) -> int:
     """Return the number of samples."""
-    return _before_end(duration, period) + 1
+    return max(0, math.ceil(duration / period - _NEARLY)) + 1
 
 
 def check_samples(duration: float, period: float, most: int) -> None:
@@ -44,7 +44,3 @@ def check_samples(duration: float, period: float, most: int) -> None:
         "sample_period",
         f"{period:g} s makes {count:.0f} samples of {duration:.6g} s; at most {most} are allowed, every {shown:.6f} s",
     )
-
-
-def _before_end(duration: float, period: float) -> int:
-    return max(0, math.ceil(duration / period - _NEARLY))

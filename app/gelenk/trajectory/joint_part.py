@@ -15,25 +15,20 @@ from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits
+from gelenk.trajectory.audit.demands import Demands, JointLimits
 from gelenk.trajectory.audit.pieces import pieces_of
 from gelenk.trajectory.audit.tip import tip_peaks
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.joints.excess import first_limit_excess
 from gelenk.trajectory.joints.motion import compared_point_to_point, point_to_point_motion
-from gelenk.trajectory.joints.splines import (
-    SmoothnessClass,
-    compared_spline,
-    longest_prefix,
-    promised,
-    spline_motion,
-    spline_path,
-)
+from gelenk.trajectory.joints.splines import JointSpline, promised
 from gelenk.trajectory.joints.via_blends import via_blends
-from gelenk.trajectory.joints.waypoints import WITHIN, check_within
+from gelenk.trajectory.joints.waypoints import check_within
+from gelenk.trajectory.laws.laws import scaled_law
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
-from gelenk.trajectory.problem.problem import Segment, SegmentReport, TimingComparison, TrajectoryProblem
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
+from gelenk.trajectory.problem.problem import Segment, SegmentReport, TrajectoryProblem
+from gelenk.trajectory.problem.result import TimingComparison
 
 _REASONS: dict[Status, StopReason] = {
     "unreachable": "out_of_reach",
@@ -61,32 +56,35 @@ def joint_part(
     Raises:
         InvalidField: There is no such motion, or not in the given time.
     """
-    field = f"segments.{index}"
+    target = segment.configuration
+    if segment.configurations is None and target is None:
+        found = _solved(robot, chain, start, segment, index, problem)
+        if isinstance(found, Halt):
+            return PlannedPart(standing(start), (), Demands(), found)
+        target = found
+    with in_field(f"segments.{index}"):
+        return _planned(chain, start, target, segment, index, problem)
+
+
+def _planned(
+    chain: Chain, start: Array, target: Array | None, segment: Segment, index: int, problem: TrajectoryProblem
+) -> PlannedPart:
+    """Plan a segment to a configuration, or without one through its waypoints."""
     halt: Halt | None = None
     notes: tuple[str, ...] = ()
-    target = segment.configuration
-    if segment.configurations is not None:
-        motion, halt, notes = _through(chain, start, segment, index)
+    if target is not None:
+        check_within(chain, target[None], "target")
+        motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration)
+    elif segment.blends:
+        motion, note = _beside(chain, start, segment)
+        notes = (note,)
     else:
-        if target is None:
-            found = _solved(robot, chain, start, segment, index, problem)
-            if isinstance(found, Halt):
-                return PlannedPart(standing(start), (), Demands(), found)
-            target = found
-        _refuse_outside(chain, target, f"{field}.target")
-        motion = point_to_point_motion(start, target, segment.law, segment.limits, segment.duration, field=field)
-    motion = _within_tip_limits(chain, motion, segment, field)
+        motion, halt = _through(chain, start, segment, index)
+    motion = _within_tip_limits(chain, motion, segment)
     timing = _comparison(chain, start, target, segment, index) if problem.compares_timing else None
-    end = motion.at(motion.breaks[-1:])[0] if halt is not None or target is None else target
+    end = motion.at(motion.breaks[-1:])[0] if target is None else target
     report = SegmentReport(index, segment.type, segment.law, 0.0, motion.duration, notes=notes)
     return PlannedPart(motion, (report,), _demands(segment, start, end, problem.following.task), halt, timing)
-
-
-def _refuse_outside(chain: Chain, target: Array, field: str) -> None:
-    """Refuse a target beyond joint limits."""
-    for name, value, lower, upper in zip(chain.joint_names, target, chain.lower, chain.upper, strict=True):
-        if not lower - WITHIN <= value <= upper + WITHIN:
-            raise InvalidField(field, f"{name} at {value:.10g} is outside its limits [{lower:.10g}, {upper:.10g}]")
 
 
 def _solved(
@@ -110,35 +108,28 @@ def _solved(
     )
 
 
-def _through(
-    chain: Chain, start: Array, segment: Segment, index: int
-) -> tuple[PiecewisePolynomial, Halt | None, tuple[str, ...]]:
-    """Plan through all waypoints, or to the last one before which no joint leaves its limits; with notes."""
-    field = f"segments.{index}"
-    if segment.blends:
-        motion, note = _beside(chain, start, segment, field)
-        return motion, None, (note,)
-    motion = spline_motion(start, segment, chain, field=field)
-    way = spline_path(start, segment, chain, field=field)
-    excess = first_limit_excess(chain, way)
+def _through(chain: Chain, start: Array, segment: Segment, index: int) -> tuple[PiecewisePolynomial, Halt | None]:
+    """Plan through all waypoints, or to the last one before which no joint leaves its limits."""
+    spline = JointSpline.of(start, segment, chain)
+    motion, excess = spline.motion(), first_limit_excess(chain, spline.path)
     if excess is None:
-        return motion, None, ()
-    part = longest_prefix(start, segment, chain, field=field)
-    joint, count = chain.joint_names[excess.joint], len(cast(Array, segment.configurations))
+        return motion, None
+    count = len(cast(Array, segment.configurations))
+    part = spline.prefix(chain, excess)
+    joint = chain.joint_names[excess.joint]
     detail = (
         f"between its waypoints the spline takes {joint} to {excess.value:.6g}, beyond its limit {excess.bound:.6g}; "
         f"the first {part.waypoints} of {count} waypoints can be done: put more of them where it swings out"
     )
-    position = chain_poses(chain.flat, way.at(np.array([excess.time])))[0][0]
-    return part.motion, Halt("joint_limit", index, part.waypoints / count, position, joint, detail), ()
+    position = chain_poses(chain.flat, spline.path.at(np.array([excess.time])))[0][0]
+    return part.motion, Halt("joint_limit", index, part.waypoints / count, position, joint, detail)
 
 
-def _beside(chain: Chain, start: Array, segment: Segment, field: str) -> tuple[PiecewisePolynomial, str]:
+def _beside(chain: Chain, start: Array, segment: Segment) -> tuple[PiecewisePolynomial, str]:
     """Plan straight lines with parabolic blends, which stay within the waypoints' range; note the largest miss."""
     waypoints = cast(Array, segment.configurations)
-    check_within(chain, waypoints, field)
-    limits, times = segment.limits, segment.times
-    found = via_blends(start, waypoints, limits, times=times, duration=segment.duration, field=field)
+    check_within(chain, waypoints, "waypoints.{}")
+    found = via_blends(start, waypoints, segment.limits, times=segment.times, duration=segment.duration)
     row, joint = np.unravel_index(int(found.deviations.argmax()), found.deviations.shape)
     note = (
         f"the blends pass beside the inner waypoints: furthest, by {found.deviations[row, joint]:.6g} rad or m, joint "
@@ -147,7 +138,7 @@ def _beside(chain: Chain, start: Array, segment: Segment, field: str) -> tuple[P
     return found.motion, note
 
 
-def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segment, field: str) -> PiecewisePolynomial:
+def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segment) -> PiecewisePolynomial:
     """Slow the whole motion down if the tip would be too fast.
 
     Raises:
@@ -165,7 +156,7 @@ def _within_tip_limits(chain: Chain, motion: PiecewisePolynomial, segment: Segme
     given = "times" if segment.times is not None else "duration"
     if segment.times is not None or segment.duration is not None:
         reason = f"the tip would be too fast: its limits are kept in {factor:.6g} times the time"
-        raise InvalidField(f"{field}.{given}", reason)
+        raise InvalidField(given, reason)
     return motion.scaled(factor * (1.0 + _MARGIN))
 
 
@@ -177,20 +168,18 @@ def _comparison(
         return None
     law, limits = segment.law, segment.limits
     if target is not None:
-        # As in the course, compare the time-optimal motion with the scaled cubic.
-        law = "cubic" if law == "time_optimal" else law
+        law = scaled_law(law)
         numbers = compared_point_to_point(start, target, law, limits)
         return TimingComparison((index,), law, *numbers) if numbers.uniform_duration > 0.0 else None
-    return TimingComparison((index,), law, *compared_spline(start, segment, chain))
+    return TimingComparison((index,), law, *JointSpline.of(start, segment, chain).timings())
 
 
 def _demands(segment: Segment, start: Array, end: Array, task: Task) -> Demands:
-    promise = SmoothnessClass(1, False) if segment.blends else promised(segment)
-    limits = segment.limits
+    promise = promised(segment)
     return Demands(
-        JointLimits(limits.velocity, limits.acceleration, limits.jerk),
-        limits.tip,
-        Ends(start, end),
+        JointLimits(*segment.limits.joints),
+        segment.limits.tip,
+        (start, end),
         task=task,
         continuous=promise.continuous,
         keeps_jerk=promise.has_bounded_jerk,

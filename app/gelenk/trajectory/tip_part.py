@@ -2,43 +2,33 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass
+from functools import cached_property
 from typing import cast
 
 import numpy as np
 
-from gelenk.errors import InvalidField
 from gelenk.kinematics.simd.kernels import chain_poses
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
 from gelenk.robot.poses import Poses
 from gelenk.robot.robot import RobotModel
-from gelenk.trajectory.audit.demands import Demands, Ends, JointLimits, LimitedInterval, PathError, TipLimits
-from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.audit.demands import Demands, JointLimits, TipLimits, Zone
 from gelenk.trajectory.follow.exact import path_error
 from gelenk.trajectory.follow.follow import FollowedPath, follow
+from gelenk.trajectory.laws.laws import scaled_law
 from gelenk.trajectory.laws.time_scaling import QUANTITIES
 from gelenk.trajectory.motion.composition import times_at
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.paths.path_geometry import Zone, tip_through
-from gelenk.trajectory.paths.paths import Path
+from gelenk.trajectory.paths.path_geometry import LimitedPath, geometry_of, tip_through
 from gelenk.trajectory.paths.segment_paths import SegmentsPath, path_through
 from gelenk.trajectory.paths.spline_paths import PolynomialPath
-from gelenk.trajectory.problem.parts import Halt, PlannedPart, standing
-from gelenk.trajectory.problem.problem import (
-    BlendReport,
-    Following,
-    Segment,
-    SegmentLimits,
-    SegmentReport,
-    TimingComparison,
-    TrajectoryProblem,
-)
+from gelenk.trajectory.problem.parts import Halt, PlannedPart, in_field, standing
+from gelenk.trajectory.problem.problem import Following, Segment, SegmentLimits, SegmentReport, TrajectoryProblem
+from gelenk.trajectory.problem.result import Damping, SegmentBlend, TimingComparison
 from gelenk.trajectory.timing.passing_times import passing_at
 from gelenk.trajectory.timing.timing import Timed, compared, timed
 
-_DONE = 1e-9
-"""Fraction of a segment that may be missing if it is to count as completed."""
 _EARLY = 1e-6
 """Fraction of a path by which a motion may end before its obstacle without a remark."""
 _ANGLE_SAMPLES = 65
@@ -62,237 +52,172 @@ def tip_part(
     Raises:
         InvalidField: The path is impossible, or cannot be travelled in the given time.
     """
-    following = problem.following
     positions, rotations = chain_poses(chain.flat, start[None])
-    way = path_through(Poses(positions, rotations).matrices()[0], segments, first)
-    joints = follow(robot, chain, way.path, start, following)
-    halt = _halt(joints, way, first, following)
-    limits = tightest([segment.limits for segment in segments])
+    path = path_through(Poses(positions, rotations).matrices()[0], segments, first)
+    joints = follow(robot, chain, path.path, start, problem.following)
+    part = _TipPart(chain, problem.following, segments, first, path, joints)
     if joints.reached <= 0.0:
-        return PlannedPart(standing(start), (), Demands(), halt)
-    timing = _timed(chain, way, joints, segments, limits, first)
-    blends = _blends(way, joints, timing.law)
-    stretches = _stretches(way.zones(segments), joints, timing.law)
-    demands = _demands(way.path, joints, timing, limits, following, stretches)
-    demands = replace(demands, stated_jerk=_stated(segments), way_error=_path_error(joints, timing, limits))
-    comparison = _comparison(chain, way, joints, segments, limits, first) if problem.compares_timing else None
-    reports = _reports(way, joints, timing, segments, first, following, blends)
-    return PlannedPart(timing.motion, reports, demands, halt, comparison)
+        return PlannedPart(standing(start), (), Demands(), part.halt())
+    timing = part.timed()
+    comparison = part.comparison() if problem.compares_timing else None
+    return PlannedPart(timing.motion, part.reports(timing), part.demands(timing), part.halt(), comparison)
 
 
-def tightest(limits: Sequence[SegmentLimits]) -> SegmentLimits:
-    """Return the tightest joint limits and the loosest tip limits of several; `SegmentsPath.zones` has tighter ones."""
-    if len(limits) == 1:
-        return limits[0]
-    tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
-    velocity, acceleration, jerk = (
-        np.min([getattr(one, name) for one in limits], axis=0) for name in ("velocity", "acceleration", "jerk")
-    )
-    return SegmentLimits(velocity, acceleration, jerk, tip)
+@dataclass(frozen=True)
+class _TipPart:
+    """A path of the tip with the joints that follow it.
 
+    Attributes:
+        chain: Chain that moves.
+        following: How the joints follow the path.
+        segments: Segments of the path.
+        first: Index of the first of them in the trajectory.
+        path: Path of the tip.
+        joints: Path of the joints, as far as they can follow.
+    """
 
-def _stated(segments: Sequence[Segment]) -> Array | None:
-    """Return the tightest requested jerk limits, shape (n,); None if none were requested."""
-    stated = [one.stated_jerk for one in segments if one.stated_jerk is not None]
-    return np.min(stated, axis=0) if stated else None
+    chain: Chain
+    following: Following
+    segments: Sequence[Segment]
+    first: int
+    path: SegmentsPath
+    joints: FollowedPath
 
+    @cached_property
+    def limits(self) -> SegmentLimits:
+        """The tightest limits of joints and the loosest of the tip; `SegmentsPath.zones` has the tighter ones."""
+        limits = [segment.limits for segment in self.segments]
+        if len(limits) == 1:
+            return limits[0]
+        tip = TipLimits(*(max(getattr(one.tip, name) for one in limits) for name in TipLimits.__slots__))
+        velocity, acceleration, jerk = (np.min([getattr(one, name) for one in limits], axis=0) for name in QUANTITIES)
+        return SegmentLimits(velocity, acceleration, jerk, tip)
 
-def _timed(
-    chain: Chain,
-    way: SegmentsPath,
-    joints: FollowedPath,
-    segments: Sequence[Segment],
-    limits: SegmentLimits,
-    first: int,
-) -> Timed:
-    """Time the path; an incomplete path gets the shortest time, whatever the request."""
-    is_whole = joints.stop is None
-    segment = segments[0]
-    try:
-        if segment.times is not None and is_whole:
-            places = cast(PolynomialPath, way.path).knots[1:]
-            return passing_at(way.path, joints.positions, places, segment.times, limits, tip_through(chain))
-        return timed(
-            way.path,
-            joints.positions,
-            segment.law,
-            limits,
-            duration=segment.duration if is_whole else None,
-            slow_down=_slows_at_corners(segments),
-            tip_motion=tip_through(chain),
-            zones=way.zones(segments),
-            corners=way.edges,
+    @property
+    def slows_at_corners(self) -> bool:
+        """Whether a corner slows the tip down only there: accelerate, coast and brake on each line and corner."""
+        return len(self.segments) > 1 and self.segments[0].law == "trapezoidal"
+
+    @cached_property
+    def geometry(self) -> LimitedPath:
+        """The path of the joints with all limits."""
+        motion, path = tip_through(self.chain), self.path
+        return geometry_of(path.path, self.joints.positions, self.limits, motion, path.zones, path.edges)
+
+    def timed(self) -> Timed:
+        """Time the path; an incomplete path gets the shortest time, whatever the request."""
+        is_whole, segment = self.joints.stop is None, self.segments[0]
+        with in_field(f"segments.{self.first}"):
+            if segment.times is not None and is_whole:
+                return passing_at(self.geometry, cast(PolynomialPath, self.path.path).knots[1:], segment.times)
+            duration = segment.duration if is_whole else None
+            return timed(self.geometry, segment.law, duration=duration, slow_down=self.slows_at_corners)
+
+    def comparison(self) -> TimingComparison:
+        """Compare the timing of the path by its law with the time-optimal one."""
+        law = scaled_law(self.segments[0].law)
+        numbers = compared(self.geometry, law)
+        return TimingComparison(tuple(range(self.first, self.first + len(self.segments))), law, *numbers)
+
+    def demands(self, timing: Timed) -> Demands:
+        """Return the requirements on the motion, which include the pose of the tip at each time."""
+        law, joints, limits, following = timing.law, self.joints, self.limits, self.following
+        position, orientation = following.position_tolerance, following.orientation_tolerance
+        if following.near_singularity == "damp":
+            position = max(position, _SLACK * joints.path_deviation)
+            orientation = max(orientation, _SLACK * joints.orientation_deviation)
+        start, end = joints.positions.at(np.array([0.0, joints.reached]))
+        stated = [one.stated_jerk for one in self.segments if one.stated_jerk is not None]
+        return Demands(
+            JointLimits(limits.velocity, limits.acceleration, limits.jerk),
+            limits.tip,
+            (start, end),
+            lambda times: self.path.path.at(np.clip(law.at(times)[:, 0], 0.0, joints.reached)).poses,
+            following.task,
+            position,
+            orientation,
+            timing.continuous,
+            tuple(
+                Zone(*self._times_at(law, zone.begin, zone.end), zone.tip)
+                for zone in self.path.zones
+                if zone.begin < joints.reached
+            ),
+            timing.has_bounded_jerk,
+            np.min(stated, axis=0) if stated else None,
+            path_error(joints.positions, joints.bend_errors, timing, limits),
         )
-    except InvalidField as error:
-        raise InvalidField(f"segments.{first}.{error.field}", error.reason) from error
 
+    def halt(self) -> Halt | None:
+        """Return where and why the path could not continue; None if it is complete."""
+        stop, reached, extent = self.joints.stop, self.joints.reached, self.path.path.extent
+        if stop is None:
+            return None
+        ends = np.array([0.0, *self.path.ends])
+        i = int(np.clip(np.searchsorted(ends, reached, side="right") - 1, 0, len(ends) - 2))
+        width = ends[i + 1] - ends[i]
+        share = float((reached - ends[i]) / width) if width > 0.0 else 0.0
+        detail = stop.detail
+        if stop.s > reached + _EARLY * extent:
+            detail += (
+                f"; the motion ends before, at {100.0 * reached / extent:.4f}% of the path, where the smallest "
+                f"singular value falls to {self.following.min_singular_value:g}"
+            )
+        return Halt(stop.reason, self.first + i, share, stop.position, stop.joint, detail)
 
-def _blends(way: SegmentsPath, joints: FollowedPath, law: PiecewisePolynomial) -> list[BlendReport]:
-    """Return reports of the blends that the motion reaches."""
-    blends = []
-    for corner in way.corners:
-        if corner.begin >= joints.reached:
-            break
-        times = _times_at(law, corner.begin, min(corner.end, joints.reached))
+    def reports(self, timing: Timed) -> tuple[SegmentReport, ...]:
+        """Return reports of the segments that were started."""
+        path, joints = self.path, self.joints
+        deviation = Damping(joints.path_deviation, joints.orientation_deviation)
+        damped = self.following.near_singularity == "damp" and deviation.distance > self.following.position_tolerance
+        reports = []
+        for i, (segment, begin, end) in enumerate(zip(self.segments, (0.0, *path.ends), path.ends, strict=False)):
+            if begin >= joints.reached:
+                break
+            reports.append(
+                SegmentReport(
+                    self.first + i,
+                    segment.type,
+                    "time_optimal" if self.slows_at_corners else segment.law,
+                    *self._times_at(timing.law, begin, end),
+                    *self._travelled(begin, min(end, joints.reached)),
+                    deviation if damped else None,
+                    i + 1 < len(self.segments),
+                    self._blend(i, timing.law),
+                    (*path.notes, *self._notes(), *timing.notes),
+                )
+            )
+        return tuple(reports)
+
+    def _blend(self, i: int, law: PiecewisePolynomial) -> SegmentBlend | None:
+        """Return the report of the blend after a segment, if the motion reaches it."""
+        if i == len(self.path.corners) or self.path.corners[i].begin >= self.joints.reached:
+            return None
+        corner = self.path.corners[i]
         limit = corner.acceleration if math.isfinite(corner.acceleration) else None
-        blends.append(BlendReport(corner.radius, *times, limit))
-    return blends
+        return SegmentBlend(corner.radius, *self._times_at(law, corner.begin, corner.end), limit)
 
+    def _notes(self) -> tuple[str, ...]:
+        """Return a note on the joint limits if they differ among blended lines."""
+        first = self.segments[0].limits
+        each = ((getattr(one.limits, name), getattr(first, name)) for one in self.segments for name in QUANTITIES)
+        if all(np.array_equal(one, other) for one, other in each):
+            return ()
+        return ("the limits of joints differ among blended lines: the tightest of each joint holds on all of them",)
 
-def _stretches(zones: Sequence[Zone], joints: FollowedPath, law: PiecewisePolynomial) -> tuple[LimitedInterval, ...]:
-    """Return the time intervals in which the tip has its own limits."""
-    return tuple(
-        LimitedInterval(*_times_at(law, zone.begin, min(zone.end, joints.reached)), zone.tip)
-        for zone in zones
-        if zone.begin < joints.reached
-    )
+    def _travelled(self, begin: float, end: float) -> tuple[float, float]:
+        """Return the lengths of the position's and the orientation's path between two places, [m] and [rad]."""
+        path, s = self.path.path, np.linspace(begin, end, _ANGLE_SAMPLES)
+        angular = np.linalg.norm(path.at(s).first[:, 3:], axis=1)
+        return end - begin if path.unit == "m" else 0.0, float(np.trapezoid(angular, s))
 
-
-def _demands(
-    path: Path,
-    joints: FollowedPath,
-    timing: Timed,
-    limits: SegmentLimits,
-    following: Following,
-    stretches: tuple[LimitedInterval, ...],
-) -> Demands:
-    """Return the requirements on the motion, which include the pose of the tip at each time."""
-    law = timing.law
-    position, orientation = following.position_tolerance, following.orientation_tolerance
-    if following.near_singularity == "damp":
-        position = max(position, _SLACK * joints.path_deviation)
-        orientation = max(orientation, _SLACK * joints.orientation_deviation)
-    last = joints.positions.at(np.array([joints.reached]))[0]
-    return Demands(
-        JointLimits(limits.velocity, limits.acceleration, limits.jerk),
-        limits.tip,
-        Ends(joints.positions.at(np.zeros(1))[0], last),
-        lambda times: path.at(np.clip(law.at(times)[:, 0], 0.0, joints.reached)).poses,
-        following.task,
-        position,
-        orientation,
-        timing.continuous,
-        stretches,
-        timing.has_bounded_jerk,
-    )
-
-
-def _path_error(joints: FollowedPath, timing: Timed, limits: SegmentLimits) -> PathError:
-    """Bound how much ratios to limits differ from those of the exact path; ∞ if unknown, as off the path."""
-    if joints.bend_errors is None:
-        return PathError(math.inf, math.inf, math.inf)
-    return path_error(joints.positions, joints.bend_errors, timing, limits)
-
-
-def _halt(joints: FollowedPath, way: SegmentsPath, first: int, following: Following) -> Halt | None:
-    """Return where and why the path could not continue; None if it is complete."""
-    stop = joints.stop
-    if stop is None:
-        return None
-    ends = np.array([0.0, *way.ends])
-    i = int(np.clip(np.searchsorted(ends, joints.reached, side="right") - 1, 0, len(ends) - 2))
-    width = ends[i + 1] - ends[i]
-    share = float((joints.reached - ends[i]) / width) if width > 0.0 else 0.0
-    detail = stop.detail
-    if stop.s > joints.reached + _EARLY * way.path.extent:
-        detail += (
-            f"; the motion ends before, at {100.0 * joints.reached / way.path.extent:.4f}% of the path, where the "
-            f"smallest singular value falls to {following.min_singular_value:g}"
-        )
-    return Halt(stop.reason, first + i, share, stop.position, stop.joint, detail)
-
-
-def _reports(
-    way: SegmentsPath,
-    joints: FollowedPath,
-    timing: Timed,
-    segments: Sequence[Segment],
-    first: int,
-    following: Following,
-    blends: Sequence[BlendReport],
-) -> tuple[SegmentReport, ...]:
-    """Return reports of the segments that were started."""
-    begins = (0.0, *way.ends[:-1])
-    damped = following.near_singularity == "damp" and joints.path_deviation > following.position_tolerance
-    reports = []
-    for i, (segment, begin, end) in enumerate(zip(segments, begins, way.ends, strict=True)):
-        if begin >= joints.reached:
-            break
-        finish = min(end, joints.reached)
-        begun, done = _times_at(timing.law, begin, finish)
-        length, angle = _travelled(way.path, begin, finish)
-        report = SegmentReport(
-            first + i,
-            segment.type,
-            "time_optimal" if _slows_at_corners(segments) else segment.law,
-            begun,
-            done,
-            length,
-            angle,
-            (joints.path_deviation, joints.orientation_deviation) if damped else None,
-            i + 1 < len(segments),
-            blends[i] if i < len(blends) else None,
-            (*way.notes, *_of_corners(segments), *timing.notes),
-        )
-        reports.append(report)
-    return tuple(reports)
-
-
-def _slows_at_corners(segments: Sequence[Segment]) -> bool:
-    """Return whether a corner slows the tip down only there: accelerate, coast and brake on each line and corner."""
-    return len(segments) > 1 and segments[0].law == "trapezoidal"
-
-
-def _of_corners(segments: Sequence[Segment]) -> tuple[str, ...]:
-    """Return a note on the joint limits if they differ among blended lines."""
-    if len(segments) == 1:
-        return ()
-    limits = [segment.limits for segment in segments]
-    notes = []
-    if not all(np.array_equal(getattr(one, name), getattr(limits[0], name)) for one in limits for name in QUANTITIES):
-        notes.append("the limits of joints differ among blended lines: the tightest of each joint holds on all of them")
-    return tuple(notes)
-
-
-def _travelled(path: Path, begin: float, end: float) -> tuple[float, float]:
-    """Return the length of the position's path and the angle of the orientation's between two places, [m] and [rad]."""
-    s = np.linspace(begin, end, _ANGLE_SAMPLES)
-    rates = path.at(s).first
-    length = end - begin if path.unit == "m" else 0.0
-    return length, float(np.trapezoid(np.linalg.norm(rates[:, 3:], axis=1), s))
-
-
-def _times_at(law: PiecewisePolynomial, begin: float, finish: float) -> tuple[float, float]:
-    """Return when a law that never goes backwards is at two places, exact at its ends, [s]."""
-    places = np.array([begin, finish])
-    first, last = law.at(law.breaks[[0, -1]])[:, 0]
-    # Near rest, a rounding error in s is a large error in time.
-    rounding = 8.0 * np.spacing(last)
-    times = np.where(places <= first + rounding, law.breaks[0], law.breaks[-1])
-    inside = (places > first + rounding) & (places < last - rounding)
-    if inside.any():
-        times[inside] = times_at(law, places[inside])
-    return float(times[0]), float(times[1])
-
-
-def _comparison(
-    chain: Chain,
-    way: SegmentsPath,
-    joints: FollowedPath,
-    segments: Sequence[Segment],
-    limits: SegmentLimits,
-    first: int,
-) -> TimingComparison:
-    # As in the course, scale the cubic: comparing the time-optimal law with itself would say nothing.
-    law: Law = "cubic" if segments[0].law == "time_optimal" else segments[0].law
-    uniform, by_velocity, by_acceleration, optimal = compared(
-        way.path,
-        joints.positions,
-        law,
-        limits,
-        tip_motion=tip_through(chain),
-        zones=way.zones(segments),
-        corners=way.edges,
-    )
-    numbers = tuple(range(first, first + len(segments)))
-    return TimingComparison(numbers, law, uniform, by_velocity, by_acceleration, optimal)
+    def _times_at(self, law: PiecewisePolynomial, begin: float, finish: float) -> tuple[float, float]:
+        """Return when a law that never goes backwards is at two places, or at its end before them, [s]."""
+        places = np.array([begin, min(finish, self.joints.reached)])
+        first, last = law.at(law.breaks[[0, -1]])[:, 0]
+        # Near rest, a rounding error in s is a large error in time.
+        rounding = 8.0 * np.spacing(last)
+        times = np.where(places <= first + rounding, law.breaks[0], law.breaks[-1])
+        inside = (places > first + rounding) & (places < last - rounding)
+        if inside.any():
+            times[inside] = times_at(law, places[inside])
+        return float(times[0]), float(times[1])

@@ -126,7 +126,7 @@ def planned_part(job: _Plan) -> bytes:
     times = planned.times()
     named = SAMPLED if planned.call.tip_poses else SAMPLED[:-1]
     gaps = {name: orjson.Fragment(_GAP + name.encode() + _GAP) for name in named}
-    frame = orjson.dumps(planned.told(gaps, planned.certificate(times)), option=orjson.OPT_SERIALIZE_NUMPY)
+    frame = orjson.dumps(planned.to_json(gaps, planned.certificate(times)), option=orjson.OPT_SERIALIZE_NUMPY)
     return packed(
         frame=as_bytes(frame),
         columns=as_bytes(csv_head(planned.columns)),
@@ -141,8 +141,8 @@ def sampled_part(job: tuple[_Plan, int]) -> bytes:
     planned = _planned(plan)
     times = planned.times()[k * _PART : (k + 1) * _PART]
     rows = planned.table(times)
-    told = {name: as_bytes(orjson.dumps(entries)) for name, entries in planned.told_samples(times).items()}
-    return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **told)
+    fields = {name: as_bytes(orjson.dumps(entries)) for name, entries in planned.samples_json(times).items()}
+    return packed(rows=rows, csv=as_bytes(b"".join(csv_rows(rows))), **fields)
 
 
 def drawn_part(job: tuple[_Plan, PictureFormat]) -> bytes:

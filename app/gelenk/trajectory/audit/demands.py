@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
+from gelenk.trajectory.audit.result import PathError
 from gelenk.trajectory.audit.tip import PathOfTime
 
 
@@ -38,54 +39,18 @@ class TipLimits:
 
 
 @dataclass(frozen=True, slots=True)
-class Ends:
-    """State that a motion must have at its start and end; None leaves a quantity open, but a velocity is then 0.
+class Zone:
+    """A part of a motion or a path on which the tip has its own limits, in addition to those that hold everywhere.
 
     Attributes:
-        start: Configuration; shape (n,), [rad or m].
-        end: Likewise.
-        start_velocity: Zero if None; shape (n,), [rad/s or m/s].
-        end_velocity: Likewise.
-        start_acceleration: Open if None; shape (n,), [rad/s² or m/s²].
-        end_acceleration: Likewise.
-    """
-
-    start: Array | None = None
-    end: Array | None = None
-    start_velocity: Array | None = None
-    end_velocity: Array | None = None
-    start_acceleration: Array | None = None
-    end_acceleration: Array | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class LimitedInterval:
-    """A time interval in which the tip has its own limits, in addition to those of the whole motion.
-
-    Attributes:
-        begin: [s].
-        end: [s].
-        tip: The limits.
+        begin: Time or place at its beginning.
+        end: Time or place at its end.
+        tip: Additional limits of the tip.
     """
 
     begin: float
     end: float
     tip: TipLimits
-
-
-@dataclass(frozen=True, slots=True)
-class PathError:
-    """Bounds on how much ratios to limits differ from those of the exact path at the same time law.
-
-    Attributes:
-        velocity: Of the joints; ∞ if unknown.
-        acceleration: Likewise.
-        jerk: Likewise.
-    """
-
-    velocity: float
-    acceleration: float
-    jerk: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,13 +60,14 @@ class Demands:
     Attributes:
         joints: Limits of the joints.
         tip: Limits of the tip.
-        ends: State at the start and the end.
+        ends: Configurations at the start and the end, shape (n,) each, [rad or m]; None leaves them open. The motion
+            rests at both.
         path: Demanded pose at each time; None if the tip is free.
         task: Directions that count for the path and for the smallest singular value.
         path_tolerance: Allowed distance from the path, [m].
         orientation_tolerance: Allowed angle from the path's orientation, [rad].
         continuous: Order up to which derivatives must not jump; 1 means C¹.
-        stretches: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
+        zones: Time intervals with their own limits of the tip; pieces of the motion begin and end at their bounds.
         keeps_jerk: Whether exceeding a jerk limit fails the audit; otherwise jerk is only compared.
         stated_jerk: Jerk limits enforced within pieces even if `keeps_jerk` is False; shape (n,), [rad/s³ or m/s³].
         way_error: How far the planned motion is from the exact path; None if it follows no path.
@@ -111,13 +77,13 @@ class Demands:
 
     joints: JointLimits = field(default_factory=JointLimits)
     tip: TipLimits = field(default_factory=TipLimits)
-    ends: Ends = field(default_factory=Ends)
+    ends: tuple[Array, Array] | None = None
     path: PathOfTime | None = None
     task: Task = FULL_POSE
     path_tolerance: float = 1e-4
     orientation_tolerance: float = 1e-3
     continuous: int = 1
-    stretches: tuple[LimitedInterval, ...] = ()
+    zones: tuple[Zone, ...] = ()
     keeps_jerk: bool = True
     stated_jerk: Array | None = None
     way_error: PathError | None = None

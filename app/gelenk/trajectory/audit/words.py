@@ -3,7 +3,8 @@
 from typing import Literal, TypeAlias
 
 Check: TypeAlias = Literal["velocity", "acceleration", "jerk", "joint_limit", "continuity", "path", "tip", "boundary"]
-Law: TypeAlias = Literal["cubic", "quintic", "septic", "trapezoidal", "jerk_limited", "time_optimal"]
+PolynomialLaw: TypeAlias = Literal["cubic", "quintic", "septic"]
+Law: TypeAlias = Literal[PolynomialLaw, "trapezoidal", "jerk_limited", "time_optimal"]
 SegmentType: TypeAlias = Literal["joint", "line", "circle", "spline"]
 OrientationLaw: TypeAlias = Literal["axis_angle", "zyz", "zyz_other"]
 NearSingularity: TypeAlias = Literal["stop", "damp", "slow_down"]

@@ -1,36 +1,34 @@
 """Joint motions from one configuration to another, at rest at both ends.
 
 The polynomials lead along the straight line in joint space: q = q_i + s(t) Δq, with one s from 0 to 1 for all joints.
-The limits of s are the smallest of the joints' limits over |Δq_j|, so the least duration is a closed form of three
-numbers. In the trapezoid each joint has its own profile, and all are slowed down to the slowest one, as in the course:
-T = max_j T_j. No motion of any shape takes less time, so it is also the time-optimal one. Jerk-limited joints also
-have profiles of their own if the line would take longer, as when their limits are not in one proportion.
+The limits of s are the smallest of the joints' limits over |Δq_j|. In the trapezoid each joint has its own profile, and
+all are slowed down to the slowest one, as in the course: T = max_j T_j. No motion of any shape takes less time, so it
+is also the time-optimal one. Jerk-limited joints also have profiles of their own if the line would take longer, as when
+their limits are not in one proportion.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
 
 import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.audit.words import Law
-from gelenk.trajectory.laws.jerk_limited import JerkLimits, at_rest, jerk_limited
-from gelenk.trajectory.laws.time_scaling import QUANTITIES, ScalingLimits, uniform_scaling
+from gelenk.trajectory.laws.jerk_limited import at_rest, jerk_limited
+from gelenk.trajectory.laws.laws import LAWS, POLYNOMIALS
+from gelenk.trajectory.laws.time_scaling import LARGEST, ScalingLimits, check_limits, uniform_scaling
 from gelenk.trajectory.laws.trapezoid import JointMove, fastest, point_to_point
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
+from gelenk.trajectory.motion.time_laws import rest_to_rest
+from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.timing.timing import Timings
 
-SMALLEST, LARGEST = 1e-9, 1e9
-"""Range of a limit; positions and durations are at most as large."""
 NO_LENGTH = 1e-12
 """Largest displacement that counts as standing still, [rad or m]."""
 ROUNDING = 2e-10
 """Allowed relative shortfall of a duration below the least one, because answers are rounded to ten digits."""
-KEEPS_JERK: Final[frozenset[Law]] = frozenset({"quintic", "septic", "jerk_limited"})
-"""Laws whose acceleration does not jump, not even at the ends; they keep jerk limits."""
 
 _SHORTEST_RAMP = 1e-5
 """Least acceleration time of a trapezoid, as a share of a given duration."""
@@ -42,23 +40,8 @@ _MOST = 1e6
 """Cap on the limits of s, in units of the time that the tightest limit alone takes; larger ones have no effect."""
 
 
-class _Shape(NamedTuple):
-    """s(λ) from 0 to 1 in λ = t/T: its coefficients, lowest power first, and the peaks of its derivatives."""
-
-    coefficients: tuple[float, ...]
-    peaks: tuple[float, ...]
-
-
-_SHAPES: Final[dict[Law, _Shape]] = {
-    "cubic": _Shape((0.0, 0.0, 3.0, -2.0), (1.5, 6.0)),
-    "quintic": _Shape((0.0, 0.0, 0.0, 10.0, -15.0, 6.0), (1.875, 10.0 / math.sqrt(3.0), 60.0)),
-    # s' = 140 y³, s'' = 420 y² (1 - 2λ), s''' = 840 (y - 5y²) with y = λ (1 - λ).
-    "septic": _Shape((0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0), (2.1875, 16.8 / math.sqrt(5.0), 52.5)),
-}
-
-
 def point_to_point_motion(
-    start: Array, target: Array, law: Law, limits: SegmentLimits, duration: float | None = None, *, field: str = ""
+    start: Array, target: Array, law: Law, limits: SegmentLimits, duration: float | None = None
 ) -> PiecewisePolynomial:
     """Return the motion from rest to rest, in the least time of a law under the limits or in a given time.
 
@@ -80,7 +63,6 @@ def point_to_point_motion(
         law: Time law.
         limits: Of the joints.
         duration: T, [s]; the least if None.
-        field: Field of the request for this motion; prefixes the names of its fields in errors.
 
     Returns:
         The motion, from time 0 on. If nothing moves (≤ 1e-12), it stands still for the given duration; without one, it
@@ -89,41 +71,38 @@ def point_to_point_motion(
     Raises:
         InvalidField: The duration is too short, or a number is out of the supported range.
     """
-    _check(start, target, limits, duration, field)
+    for name, values in (("start", start), ("target", target)):
+        wrong = ~(np.abs(values) <= LARGEST)
+        if wrong.any():
+            raise InvalidField(name, f"joint {int(wrong.argmax()) + 1}: must be of magnitude ≤ {LARGEST:g}")
+    check_limits(limits.joints)
+    check_duration(duration)
     steps = target - start
     if np.abs(steps).max(initial=0.0) <= NO_LENGTH:
         return standing(start, duration or 0.0)
     if law == "trapezoidal":
-        return _trapezoid(start, steps, limits, duration, field)
+        return _trapezoid(start, steps, limits, duration)
     if law == "time_optimal":
-        motion = _trapezoid(start, steps, limits, None, field)
+        motion = _trapezoid(start, steps, limits, None)
     else:
-        motion = _on_line(start, steps, _along_line(law, _bounds(steps, limits)))
+        motion = _along_line(start, steps, law, limits)
         if law == "jerk_limited":
             motion = _beside_line(start, target, limits, motion)
-    return motion if duration is None else lasting(motion, duration, kept(law, limits), field)
+    return motion if duration is None else lasting(motion, duration, kept_limits(law, limits))
 
 
-def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
-    """Return joints of shape (n,) that stand still for a duration [s], [rad or m]."""
-    return PiecewisePolynomial(np.array([0.0, duration]), configuration[None, None].copy())
-
-
-def kept(law: Law, limits: SegmentLimits) -> ScalingLimits:
+def kept_limits(law: Law, limits: SegmentLimits) -> ScalingLimits:
     """Return the limits that a law keeps."""
-    return ScalingLimits(limits.velocity, limits.acceleration, limits.jerk if law in KEEPS_JERK else None)
+    return ScalingLimits(limits.velocity, limits.acceleration, limits.jerk if LAWS[law].keeps_jerk else None)
 
 
-def lasting(
-    motion: PiecewisePolynomial, duration: float, limits: ScalingLimits, field: str = ""
-) -> PiecewisePolynomial:
+def lasting(motion: PiecewisePolynomial, duration: float, limits: ScalingLimits) -> PiecewisePolynomial:
     """Slow a motion down to a given duration.
 
     Args:
         motion: The fastest one of its kind, from time 0 on.
         duration: T, [s].
         limits: Limits that it keeps, named in the error if the duration is too short.
-        field: Field of the request that has the duration.
 
     Raises:
         InvalidField: The duration is too short.
@@ -132,37 +111,10 @@ def lasting(
     if duration < least * (1.0 - ROUNDING):
         bound = uniform_scaling(motion, limits).binding
         raise InvalidField(
-            named(field, "duration"),
+            "duration",
             f"must be at least {least:.10g} s, when joint {bound.joint + 1} reaches its limit of {bound.quantity}",
         )
-    return _ending(motion.scaled(duration / least), duration)
-
-
-def _ending(motion: PiecewisePolynomial, time: float) -> PiecewisePolynomial:
-    """Set the last break to exactly the given time, [s]."""
-    return PiecewisePolynomial(np.append(motion.breaks[:-1], time), motion.coefficients)
-
-
-def named(field: str, name: str) -> str:
-    """Return the name of a field within a part of the request."""
-    return f"{field}.{name}" if field else name
-
-
-class Timings(NamedTuple):
-    """Durations of one path with two time laws.
-
-    Attributes:
-        uniform_duration: Of the law, scaled so that it just keeps the limits: the larger of k_vel and √k_acc times
-            1 s, unless jerk requires more, [s].
-        velocity_factor: k_vel of the law lasting 1 s: its largest ratio of a velocity to its limit.
-        acceleration_factor: k_acc likewise.
-        time_optimal_duration: Of the fastest motion along the same path under both limits, [s].
-    """
-
-    uniform_duration: float
-    velocity_factor: float
-    acceleration_factor: float
-    time_optimal_duration: float
+    return motion.lasting(duration)
 
 
 def compared_point_to_point(start: Array, target: Array, law: Law, limits: SegmentLimits) -> Timings:
@@ -195,113 +147,68 @@ def timings(uniform: PiecewisePolynomial, limits: SegmentLimits, optimal: float)
         optimal: Duration of the fastest motion along the same path, [s].
     """
     in_a_second = uniform.scaled(1.0 / uniform.duration)
-    by_velocity, by_acceleration = uniform_scaling(
-        in_a_second, ScalingLimits(limits.velocity, limits.acceleration)
-    ).bounds
-    return Timings(uniform.duration, by_velocity.ratio, by_acceleration.ratio, optimal)
+    bounds = uniform_scaling(in_a_second, ScalingLimits(limits.velocity, limits.acceleration)).bounds
+    return Timings(uniform.duration, bounds[0].ratio, bounds[1].ratio, optimal)
 
 
-def _check(start: Array, target: Array, limits: SegmentLimits, duration: float | None, field: str) -> None:
-    """Check that all numbers are small enough for their products."""
-    for name, values in (("start", start), ("target", target)):
-        wrong = ~(np.abs(values) <= LARGEST)
-        if wrong.any():
-            raise InvalidField(
-                named(field, name), f"joint {int(wrong.argmax()) + 1}: must be of magnitude ≤ {LARGEST:g}"
-            )
-    check_limits(limits, field)
-    check_duration(duration, field)
-
-
-def check_limits(limits: SegmentLimits, field: str = "") -> None:
-    """Check that limits are usable numbers.
-
-    Raises:
-        InvalidField: A limit is not.
-    """
-    for quantity in QUANTITIES:
-        values = getattr(limits, quantity)
-        wrong = ~((values >= SMALLEST) & (values <= LARGEST))
-        if wrong.any():
-            raise InvalidField(
-                named(field, f"limits.joint_{quantity}"),
-                f"joint {int(wrong.argmax()) + 1}: must be a number from {SMALLEST:g} to {LARGEST:g}",
-            )
-
-
-def check_duration(duration: float | None, field: str = "") -> None:
+def check_duration(duration: float | None) -> None:
     """Check that a duration is a usable number.
 
     Raises:
         InvalidField: It is not.
     """
     if duration is not None and not 0.0 < duration <= LARGEST:
-        raise InvalidField(named(field, "duration"), f"must be greater than 0 s and at most {LARGEST:g} s")
-
-
-def _bounds(steps: Array, limits: SegmentLimits) -> tuple[float, float, float]:
-    """Return the limits of s: velocity, acceleration and jerk, [1/s, 1/s², 1/s³]."""
-    moves = steps != 0.0
-    sizes = np.abs(steps[moves])
-    velocity, acceleration, jerk = (float((getattr(limits, name)[moves] / sizes).min()) for name in QUANTITIES)
-    return velocity, acceleration, jerk
-
-
-def _on_line(start: Array, steps: Array, s: PiecewisePolynomial) -> PiecewisePolynomial:
-    """Return the joints on the straight line at s(t)."""
-    coefficients = s.coefficients * steps
-    coefficients[:, 0] += start
-    return PiecewisePolynomial(s.breaks, coefficients)
+        raise InvalidField("duration", f"must be greater than 0 s and at most {LARGEST:g} s")
 
 
 def _beside_line(
     start: Array, target: Array, limits: SegmentLimits, on_line: PiecewisePolynomial
 ) -> PiecewisePolynomial:
     """Return the jerk-limited motion off the line, whose joints only start and end together, if it takes less time."""
-    bounds = JerkLimits(limits.velocity, limits.acceleration, limits.jerk)
     try:
-        found = jerk_limited(at_rest(start), at_rest(target), bounds, synchronization="time")
+        found = jerk_limited(at_rest(start), at_rest(target), limits.joints)
     except InvalidField:
         # The numbers are too many powers of ten apart; along the line they are scaled.
         return on_line
     return found if found.duration < on_line.duration * (1.0 - _WORTH) else on_line
 
 
-def _along_line(law: Law, bounds: tuple[float, float, float]) -> PiecewisePolynomial:
-    """Return the fastest s from 0 to 1; one coordinate."""
-    if law == "jerk_limited":
-        return _jerk_limited(bounds)
-    shape = _SHAPES[law]
-    duration = max(
-        (peak / bound) ** (1.0 / k) for k, (peak, bound) in enumerate(zip(shape.peaks, bounds, strict=False), 1)
-    )
-    coefficients = np.array(shape.coefficients) / duration ** np.arange(len(shape.coefficients))
-    return PiecewisePolynomial(np.array([0.0, duration]), coefficients[None, :, None])
+def _along_line(start: Array, steps: Array, law: Law, limits: SegmentLimits) -> PiecewisePolynomial:
+    """Return the fastest motion on the straight line, from the limits of s."""
+    moves = steps != 0.0
+    bounds = (limits.joints[:, moves] / np.abs(steps[moves])).min(axis=1).tolist()
+    s = _jerk_limited(bounds) if law == "jerk_limited" else _polynomial(law, bounds)
+    coefficients = s.coefficients * steps
+    coefficients[:, 0] += start
+    return PiecewisePolynomial(s.breaks, coefficients)
 
 
-def _jerk_limited(bounds: tuple[float, float, float]) -> PiecewisePolynomial:
+def _polynomial(law: Law, bounds: Sequence[float]) -> PiecewisePolynomial:
+    peaks = zip(LAWS[law].peaks, bounds, strict=False)
+    duration = max((peak / bound) ** (1.0 / k) for k, (peak, bound) in enumerate(peaks, 1))
+    c = rest_to_rest(0.0, 1.0, POLYNOMIALS[law]).coefficients
+    return PiecewisePolynomial(np.array([0.0, duration]), c / duration ** np.arange(c.shape[1])[:, None])
+
+
+def _jerk_limited(bounds: Sequence[float]) -> PiecewisePolynomial:
     """Plan in units of the time that the tightest limit alone takes, so that all numbers have a similar magnitude."""
     unit = max(bound ** (-1.0 / k) for k, bound in enumerate(bounds, 1))
-    units = [np.array([min(bound * unit**k, _MOST)]) for k, bound in enumerate(bounds, 1)]
-    return jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), JerkLimits(*units)).scaled(unit)
+    units = np.array([[min(bound * unit**k, _MOST)] for k, bound in enumerate(bounds, 1)])
+    return jerk_limited(at_rest(np.zeros(1)), at_rest(np.ones(1)), units).scaled(unit)
 
 
-def _trapezoid(
-    start: Array, steps: Array, limits: SegmentLimits, duration: float | None, field: str
-) -> PiecewisePolynomial:
+def _trapezoid(start: Array, steps: Array, limits: SegmentLimits, duration: float | None) -> PiecewisePolynomial:
     """Return each joint on its own profile, slowed down to the slowest one or lasting a given time."""
     most = (1.0 / _LEAST_RAMP - 1.0) * limits.velocity**2
     tasks = [
         JointMove(float(L), 0.0, 0.0, float(v), min(float(a), float(high) / abs(float(L))) if L else float(a))
         for L, v, a, high in zip(steps, limits.velocity, limits.acceleration, most, strict=True)
     ]
-    try:
-        if duration is not None and duration > max(fastest(task).duration for task in tasks) * (1.0 + ROUNDING):
-            return _ending(point_to_point(start, _in_long_time(tasks, duration), duration).motion, duration)
-        motion = point_to_point(start, tasks).motion
-    except InvalidField as error:
-        raise InvalidField(named(field, error.field), error.reason) from error
-    return motion if duration is None else lasting(motion, duration, kept("trapezoidal", limits), field)
+    if duration is not None and duration > max(fastest(task).duration for task in tasks) * (1.0 + ROUNDING):
+        motion = point_to_point(start, _in_long_time(tasks, duration), duration).motion
+        return PiecewisePolynomial(np.append(motion.breaks[:-1], duration), motion.coefficients)
+    motion = point_to_point(start, tasks).motion
+    return motion if duration is None else lasting(motion, duration, kept_limits("trapezoidal", limits))
 
 
 def _in_long_time(tasks: Sequence[JointMove], duration: float) -> list[JointMove]:

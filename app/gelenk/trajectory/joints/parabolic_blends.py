@@ -11,7 +11,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.motion.phases import Phase, of_phases
+from gelenk.trajectory.motion.phases import of_phases
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
 _ROUNDING = 1e-12
@@ -73,14 +73,11 @@ def with_accelerations(times: Array, points: Array, accelerations: Array) -> Ble
     """
     lengths, steps = np.diff(times), np.diff(points, axis=0)
     velocities = steps / lengths[:, None]
-    if len(lengths) == 1:
-        ends = [_end_blend(lengths[0], np.abs(steps[0]), accelerations, 2, 0)] * 2
-        velocities[0] = steps[0] / (lengths[0] - ends[0])
-    else:
-        last = len(lengths) - 1
-        ends = [_end_blend(lengths[k], np.abs(steps[k]), accelerations, 1, k) for k in (0, last)]
-        for k, blend in zip((0, last), ends, strict=True):
-            velocities[k] = steps[k] / (lengths[k] - 0.5 * blend)
+    last = len(lengths) - 1
+    rests = 2 if last == 0 else 1
+    ends = [_end_blend(lengths[k], np.abs(steps[k]), accelerations, rests, k) for k in (0, last)]
+    for k, blend in zip((0, last), ends, strict=True):
+        velocities[k] = steps[k] / (lengths[k] - 0.5 * rests * blend)
     changes = _changes(velocities)
     durations = np.abs(changes) / accelerations
     durations[0], durations[-1] = ends
@@ -104,11 +101,16 @@ def _end_blend(length: float, distance: Array, acceleration: Array, ends: int, s
     return found
 
 
+def shared(durations: Array) -> Array:
+    """Return the time that blends take of each adjacent segment: half of an inner one, all of an end one; (N, n)."""
+    parts = 0.5 * durations
+    parts[[0, -1]] = durations[[0, -1]]
+    return parts
+
+
 def _check_room(lengths: Array, durations: Array, field: str) -> None:
-    """Check that each segment has room for its blends: half of an inner one, all of an end one."""
-    shares = np.full(len(durations), 0.5)
-    shares[0] = shares[-1] = 1.0
-    parts = durations * shares[:, None]
+    """Check that each segment has room for its blends."""
+    parts = shared(durations)
     taken = parts[:-1] + parts[1:]
     late = np.argwhere(taken > lengths[:, None] * (1.0 + _ROUNDING))
     if len(late) > 0:
@@ -130,19 +132,12 @@ def _assembled(
     times: Array, points: Array, velocities: Array, accelerations: Array, durations: Array, field: str
 ) -> Blends:
     """Assemble each joint's motion from alternating blends and straight lines."""
-    lengths = np.diff(times)
-    shares = np.full(len(times), 0.5)
-    shares[0] = shares[-1] = 1.0
-    parts = durations * shares[:, None]
-    straights = np.maximum(lengths[:, None] - parts[:-1] - parts[1:], 0.0)
-    phases: list[list[Phase]] = []
-    for j in range(points.shape[1]):
-        own: list[Phase] = []
-        for k in range(len(lengths)):
-            own += [(float(durations[k, j]), float(accelerations[k, j])), (float(straights[k, j]), 0.0)]
-        own.append((float(durations[-1, j]), float(accelerations[-1, j])))
-        phases.append(own)
+    parts = shared(durations)
+    straights = np.maximum(np.diff(times)[:, None] - parts[:-1] - parts[1:], 0.0)
+    phases = np.zeros((points.shape[1], 2 * len(times) - 1, 2))
+    phases[:, ::2] = np.stack((durations, accelerations), axis=-1).swapaxes(0, 1)
+    phases[:, 1::2, 0] = straights.T
     deviations = np.abs(_changes(velocities)) * durations / 8.0
     deviations[0] = deviations[-1] = 0.0
-    motion = of_phases(points[0], np.zeros(points.shape[1]), phases, float(times[0]), field)
+    motion = of_phases(points[0], np.zeros(points.shape[1]), phases.tolist(), float(times[0]), field)
     return Blends(motion, velocities, accelerations, durations, deviations)

@@ -11,9 +11,10 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.joints.motion import ROUNDING, check_duration, check_limits, named
-from gelenk.trajectory.joints.parabolic_blends import Blends, with_accelerations, with_blend_times
+from gelenk.trajectory.joints.motion import ROUNDING, check_duration
+from gelenk.trajectory.joints.parabolic_blends import Blends, shared, with_accelerations
 from gelenk.trajectory.joints.waypoints import Knots, knots
+from gelenk.trajectory.laws.time_scaling import check_limits
 from gelenk.trajectory.problem.problem import SegmentLimits
 
 _HALVINGS = 40
@@ -30,9 +31,7 @@ def via_blends(
     limits: SegmentLimits,
     *,
     times: Array | None = None,
-    blend_time: float | None = None,
     duration: float | None = None,
-    field: str = "",
 ) -> Blends:
     """Plan a motion from rest to rest past via points, with constant velocities on lines and accelerations in blends.
 
@@ -42,134 +41,89 @@ def via_blends(
     Args:
         start: Start configuration; shape (n,), [rad or m].
         configurations: Via points after the start, the last one being the end; shape (m, n), [rad or m].
-        limits: Joint limits; if no blend time is given, the blends have the full acceleration.
+        limits: Joint limits; the blends have the full acceleration.
         times: Times of the points after the start; shape (m,), [s]; the shortest found if not given.
-        blend_time: t_b of each blend, [s].
         duration: Requested duration, given instead of times, [s].
-        field: Request field of this motion, put before the names of its fields in refusals.
 
     Raises:
         InvalidField: Points or times are invalid, a segment is too short for its blends, the limits are exceeded at
             these times, or the duration is too short.
     """
-    check_limits(limits, field)
-    check_duration(duration, field)
-    points = knots(start, configurations, times, limits.velocity, field)
-    if times is not None:
-        return _at_given_times(points, limits, blend_time, duration, field)
-    return _fastest(points, limits, blend_time, duration, field)
-
-
-def _at_given_times(
-    points: Knots, limits: SegmentLimits, blend_time: float | None, duration: float | None, field: str
-) -> Blends:
+    check_limits(limits.joints)
+    check_duration(duration)
+    points = knots(start, configurations, times, limits.velocity)
+    if times is None:
+        found = _fastest(points, limits)
+        return found if duration is None else _lasting(found, duration)
     if duration is not None:
-        raise InvalidField(named(field, "duration"), "is not allowed beside `times`, which determine it")
-    try:
-        found = _blends(points, limits, blend_time)
-    except InvalidField as error:
-        raise InvalidField(named(field, error.field), error.reason) from error
-    for quantity, values, most in (
-        ("velocity", found.velocities, limits.velocity),
-        ("acceleration", found.accelerations, limits.acceleration),
-    ):
-        ratios = np.abs(values) / most
-        if ratios.max(initial=0.0) > 1.0 + ROUNDING:
-            k, j = np.unravel_index(int(ratios.argmax()), ratios.shape)
-            where = f"segment {k + 1}" if quantity == "velocity" else f"the blend at point {k}, the start being 0"
-            raise InvalidField(
-                named(field, "times"),
-                f"joint {j + 1} reaches {ratios[k, j]:.6g} times its limit of {quantity} in {where}: give it more time",
-            )
+        raise InvalidField("duration", "is not allowed beside `times`, which determine it")
+    found = with_accelerations(points.times, points.positions, limits.acceleration)
+    ratios = np.abs(found.velocities) / limits.velocity
+    if ratios.max(initial=0.0) > 1.0 + ROUNDING:
+        k, j = np.unravel_index(int(ratios.argmax()), ratios.shape)
+        raise InvalidField(
+            "times",
+            f"joint {j + 1} reaches {ratios[k, j]:.6g} times its limit of velocity in segment {k + 1}: give it more "
+            "time",
+        )
     return found
 
 
-def _blends(points: Knots, limits: SegmentLimits, blend_time: float | None) -> Blends:
-    if blend_time is None:
-        return with_accelerations(points.times, points.positions, limits.acceleration)
-    return with_blend_times(points.times, points.positions, np.full(len(points.times), blend_time))
-
-
-def _fastest(
-    points: Knots, limits: SegmentLimits, blend_time: float | None, duration: float | None, field: str
-) -> Blends:
+def _fastest(points: Knots, limits: SegmentLimits) -> Blends:
     """Plan with times that fit the blends: stretch steps one by one, then scale all by the least possible factor."""
     steps = np.diff(points.positions, axis=0)
-    lengths = _stretched(np.diff(points.times), steps, limits, blend_time)
+    lengths = _stretched(np.diff(points.times), steps, limits)
     low, high = 0.0, 1.0
-    while not _fits(high * lengths, steps, limits, blend_time):
+    while (_loads(high * lengths, steps, limits) > 1.0).any():
         low, high = high, 2.0 * high
         if high > _LARGEST_FACTOR:
-            raise InvalidField(
-                named(field, "waypoints"), "steps and limits are too many powers of ten apart for blends"
-            )
+            raise InvalidField("waypoints", "steps and limits are too many powers of ten apart for blends")
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if _fits(middle * lengths, steps, limits, blend_time) else (middle, high)
-    timed = Knots(np.concatenate(([0.0], np.cumsum(high * lengths))), points.positions)
-    try:
-        found = _blends(timed, limits, blend_time)
-    except InvalidField as error:
-        raise InvalidField(named(field, error.field), error.reason) from error
-    return found if duration is None else _lasting(found, duration, timed, limits, blend_time, field)
+        low, high = (middle, high) if (_loads(middle * lengths, steps, limits) > 1.0).any() else (low, middle)
+    times = np.concatenate(([0.0], np.cumsum(high * lengths)))
+    return with_accelerations(times, points.positions, limits.acceleration)
 
 
-def _stretched(lengths: Array, steps: Array, limits: SegmentLimits, blend_time: float | None) -> Array:
+def _stretched(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
     """Lengthen each step until its blends fit; shape (N - 1,), [s]."""
     for _ in range(_STRETCHES):
-        loads = _loads(lengths, steps, limits, blend_time)
+        loads = _loads(lengths, steps, limits)
         if (loads <= 1.0).all():
             break
         lengths = lengths * np.where(loads > 1.0, np.clip(np.sqrt(loads), _LEAST_STRETCH, _LARGEST_STRETCH), 1.0)
     return lengths
 
 
-def _fits(lengths: Array, steps: Array, limits: SegmentLimits, blend_time: float | None) -> bool:
-    return bool((_loads(lengths, steps, limits, blend_time) <= 1.0).all())
-
-
-def _loads(lengths: Array, steps: Array, limits: SegmentLimits, blend_time: float | None) -> Array:
+def _loads(lengths: Array, steps: Array, limits: SegmentLimits) -> Array:
     """Return the largest ratio of each step's blend times to its duration and of its rates to their limits; (N - 1,).
 
     Args:
         lengths: Durations of the steps; shape (N - 1,), [s].
         steps: Δq; shape (N - 1, n), [rad or m].
         limits: Joint limits.
-        blend_time: Duration of each blend, [s]; that of the full acceleration if None.
     """
     h, sides = lengths[:, None], np.zeros((len(lengths), 1))
     sides[0] += 1.0
     sides[-1] += 1.0
-    if blend_time is None:
-        # End blends: the smaller root of h t_b - sides t_b²/2 = |Δq|/a; without a root, more than the step has.
-        needed = np.abs(steps) / limits.acceleration
-        blends = 2.0 * needed / (h + np.sqrt(np.maximum(h**2 - 2.0 * sides * needed, 0.0)))
-    else:
-        blends = np.full_like(steps, blend_time)
+    # End blends: the smaller root of h t_b - sides t_b²/2 = |Δq|/a; without a root, more than the step has.
+    needed = np.abs(steps) / limits.acceleration
+    blends = 2.0 * needed / (h + np.sqrt(np.maximum(h**2 - 2.0 * sides * needed, 0.0)))
     velocities = steps / np.maximum(h - 0.5 * sides * blends, _LEAST_SHARE * h)
-    changes = np.abs(np.diff(velocities, axis=0, prepend=0.0, append=0.0)) / limits.acceleration
-    durations = changes.copy() if blend_time is None else np.full_like(changes, blend_time)
+    durations = np.abs(np.diff(velocities, axis=0, prepend=0.0, append=0.0)) / limits.acceleration
     durations[0], durations[-1] = blends[0], blends[-1]
-    shares = np.full((len(durations), 1), 0.5)
-    shares[0] = shares[-1] = 1.0
-    loads = [(durations[:-1] * shares[:-1] + durations[1:] * shares[1:]) / h, np.abs(velocities) / limits.velocity]
-    if blend_time is not None:
-        loads += [changes[:-1] / blend_time, changes[1:] / blend_time]
-    largest: Array = np.max(loads, axis=0).max(axis=1)
+    parts = shared(durations)
+    loads = np.maximum((parts[:-1] + parts[1:]) / h, np.abs(velocities) / limits.velocity)
+    largest: Array = loads.max(axis=1)
     return largest
 
 
-def _lasting(
-    found: Blends, duration: float, points: Knots, limits: SegmentLimits, blend_time: float | None, field: str
-) -> Blends:
-    """Slow the motion down to a given duration: as a whole, or planned again with the given blend time."""
+def _lasting(found: Blends, duration: float) -> Blends:
+    """Slow the motion down to a given duration."""
     least = found.motion.duration
     if duration < least * (1.0 - ROUNDING):
-        raise InvalidField(named(field, "duration"), f"must be at least {least:.10g} s")
+        raise InvalidField("duration", f"must be at least {least:.10g} s")
     factor = duration / least
-    if blend_time is not None:
-        times = points.times * (duration / points.times[-1])
-        return _blends(Knots(times, points.positions), limits, blend_time)
     return replace(
         found,
         motion=found.motion.scaled(factor),

@@ -11,7 +11,8 @@ import numpy as np
 from gelenk.errors import InvalidField, counted
 from gelenk.robot.arrays import Array
 from gelenk.robot.chain import Chain
-from gelenk.trajectory.joints.motion import LARGEST, NO_LENGTH, named
+from gelenk.trajectory.joints.motion import NO_LENGTH
+from gelenk.trajectory.laws.time_scaling import LARGEST
 from gelenk.trajectory.motion.splines import CLOSED, NEAREST, Boundary, checked_times
 
 WITHIN = 1e-9
@@ -30,7 +31,7 @@ class Knots(NamedTuple):
     positions: Array
 
 
-def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: Array, field: str = "") -> Knots:
+def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: Array) -> Knots:
     """Return the start and the waypoints after it as knots.
 
     Args:
@@ -38,27 +39,25 @@ def knots(start: Array, waypoints: Array | None, times: Array | None, velocity: 
         waypoints: Shape (m, n), [rad or m].
         times: Time of each waypoint, with the start at 0 s; shape (m,), [s].
         velocity: Limit of each joint, used to space knots without times; shape (n,), [rad/s or m/s].
-        field: Field of the segment; prefixes the names of its fields in errors.
 
     Raises:
         InvalidField: There are no waypoints, or numbers that are too large or not finite; times do not increase; or,
             without times, two successive waypoints coincide.
     """
-    name = named(field, "waypoints")
     if waypoints is None or len(waypoints) == 0:
-        raise InvalidField(name, "at least one is needed: the start is the first knot, and a spline needs two")
+        raise InvalidField("waypoints", "at least one is needed: the start is the first knot, and a spline needs two")
     positions = np.concatenate((start[None], waypoints))
     too_large = np.argwhere(~(np.abs(positions) <= LARGEST))
     if len(too_large) > 0:
         k = int(too_large[0, 0])
-        raise InvalidField("start" if k == 0 else f"{name}.{k - 1}", f"must be of magnitude ≤ {LARGEST:g}")
+        raise InvalidField("start" if k == 0 else f"waypoints.{k - 1}", f"must be of magnitude ≤ {LARGEST:g}")
     if times is None:
-        return Knots(_spaced(positions, velocity, name), positions)
-    _check_times(times, len(waypoints), named(field, "times"))
+        return Knots(_spaced(positions, velocity), positions)
+    _check_times(times, len(waypoints))
     return Knots(np.concatenate(([0.0], times)), positions)
 
 
-def _spaced(positions: Array, velocity: Array, name: str) -> Array:
+def _spaced(positions: Array, velocity: Array) -> Array:
     """Return times spaced by the steps of the slowest joint."""
     steps = np.abs(np.diff(positions, axis=0))
     lengths = (steps / velocity).max(axis=1, initial=0.0)
@@ -70,42 +69,42 @@ def _spaced(positions: Array, velocity: Array, name: str) -> Array:
     k = int(short[0])
     before = "the start" if k == 0 else f"entry {k - 1}"
     how = "the same as" if is_same[k] else "less than a millionth of the whole path from"
-    raise InvalidField(f"{name}.{k}", f"is {how} {before}: leave one of the two out, or give `times`")
+    raise InvalidField(f"waypoints.{k}", f"is {how} {before}: leave one of the two out, or give `times`")
 
 
-def _check_times(times: Array, count: int, name: str) -> None:
+def _check_times(times: Array, count: int) -> None:
     if len(times) != count:
-        raise InvalidField(name, f"{counted(len(times), 'entry')} for {counted(count, 'waypoint')}")
+        raise InvalidField("times", f"{counted(len(times), 'entry')} for {counted(count, 'waypoint')}")
     if not (np.abs(times) <= LARGEST).all():
-        raise InvalidField(name, f"each must be at most {LARGEST:g} s")
-    checked_times(times, name)
+        raise InvalidField("times", f"each must be at most {LARGEST:g} s")
+    checked_times(times, "times")
     if not times[0] > NEAREST * times[-1]:
-        raise InvalidField(f"{name}.0", f"{times[0]:.10g} s is not after the start of the segment, which is at 0 s")
+        raise InvalidField("times.0", f"{times[0]:.10g} s is not after the start of the segment, which is at 0 s")
 
 
-def check_within(chain: Chain, waypoints: Array, field: str = "") -> None:
-    """Check that waypoints are within the joint limits.
+def check_within(chain: Chain, configurations: Array, field: str) -> None:
+    """Check that configurations are within the joint limits.
 
     Args:
         chain: Chain with the joint limits.
-        waypoints: Shape (m, n), [rad or m].
-        field: Field of the segment.
+        configurations: Shape (m, n), [rad or m].
+        field: Field that has them, with `{}` in place of an index.
 
     Raises:
-        InvalidField: A waypoint is outside; the first one is named.
+        InvalidField: One is outside; the first one is named.
     """
-    outside = np.argwhere(~((waypoints >= chain.lower - WITHIN) & (waypoints <= chain.upper + WITHIN)))
+    outside = np.argwhere(~((configurations >= chain.lower - WITHIN) & (configurations <= chain.upper + WITHIN)))
     if len(outside) == 0:
         return
     k, j = (int(i) for i in outside[0])
     raise InvalidField(
-        f"{named(field, 'waypoints')}.{k}",
-        f"joint {chain.joint_names[j]} at {waypoints[k, j]:.10g} is outside its limits "
+        field.format(k),
+        f"joint {chain.joint_names[j]} at {configurations[k, j]:.10g} is outside its limits "
         f"[{chain.lower[j]:.10g}, {chain.upper[j]:.10g}]",
     )
 
 
-def check_closed(positions: Array, boundary: Boundary, field: str = "") -> None:
+def check_closed(positions: Array, boundary: Boundary) -> None:
     """Check that a periodic spline ends where it starts.
 
     Raises:
@@ -116,6 +115,6 @@ def check_closed(positions: Array, boundary: Boundary, field: str = "") -> None:
         return
     j = int(gaps.argmax())
     raise InvalidField(
-        f"{named(field, 'waypoints')}.{len(positions) - 2}",
+        f"waypoints.{len(positions) - 2}",
         f"a periodic spline ends where it starts, and joint {j + 1} is {gaps[j]:.10g} away from there",
     )

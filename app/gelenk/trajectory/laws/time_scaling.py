@@ -4,11 +4,13 @@ The course only slows down: k = max{1, k_vel, √k_acc}, where k_vel and k_acc a
 limit. Without the 1, k may also speed up, and some limit is just reached. Peaks are exact, from the derivative's roots.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
 
+from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.extremes import Peaks, peaks
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -18,7 +20,9 @@ Quantity: TypeAlias = Literal["velocity", "acceleration", "jerk"]
 QUANTITIES: tuple[Quantity, ...] = ("velocity", "acceleration", "jerk")
 """All quantities in the order of their derivatives, starting with the first."""
 
-STANDS_STILL = 1e-12
+SMALLEST, LARGEST = 1e-9, 1e9
+"""Range of a limit; positions and durations are at most as large."""
+_STANDS_STILL = 1e-12
 """Factor below which a motion counts as standing still, so that it has no shortest duration."""
 
 
@@ -82,6 +86,21 @@ class Scaling:
     factor: float | None
 
 
+def check_limits(limits: Iterable[Array]) -> None:
+    """Check that limits of velocity, acceleration and so on, of shape (n,) each, are usable numbers.
+
+    Raises:
+        InvalidField: A limit is not.
+    """
+    for quantity, values in zip(QUANTITIES, limits, strict=False):
+        wrong = ~((values >= SMALLEST) & (values <= LARGEST))
+        if wrong.any():
+            raise InvalidField(
+                f"limits.joint_{quantity}",
+                f"joint {int(wrong.argmax()) + 1}: must be a number from {SMALLEST:g} to {LARGEST:g}",
+            )
+
+
 def uniform_scaling(motion: PiecewisePolynomial, limits: ScalingLimits) -> Scaling:
     """Compute the factors by which to multiply a motion's time.
 
@@ -95,7 +114,7 @@ def uniform_scaling(motion: PiecewisePolynomial, limits: ScalingLimits) -> Scali
         if (limit := limits.of(quantity)) is not None
     )
     binding = max(bounds, key=lambda bound: bound.factor)
-    factor = binding.factor if binding.factor > STANDS_STILL else None
+    factor = binding.factor if binding.factor > _STANDS_STILL else None
     return Scaling(bounds, binding, max(1.0, binding.factor), factor)
 
 

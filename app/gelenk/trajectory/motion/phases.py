@@ -9,7 +9,7 @@ from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 
-Phase: TypeAlias = tuple[float, float]
+Phase: TypeAlias = Sequence[float]
 """Duration, [s], and acceleration, [rad/s² or m/s²]."""
 
 _SAME = 1e-14

@@ -70,6 +70,11 @@ class PiecewisePolynomial:
         start = self.breaks[0]
         return PiecewisePolynomial(start + factor * (self.breaks - start), self.coefficients * powers)
 
+    def lasting(self, duration: float) -> "PiecewisePolynomial":
+        """Return a motion from time 0 on, scaled to end at exactly `duration`, [s]."""
+        scaled = self.scaled(duration / self.duration)
+        return PiecewisePolynomial(np.append(scaled.breaks[:-1], duration), scaled.coefficients)
+
 
 def joined(parts: Sequence[PiecewisePolynomial]) -> PiecewisePolynomial:
     """Join motions one after the other, each beginning when the previous one ends.

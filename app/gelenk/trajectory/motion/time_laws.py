@@ -43,6 +43,13 @@ def between(starts: Array, ends: Array, duration: float) -> PiecewisePolynomial:
     return PiecewisePolynomial(np.array([0.0, duration]), coefficients)
 
 
+def rest_to_rest(start: float, end: float, conditions: int) -> PiecewisePolynomial:
+    """Return the polynomial of one coordinate that lasts 1 s, with `conditions` derivatives given at both ends."""
+    rows = np.zeros((2, conditions, 1))
+    rows[:, 0, 0] = start, end
+    return between(rows[0], rows[1], 1.0)
+
+
 def hermite_pieces(starts: Array, ends: Array, durations: Array) -> Array:
     """Compute polynomials with given derivatives at both ends.
 

@@ -14,7 +14,7 @@ import numpy as np
 from gelenk.kinematics.simd.kernels import chain_hessians, chain_jacobians
 from gelenk.robot.arrays import Array, Flags, Indices
 from gelenk.robot.chain import Chain
-from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.intervals import cut
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
@@ -61,21 +61,6 @@ def tip_through(chain: Chain) -> TipMotion:
         return twists[..., 0], rates[..., 0]
 
     return motion
-
-
-@dataclass(frozen=True, slots=True)
-class Zone:
-    """A part of a path on which the tip has its own limits, in addition to those that hold everywhere.
-
-    Attributes:
-        begin: s at its beginning.
-        end: s at its end.
-        tip: Additional limits of the tip.
-    """
-
-    begin: float
-    end: float
-    tip: TipLimits
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +200,7 @@ def geometry_of(
     path: Path | None,
     joints: PiecewisePolynomial,
     limits: SegmentLimits,
-    tip_motion: TipMotion | None,
+    tip_motion: TipMotion | None = None,
     zones: tuple[Zone, ...] = (),
     corners: tuple[tuple[float, float], ...] = (),
 ) -> LimitedPath:

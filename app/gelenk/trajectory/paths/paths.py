@@ -10,7 +10,6 @@ orientation are planned separately, both as functions of s.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
@@ -20,13 +19,13 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.paths.curves import Curve, Line, arc_through
-from gelenk.trajectory.paths.orientation_paths import OrientationPath, axis_angle, through
+from gelenk.trajectory.paths.orientation_paths import OrientationPath, axis_angle
 from gelenk.trajectory.paths.rotation_splines import rotation_spline
 from gelenk.trajectory.paths.zyz_paths import zyz_spline
 
 Unit: TypeAlias = Literal["m", "rad"]
-ViaOrientation: TypeAlias = Literal["smooth", "slerp", "zyz", "zyz_other"]
 
 POINT = 1e-9
 """Length below which a path is a turn on the spot, [m]."""
@@ -46,35 +45,6 @@ class PathSamples:
     first: Array
     second: Array
 
-    @property
-    def tangents(self) -> Array:
-        """Unit tangents of the position, zero where it does not move; shape (N, 3)."""
-        norms = np.linalg.norm(self.first[:, :3], axis=1)[:, None]
-        tangents: Array = np.where(norms > 0.5, self.first[:, :3], 0.0)
-        return tangents
-
-    @property
-    def curvatures(self) -> Array:
-        """Curvatures ‖d²p/ds²‖; shape (N,), [1/m]."""
-        curvatures: Array = np.linalg.norm(self.second[:, :3], axis=1)
-        return curvatures
-
-    @property
-    def angular_rates(self) -> Array:
-        """Angular rates ‖ω‖ / ṡ; shape (N,), [rad/m]; 1 for a turn on the spot about one axis."""
-        rates: Array = np.linalg.norm(self.first[:, 3:], axis=1)
-        return rates
-
-    def twists(self, speeds: Array) -> Array:
-        """Return (ṗ; ω) at ṡ of shape (N,), [m/s or rad/s]; shape (N, 6), [m/s, rad/s]."""
-        twists: Array = self.first * speeds[:, None]
-        return twists
-
-    def accelerations(self, speeds: Array, accelerations: Array) -> Array:
-        """Return (p̈; ω̇) at ṡ and s̈ of shape (N,) each; shape (N, 6), [m/s², rad/s²]."""
-        total: Array = self.first * accelerations[:, None] + self.second * speeds[:, None] ** 2
-        return total
-
 
 class Path(Protocol):
     """A path of the tip through space."""
@@ -86,14 +56,6 @@ class Path(Protocol):
     @property
     def extent(self) -> float:
         """Value of s at the end, [m or rad]; it is 0 at the start."""
-
-    @property
-    def length(self) -> float:
-        """Length of the position's path, [m]."""
-
-    @property
-    def angle(self) -> float:
-        """Angle travelled by the orientation, [rad]."""
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -126,19 +88,9 @@ class CurvePath:
         return self.orientation.angle if self.unit == "rad" else self.curve.length
 
     @property
-    def length(self) -> float:
-        """See `Path`."""
-        return self.curve.length
-
-    @property
-    def angle(self) -> float:
-        """See `Path`."""
-        return self.orientation.angle
-
-    @property
     def breaks(self) -> tuple[float, ...]:
-        """See `Path`."""
-        return tuple(x * self.extent for x in self.orientation.breaks)
+        """Always empty: curve and orientation are smooth."""
+        return ()
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`."""
@@ -165,7 +117,7 @@ def line(start: Array, end: Array, orientation: OrientationPath | None = None) -
     return CurvePath(Line(start[:3, 3].copy(), end[:3, 3].copy()), turn)
 
 
-def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "smooth") -> CurvePath:
+def circle(start: Array, via: Array, end: Array, orientation: OrientationLaw = "axis_angle") -> CurvePath:
     """Return the circular arc from a pose through a second to a third.
 
     Args:
@@ -183,20 +135,17 @@ def circle(start: Array, via: Array, end: Array, orientation: ViaOrientation = "
     return CurvePath(arc, through_orientations(rotations, knots, orientation))
 
 
-def through_orientations(rotations: Array, knots: Array, law: ViaOrientation) -> OrientationPath:
-    """Return a path through several orientations.
+def through_orientations(rotations: Array, knots: Array, law: OrientationLaw) -> OrientationPath:
+    """Return a smooth path through several orientations, by which the angular acceleration is continuous.
 
     Args:
         rotations: At least two orientations; shape (M + 1, 3, 3).
         knots: Values of x at the orientations, increasing from 0 to 1; shape (M + 1,).
-        law: `smooth`: a spline with continuous angular acceleration. `slerp`: about one axis from each to the next; the
-            angular rate jumps at the inner knots, listed in `breaks`. `zyz`: a spline of the Euler angles; `zyz_other`
-            uses the other triple of every orientation after the start.
+        law: `axis_angle`: a rotation spline. `zyz`: a spline of the Euler angles; `zyz_other` uses the other triple of
+            every orientation after the start.
     """
-    if law == "smooth":
+    if law == "axis_angle":
         return rotation_spline(rotations, knots)
-    if law == "slerp":
-        return through(rotations, knots)
     return zyz_spline(rotations, knots, [law == "zyz_other", *[False] * (len(rotations) - 2)])
 
 
@@ -205,7 +154,7 @@ class PathSequence:
     """Paths joined one after the other, each beginning where the previous one ends.
 
     Attributes:
-        parts: At least one path; all have the same unit of s.
+        parts: At least one path, without breaks; all have the same unit of s.
     """
 
     parts: tuple[Path, ...]
@@ -218,28 +167,16 @@ class PathSequence:
     @property
     def extent(self) -> float:
         """See `Path`."""
-        return float(self._ends[-1])
-
-    @property
-    def length(self) -> float:
-        """See `Path`."""
-        return sum(part.length for part in self.parts)
-
-    @property
-    def angle(self) -> float:
-        """See `Path`."""
-        return sum(part.angle for part in self.parts)
+        return float(self.ends[-1])
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """See `Path`: the junctions of the parts, and the breaks inside them."""
-        ends = self._ends
-        inner = (ends[i] + one for i, part in enumerate(self.parts) for one in part.breaks)
-        return tuple(sorted({float(s) for s in (*ends[1:-1], *inner)}))
+        """See `Path`: the junctions of the parts."""
+        return tuple(self.ends[1:-1].tolist())
 
     def at(self, s: Array) -> PathSamples:
         """See `Path`; at a junction, the later part counts."""
-        ends, count = self._ends, len(s)
+        ends, count = self.ends, len(s)
         place = np.searchsorted(ends[1:-1], s, side="right")
         if count > 0 and place.min() == place.max():
             part: Path = self.parts[int(place[0])]
@@ -254,19 +191,9 @@ class PathSequence:
         return PathSamples(poses, first, second)
 
     @cached_property
-    def _ends(self) -> Array:
+    def ends(self) -> Array:
+        """Values of s at the start and at the end of each part; shape (M + 1,), [m or rad]."""
         return np.concatenate(([0.0], np.cumsum([part.extent for part in self.parts])))
-
-
-def sequence(parts: Sequence[Path]) -> PathSequence:
-    """Join paths one after the other.
-
-    Raises:
-        ValueError: There are no paths, or their units of s differ.
-    """
-    if len({part.unit for part in parts}) != 1:
-        raise ValueError("paths in a sequence have one unit of s, and there is at least one")
-    return PathSequence(tuple(parts))
 
 
 def refuse_reversal(a: Array, b: Array, field: str) -> None:

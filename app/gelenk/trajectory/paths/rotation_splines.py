@@ -33,11 +33,6 @@ class RotationVectorPath:
     vectors: PiecewisePolynomial
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Always empty: the angular rate is continuous."""
-        return ()
-
-    @property
     def angle(self) -> float:
         """See `OrientationPath`."""
         return travelled(self, max(64, 8 * len(self.starts)))

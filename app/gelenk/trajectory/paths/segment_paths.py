@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import cast
 
@@ -11,12 +11,11 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.audit.demands import TipLimits
+from gelenk.trajectory.audit.demands import TipLimits, Zone
 from gelenk.trajectory.paths.orientation_paths import OrientationPath, Turn, axis_angle
-from gelenk.trajectory.paths.path_geometry import Zone
-from gelenk.trajectory.paths.paths import POINT, Path, PathSequence, ViaOrientation, circle, line, refuse_reversal
+from gelenk.trajectory.paths.paths import POINT, Path, circle, line, refuse_reversal
 from gelenk.trajectory.paths.spline_paths import PolynomialPath, SplineBoundary, blended_lines, spline
-from gelenk.trajectory.paths.zyz_paths import zyz_paths, zyz_turns
+from gelenk.trajectory.paths.zyz_paths import zyz_turns
 from gelenk.trajectory.problem.problem import Segment
 
 
@@ -25,16 +24,16 @@ class BlendedCorner:
     """A blend of two lines.
 
     Attributes:
-        begin: s at its beginning.
-        end: s at its end.
         radius: Distance from the corner at which the blend begins, [m].
         acceleration: Limit of the tip's acceleration in the blend, ∞ if only the general limits apply, [m/s²].
+        begin: s at its beginning.
+        end: s at its end.
     """
 
-    begin: float
-    end: float
     radius: float
-    acceleration: float
+    acceleration: float = math.inf
+    begin: float = 0.0
+    end: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,36 +44,20 @@ class SegmentsPath:
         path: Path through all segments.
         ends: s at the end of each segment: the middle of its blend, and `path.extent` for the last.
         corners: Blends of the lines.
+        zones: Where the tip has its own limits: in blends that set one, and on lines and the blends beside them.
         notes: Further remarks for the user.
     """
 
     path: Path
     ends: tuple[float, ...]
     corners: tuple[BlendedCorner, ...] = ()
+    zones: tuple[Zone, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
     def edges(self) -> tuple[tuple[float, float], ...]:
         """Values of s at the beginning and the end of each blend."""
         return tuple((corner.begin, corner.end) for corner in self.corners)
-
-    def zones(self, segments: Sequence[Segment]) -> tuple[Zone, ...]:
-        """Return where the tip has its own limits: in blends that set one, and on lines and the blends beside them.
-
-        Args:
-            segments: Segments of the path.
-        """
-        own = [
-            Zone(corner.begin, corner.end, TipLimits(acceleration=corner.acceleration))
-            for corner in self.corners
-            if math.isfinite(corner.acceleration)
-        ]
-        if len({segment.limits.tip for segment in segments}) == 1:
-            return tuple(own)
-        begins = [0.0, *(corner.begin for corner in self.corners)]
-        ends = [*(corner.end for corner in self.corners), self.path.extent]
-        lines = zip(begins, ends, segments, strict=True)
-        return (*own, *(Zone(begin, end, one.limits.tip) for begin, end, one in lines if one.limits.tip != TipLimits()))
 
 
 def path_through(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
@@ -104,14 +87,15 @@ def is_blended(segment: Segment) -> bool:
 
 
 def _single(start: Array, segment: Segment) -> tuple[Path, tuple[str, ...]]:
+    if segment.poses is not None:
+        boundary, notes = _tangent_boundary(segment)
+        ends = (start[None], segment.poses.matrices())
+        poses = Poses(*(np.concatenate([Ts[:, :3, part] for Ts in ends]) for part in (3, slice(3))))
+        return spline(poses, boundary, segment.orientation), notes
+    end = cast(Array, segment.pose)
     if segment.type == "line":
-        end = _pose(segment)
         return line(start, end, _orientation(start, end, segment)), ()
-    if segment.type == "circle":
-        return circle(start, cast(Array, segment.via), _pose(segment), _via(segment)), ()
-    boundary, notes = _tangent_boundary(segment)
-    poses = _with_start(start, cast(Poses, segment.poses))
-    return spline(poses, boundary, _via(segment)), notes
+    return circle(start, cast(Array, segment.via), end, segment.orientation), ()
 
 
 def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]]:
@@ -125,31 +109,41 @@ def _tangent_boundary(segment: Segment) -> tuple[SplineBoundary, tuple[str, ...]
     return cast(SplineBoundary, segment.boundary), ()
 
 
-def _via(segment: Segment) -> ViaOrientation:
-    """Return how a path through several orientations turns."""
-    return "smooth" if segment.orientation == "axis_angle" else segment.orientation
-
-
-def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath | None:
+def _orientation(start: Array, end: Array, segment: Segment) -> OrientationPath:
+    """Return how a line turns from one pose to another."""
+    rotations = np.array([start[:3, :3], end[:3, :3]])
     if segment.orientation == "axis_angle":
-        return None
-    regular, flipped = zyz_paths(start[:3, :3], end[:3, :3])
-    return regular if segment.orientation == "zyz" else flipped
+        return axis_angle(*rotations)
+    return zyz_turns(rotations, [segment.orientation == "zyz_other"])[0]
 
 
 def _blended(start: Array, segments: Sequence[Segment], first: int) -> SegmentsPath:
-    poses = Poses(
-        np.array([start[:3, 3], *(_pose(segment)[:3, 3] for segment in segments)]),
-        np.array([start[:3, :3], *(_pose(segment)[:3, :3] for segment in segments)]),
-    )
-    legs = np.diff(poses.positions, axis=0)
-    blends = _blends(legs, segments, first)
+    Ts = np.array([start, *(segment.pose for segment in segments)])
+    poses = Poses(np.ascontiguousarray(Ts[:, :3, 3]), np.ascontiguousarray(Ts[:, :3, :3]))
+    blends = _blends(np.diff(poses.positions, axis=0), segments, first)
     path = blended_lines(poses, [blend.radius for blend in blends], turns=_turns(poses.rotations, segments, first))
-    ends = _corner_ends(path)
-    corners = tuple(
-        BlendedCorner(*pair, blend.radius, blend.acceleration) for pair, blend in zip(ends, blends, strict=True)
-    )
-    return SegmentsPath(path, (*(0.5 * (begin + end) for begin, end in ends), path.extent), corners)
+    spans = [span for part, span in zip(path.parts, pairwise(path.ends.tolist()), strict=True) if _is_corner(part)]
+    corners = tuple(replace(blend, begin=begin, end=end) for blend, (begin, end) in zip(blends, spans, strict=True))
+    ends = (*(0.5 * (begin + end) for begin, end in spans), path.extent)
+    return SegmentsPath(path, ends, corners, _zones(corners, segments, path.extent))
+
+
+def _is_corner(part: Path) -> bool:
+    return isinstance(part, PolynomialPath)
+
+
+def _zones(corners: Sequence[BlendedCorner], segments: Sequence[Segment], extent: float) -> tuple[Zone, ...]:
+    own = [
+        Zone(corner.begin, corner.end, TipLimits(acceleration=corner.acceleration))
+        for corner in corners
+        if math.isfinite(corner.acceleration)
+    ]
+    if len({segment.limits.tip for segment in segments}) == 1:
+        return tuple(own)
+    begins = (0.0, *(corner.begin for corner in corners))
+    ends = (*(corner.end for corner in corners), extent)
+    lines = zip(begins, ends, segments, strict=True)
+    return (*own, *(Zone(begin, end, one.limits.tip) for begin, end, one in lines if one.limits.tip != TipLimits()))
 
 
 def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequence[Turn]:
@@ -167,43 +161,23 @@ def _turns(rotations: Array, segments: Sequence[Segment], first: int) -> Sequenc
     return zyz_turns(rotations, [segment.orientation == "zyz_other" for segment in segments])
 
 
-def _corner_ends(path: PathSequence) -> list[tuple[float, float]]:
-    """Return s at the beginning and the end of each blend."""
-    ends, s = [], 0.0
-    for part in path.parts:
-        if isinstance(part, PolynomialPath):
-            ends.append((s, s + part.extent))
-        s += part.extent
-    return ends
-
-
-@dataclass(frozen=True, slots=True)
-class _Blend:
-    """How a corner is blended.
-
-    Attributes:
-        field: Request field that determines the blend.
-        radius: Distance from the corner at which the blend begins, [m].
-        acceleration: Limit of the tip's acceleration in the blend, ∞ if the field sets none, [m/s²].
-    """
-
-    field: str
-    radius: float
-    acceleration: float = math.inf
-
-
-def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend]:
-    """Return how each corner is blended."""
+def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[BlendedCorner]:
+    """Return how each corner is blended, without its place."""
     lengths = np.linalg.norm(legs, axis=1)
     for i, length in enumerate(lengths):
         if length <= POINT:
             reason = "a line that is blended with another must have a length: its two ends share one position"
             raise InvalidField(f"segments.{first + i}.target", reason)
     speed = min(segment.limits.tip.speed for segment in segments)
-    blends: list[_Blend] = []
+    blends: list[BlendedCorner] = []
     for i, segment in enumerate(segments[:-1]):
-        blend = _blend(segment, speed, legs[i], legs[i + 1], f"segments.{first + i}")
-        refuse_reversal(legs[i], legs[i + 1], blend.field)
+        given = ("blend_time", "blend_acceleration")
+        name = (
+            "blend_radius" if segment.blend_radius > 0.0 else next(n for n in given if getattr(segment, n) is not None)
+        )
+        field = f"segments.{first + i}.{name}"
+        blend = _blend(segment, speed, legs[i], legs[i + 1], field)
+        refuse_reversal(legs[i], legs[i + 1], field)
         for which, length in ((i, lengths[i]), (i + 1, lengths[i + 1])):
             taken = blend.radius + (blends[-1].radius if blends and which == i else 0.0)
             if taken > length * (1.0 + 1e-12):
@@ -211,23 +185,21 @@ def _blends(legs: Array, segments: Sequence[Segment], first: int) -> list[_Blend
                 reason = (
                     f"segment {first + which} is {length:g} m long, and the blend{both} would take {taken:g} m of it"
                 )
-                raise InvalidField(blend.field, reason)
+                raise InvalidField(field, reason)
         blends.append(blend)
     return blends
 
 
-def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> _Blend:
+def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: str) -> BlendedCorner:
     """Return how a line is blended into the next: the course's fly-over, with both lines at the tip's speed limit v.
 
     d = v ΔT / 2 and a = ‖v K_BC - v K_AB‖ / ΔT, where ΔT or a is given. Under this limit of acceleration, the fastest
     motion through the parabola is that of the course, with constant acceleration and duration ΔT.
     """
     if segment.blend_radius > 0.0:
-        return _Blend(f"{field}.blend_radius", segment.blend_radius)
-    name = "blend_time" if segment.blend_time is not None else "blend_acceleration"
+        return BlendedCorner(segment.blend_radius)
     if not math.isfinite(speed):
-        reason = "the blend depends on the speed along the lines: `limits.tip_velocity` is missing"
-        raise InvalidField(f"{field}.{name}", reason)
+        raise InvalidField(field, "the blend depends on the speed along the lines: `limits.tip_velocity` is missing")
     change = speed * math.hypot(*(following / math.hypot(*following) - leg / math.hypot(*leg)))
     if segment.blend_acceleration is not None:
         acceleration = segment.blend_acceleration
@@ -237,15 +209,5 @@ def _blend(segment: Segment, speed: float, leg: Array, following: Array, field: 
         acceleration = change / time
     radius = 0.5 * speed * time
     if min(radius, acceleration) <= POINT:
-        raise InvalidField(f"{field}.{name}", f"the blend would be {radius:g} m long: the lines continue straight")
-    return _Blend(f"{field}.{name}", radius, acceleration)
-
-
-def _pose(segment: Segment) -> Array:
-    return cast(Array, segment.pose)
-
-
-def _with_start(start: Array, poses: Poses) -> Poses:
-    return Poses(
-        np.concatenate((start[None, :3, 3], poses.positions)), np.concatenate((start[None, :3, :3], poses.rotations))
-    )
+        raise InvalidField(field, f"the blend would be {radius:g} m long: the lines continue straight")
+    return BlendedCorner(radius, acceleration)

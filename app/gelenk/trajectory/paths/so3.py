@@ -37,17 +37,6 @@ def rate_matrices(thetas: Array) -> Array:
     return matrices
 
 
-def angular_velocities(thetas: Array, rates: Array) -> Array:
-    """Return ω of the moving frame, in its own axes; shape (N, 3) each, [rad] and [rad/s] → [rad/s]."""
-    k1, k2, _, _ = _coefficients(_sizes(thetas))
-    return _applied(k1, k2, thetas, rates)
-
-
-def angular_accelerations(thetas: Array, rates: Array, second: Array) -> Array:
-    """Return ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s²]."""
-    return angular_motion(thetas, rates, second)[1]
-
-
 def angular_motion(thetas: Array, rates: Array, second: Array) -> tuple[Array, Array]:
     """Return ω and ω̇ in the moving frame's axes from θ, θ̇, θ̈; shape (N, 3) each, [rad/s] and [rad/s²]."""
     coefficients = _coefficients(_sizes(thetas))

@@ -15,6 +15,7 @@ import numpy as np
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
+from gelenk.trajectory.audit.words import OrientationLaw
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.motion.time_laws import hermite_pieces
@@ -27,7 +28,6 @@ from gelenk.trajectory.paths.paths import (
     PathSamples,
     PathSequence,
     Unit,
-    ViaOrientation,
     line,
     refuse_reversal,
     through_orientations,
@@ -69,16 +69,6 @@ class PolynomialPath:
     def extent(self) -> float:
         """See `Path`."""
         return float(self._table[1][-1])
-
-    @property
-    def length(self) -> float:
-        """See `Path`."""
-        return self.extent
-
-    @property
-    def angle(self) -> float:
-        """See `Path`."""
-        return self.orientation.angle
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -166,7 +156,7 @@ class PolynomialPath:
 
 
 def spline(
-    waypoints: Poses, boundary: SplineBoundary = "natural", orientation: ViaOrientation = "smooth"
+    waypoints: Poses, boundary: SplineBoundary = "natural", orientation: OrientationLaw = "axis_angle"
 ) -> PolynomialPath:
     """Return a smooth path through poses: C² in position and in orientation, parametrised by chord length.
 
@@ -174,7 +164,7 @@ def spline(
         waypoints: At least two poses.
         boundary: Boundary condition of the cubic spline of positions; a clamped one would have no tangent at its ends.
             With `periodic` the positions close smoothly, but the orientations do not.
-        orientation: See `through_orientations`; `slerp` is not suitable, because its angular rate jumps.
+        orientation: See `through_orientations`.
 
     Raises:
         InvalidField: There are fewer than two poses, successive ones share a position, the ends of a periodic path
@@ -220,15 +210,15 @@ def blended_lines(
     parts: list[Path] = []
     for i, leg in enumerate(legs):
         taken = cuts[i] + cuts[i + 1]
-        if taken > leg.length * (1.0 + 1e-12) or leg.length <= POINT:
-            raise InvalidField(field, f"leg {i} is {leg.length:g} m long, and its blends take {taken:g} m of it")
+        if taken > leg.curve.length * (1.0 + 1e-12) or leg.curve.length <= POINT:
+            raise InvalidField(field, f"leg {i} is {leg.curve.length:g} m long, and its blends take {taken:g} m of it")
         if i > 0:
             a, b = (legs[k].curve.at(np.zeros(1))[1][0] for k in (i - 1, i))
             refuse_reversal(a, b, field)
             parts.append(_corner(legs[i - 1 : i + 1], turns[i - 1 : i + 1], cuts[i]))
-        begin, finish = cuts[i] / leg.length, 1.0 - cuts[i + 1] / leg.length
+        begin, finish = cuts[i] / leg.curve.length, 1.0 - cuts[i + 1] / leg.curve.length
         if finish - begin > 1e-12:
-            ends = leg.curve.at(np.array([begin, finish]) * leg.length)[0]
+            ends = leg.curve.at(np.array([begin, finish]) * leg.curve.length)[0]
             parts.append(CurvePath(Line(ends[0], ends[1]), turns[i].part(begin, finish)))
     return PathSequence(tuple(parts))
 
@@ -236,11 +226,11 @@ def blended_lines(
 def _corner(legs: Sequence[CurvePath], turns: Sequence[Turn], radius: float) -> PolynomialPath:
     """Return the parabola between two legs, p(u) = p_B - (1 - u)² a + u² b, with the orientation blended likewise."""
     before, after = legs
-    a = radius * before.curve.at(np.array([before.length]))[1][0]
+    a = radius * before.curve.at(np.array([before.curve.length]))[1][0]
     corner, directions, _ = after.curve.at(np.array([0.0]))
     b = radius * directions[0]
     coefficients = np.array([[corner[0] - a, 2.0 * a, b - a]])
-    turn = _turn_over(turns, 1.0 - radius / before.length, radius / after.length)
+    turn = _turn_over(turns, 1.0 - radius / before.curve.length, radius / after.curve.length)
     return PolynomialPath(PiecewisePolynomial(np.array([0.0, 1.0]), coefficients), turn)
 
 

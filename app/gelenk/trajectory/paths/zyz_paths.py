@@ -11,7 +11,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -20,8 +19,6 @@ from gelenk.robot.notations import rotations_from_zyz, zyz_from_rotations
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import cubic_spline
 from gelenk.trajectory.paths.orientation_paths import travelled
-
-ZyzBranch: TypeAlias = Literal["regular", "flipped"]
 
 _DEGENERATE = 1e-14
 """Sine of θ up to which only φ + ψ or φ - ψ counts as determined."""
@@ -34,19 +31,10 @@ class ZyzPath:
     Attributes:
         start: (φ, θ, ψ) of R_i; shape (3,), [rad].
         change: Change of the angles up to R_f; shape (3,), [rad].
-        branch: Triple of R_f that it leads to: `regular` if the sign of θ stays, `flipped` if it changes.
-        degenerate: Ends at which only φ + ψ or φ - ψ is determined; φ is there taken from the other end.
     """
 
     start: Array
     change: Array
-    branch: ZyzBranch = "regular"
-    degenerate: tuple[Literal["start", "end"], ...] = ()
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Always empty: the rates of the angles are constant."""
-        return ()
 
     @property
     def angle(self) -> float:
@@ -65,7 +53,7 @@ class ZyzPath:
 
     def part(self, begin: float, finish: float) -> "ZyzPath":
         """See `Turn`."""
-        return ZyzPath(self.triple_at(begin), (finish - begin) * self.change, self.branch)
+        return ZyzPath(self.triple_at(begin), (finish - begin) * self.change)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +67,6 @@ class ZyzCurve:
     angles: PiecewisePolynomial
 
     @property
-    def breaks(self) -> tuple[float, ...]:
-        """Always empty: the angular rate is continuous."""
-        return ()
-
-    @property
     def angle(self) -> float:
         """See `OrientationPath`."""
         return travelled(self, max(64, 8 * len(self.angles.coefficients)))
@@ -93,18 +76,6 @@ class ZyzCurve:
         return _motion(*self.angles.rates_at(x))
 
 
-def zyz_paths(start: Array, end: Array) -> tuple[ZyzPath, ZyzPath]:
-    """Return the two paths by ZYZ angles, to either triple of R_f; φ and ψ change by at most π.
-
-    Args:
-        start: R_i; shape (3, 3).
-        end: R_f; shape (3, 3).
-    """
-    both = np.array([start, end])
-    regular, flipped = zyz_turns(both, [False])[0], zyz_turns(both, [True])[0]
-    return regular, flipped
-
-
 def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
     """Return the turns from each orientation to the next, each starting with the angles at which the previous one ends.
 
@@ -112,14 +83,7 @@ def zyz_turns(rotations: Array, flips: Sequence[bool]) -> list[ZyzPath]:
         rotations: Orientations; shape (M + 1, 3, 3).
         flips: Whether θ changes its sign, for each of the M turns.
     """
-    triples = zyz_triples(rotations, flips)
-    flat = _degenerate(rotations)
-    names: tuple[Literal["start", "end"], ...] = ("start", "end")
-    turns = []
-    for i, flip in enumerate(flips):
-        degenerate = tuple(name for name, is_flat in zip(names, flat[i : i + 2], strict=True) if is_flat)
-        turns.append(ZyzPath(triples[i], triples[i + 1] - triples[i], "flipped" if flip else "regular", degenerate))
-    return turns
+    return [ZyzPath(first, last - first) for first, last in pairwise(zyz_triples(rotations, flips))]
 
 
 def zyz_spline(rotations: Array, knots: Array, flips: Sequence[bool]) -> ZyzCurve:

@@ -1,16 +1,19 @@
 """A part of a trajectory, from rest to rest: one segment, or lines blended into one path."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
 from gelenk.trajectory.audit.demands import Demands
 from gelenk.trajectory.audit.words import StopReason
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.problem.problem import SegmentReport, TimingComparison
+from gelenk.trajectory.problem.problem import SegmentReport
+from gelenk.trajectory.problem.result import TimingComparison
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,15 +77,24 @@ class PlannedPart:
         return tuple(report.moved(start) for report in self.reports)
 
 
-def standing(configuration: Array) -> PiecewisePolynomial:
-    """Return a motion of zero duration at a configuration of shape (n,)."""
-    return PiecewisePolynomial(np.zeros(2), configuration[None, None, :].copy())
+def standing(configuration: Array, duration: float = 0.0) -> PiecewisePolynomial:
+    """Return joints that stand still at a configuration of shape (n,) for a duration, [s]."""
+    return PiecewisePolynomial(np.array([0.0, duration]), configuration[None, None].copy())
+
+
+@contextmanager
+def in_field(field: str) -> Iterator[None]:
+    """Name the part of the request in refusals of its fields."""
+    try:
+        yield
+    except InvalidField as error:
+        raise InvalidField(f"{field}.{error.field}", error.reason) from error
 
 
 def _slowed_demands(demands: Demands, factor: float) -> Demands:
-    stretches = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.stretches)
+    zones = tuple(replace(one, begin=factor * one.begin, end=factor * one.end) for one in demands.zones)
     path = None if demands.path is None else _slowed(demands.path, factor)
-    return replace(demands, path=path, stretches=stretches)
+    return replace(demands, path=path, zones=zones)
 
 
 def _slowed(path: Callable[[Array], Poses], factor: float) -> Callable[[Array], Poses]:

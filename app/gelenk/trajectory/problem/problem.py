@@ -8,14 +8,17 @@ two segments unless they are blended lines.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from gelenk.ik.search.task import FULL_POSE, Task
 from gelenk.robot.arrays import Array
 from gelenk.robot.poses import Poses
-from gelenk.trajectory.audit.audit import Audit
 from gelenk.trajectory.audit.demands import TipLimits
-from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType, StopReason
+from gelenk.trajectory.audit.result import Audit
+from gelenk.trajectory.audit.words import Law, NearSingularity, OrientationLaw, SegmentType
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.motion.splines import Boundary
+from gelenk.trajectory.problem.result import Damping, PlanningFailure, SegmentBlend, TimingComparison
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +36,11 @@ class SegmentLimits:
     acceleration: Array
     jerk: Array
     tip: TipLimits = field(default_factory=TipLimits)
+
+    @property
+    def joints(self) -> Array:
+        """Limits of velocity, acceleration and jerk; shape (3, n)."""
+        return np.array([self.velocity, self.acceleration, self.jerk])
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,23 +128,6 @@ class TrajectoryProblem:
 
 
 @dataclass(frozen=True, slots=True)
-class BlendReport:
-    """How a line was blended into the next.
-
-    Attributes:
-        radius: Distance from the corner at which the blend begins, [m].
-        start_time: Start of the blend, [s].
-        end_time: End of the blend, [s].
-        acceleration: Limit of the tip's acceleration in the blend, [m/s²]; None if only the radius was given.
-    """
-
-    radius: float
-    start_time: float
-    end_time: float
-    acceleration: float | None
-
-
-@dataclass(frozen=True, slots=True)
 class SegmentReport:
     """The result of a segment, as far as it was completed.
 
@@ -148,7 +139,7 @@ class SegmentReport:
         end_time: End of the segment, [s].
         length: Length of the tip's path, [m]; None for a joint segment.
         angle: Angle through which the tip turns, [rad]; None for a joint segment.
-        joint_deviation: Largest distance [m] and angle [rad] from the path due to damping; None if not damped.
+        joint_deviation: Deviation from the path where joints were damped.
         blended: Whether the motion passes into the next segment without a stop.
         blend: Blend into the next segment, if the motion gets that far.
         notes: Further remarks for the user.
@@ -161,9 +152,9 @@ class SegmentReport:
     end_time: float
     length: float | None = None
     angle: float | None = None
-    joint_deviation: tuple[float, float] | None = None
+    joint_deviation: Damping | None = None
     blended: bool = False
-    blend: BlendReport | None = None
+    blend: SegmentBlend | None = None
     notes: tuple[str, ...] = ()
 
     def slowed(self, factor: float) -> "SegmentReport":
@@ -179,48 +170,6 @@ class SegmentReport:
         if blend is not None:
             blend = replace(blend, start_time=change(blend.start_time), end_time=change(blend.end_time))
         return replace(self, start_time=change(self.start_time), end_time=change(self.end_time), blend=blend)
-
-
-@dataclass(frozen=True, slots=True)
-class TimingComparison:
-    """Uniform and time-optimal timing of the path of one segment, or of blended ones.
-
-    Attributes:
-        segments: Indices of the segments, from 0.
-        law: Time law that is scaled uniformly.
-        uniform_duration: Duration of that law, scaled until some limit is just reached, [s].
-        velocity_factor: k that the velocity limits alone require for the law lasting 1 s.
-        acceleration_factor: The same for the acceleration limits, which √k times the time keeps.
-        time_optimal_duration: Duration of the time-optimal law, [s].
-    """
-
-    segments: tuple[int, ...]
-    law: Law
-    uniform_duration: float
-    velocity_factor: float
-    acceleration_factor: float
-    time_optimal_duration: float
-
-
-@dataclass(frozen=True, slots=True)
-class PlanningFailure:
-    """Why and where a trajectory ends early.
-
-    Attributes:
-        reason: Kind of reason.
-        segment: Index of the segment that could not be completed, from 0.
-        time: End of the planned motion, [s].
-        position: Position of the tip at which the path could not continue; shape (3,), [m].
-        joint: Joint that is at its limit, if any.
-        detail: Explanation in a sentence.
-    """
-
-    reason: StopReason
-    segment: int
-    time: float
-    position: Array
-    joint: str | None
-    detail: str
 
 
 @dataclass(frozen=True, slots=True)

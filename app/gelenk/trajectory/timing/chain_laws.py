@@ -11,7 +11,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
-from gelenk.trajectory.laws.jerk_limited import JerkLimits, JointState, jerk_limited
+from gelenk.trajectory.laws.jerk_limited import jerk_limited
 from gelenk.trajectory.motion.composition import derivatives
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
 from gelenk.trajectory.motion.time_laws import hermite_pieces
@@ -80,14 +80,14 @@ class _Chain:
         even = np.maximum(self.even_speeds(begin, end), speeds.max())
         acceleration = self.factors(s, none, one, none).max() ** -2
         jerk = self.factors(s, none, none, one).max() ** -3
-        start, stop = (JointState(*np.array([[s[i]], [speeds[i]], [0.0]])) for i in (0, -1))
+        start, stop = (np.array([[s[i]], [speeds[i]], [0.0]]) for i in (0, -1))
         found = []
         for cruise in np.unique(np.geomspace(even.min(), even.max(), _CRUISES)):
             slower = np.geomspace(1.0, _SLOWEST, _CAPS)
             tried = []
             for _ in range(1 + _HALVINGS):
                 for k in slower:
-                    limits = JerkLimits(*np.array([[cruise], [acceleration / k**2], [jerk / k**3]]))
+                    limits = np.array([[cruise], [acceleration / k**2], [jerk / k**3]])
                     tried.append((k, *self._under(start, stop, limits)))
                     if tried[-1][2] <= _ENOUGH:
                         break
@@ -103,9 +103,7 @@ class _Chain:
             return min(good_laws, key=lambda law: law.duration), 1.0
         return None, float(np.clip(min((factor for _, factor in found), default=_STEP), 1.0 + 2.0 * _KEPT, _STEP))
 
-    def _under(
-        self, start: JointState, end: JointState, limits: JerkLimits
-    ) -> tuple[PiecewisePolynomial | None, float]:
+    def _under(self, start: Array, end: Array, limits: Array) -> tuple[PiecewisePolynomial | None, float]:
         """Return the jerk-limited profile from one state to another, if any, and its k; ∞ if it turns back."""
         try:
             law = jerk_limited(start, end, limits)
@@ -114,7 +112,7 @@ class _Chain:
         t = np.diff(law.breaks)[:, None] * np.linspace(0.0, 1.0, _INSTANTS // 4)
         rows = np.repeat(law.coefficients, t.shape[1], axis=0)
         places, *rates = (values.reshape(t.shape) for values in derivatives(rows, t.reshape(-1, 1)))
-        if rates[0].min() < -_KEPT * limits.velocity[0]:
+        if rates[0].min() < -_KEPT * limits[0, 0]:
             return law, np.inf
         return law, float(self.factors(places, *rates).max())
 

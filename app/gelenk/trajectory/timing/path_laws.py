@@ -1,24 +1,19 @@
-"""Time laws s(t) along a whole path from rest to rest: polynomials, trapezoidal and seven-phase jerk-limited profiles.
+"""Time laws s(t) along a whole path from rest to rest: trapezoidal and seven-phase jerk-limited profiles.
 
-Only the shape of a law is chosen here; its duration follows by uniform scaling. A polynomial has a single shape. For
-the other laws, the shape that takes the least time under the limits on this path is searched for: where the joints'
-path bends strongly, a high cruise speed leaves less for the acceleration.
+Only the shape of a law is chosen here; its duration follows by uniform scaling. The shape that takes the least time
+under the limits on this path is searched for: where the joints' path bends strongly, a high cruise speed leaves less
+for the acceleration.
 """
 
 from collections.abc import Callable
-from typing import Final
 
 import numpy as np
 
 from gelenk.robot.arrays import Array, Indices
 from gelenk.trajectory.laws.s_curves import lasting, planned, profiles
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
-from gelenk.trajectory.motion.time_laws import between
 from gelenk.trajectory.paths.path_geometry import ORDERS, LimitedPath, Slopes, of_order, ratios
 from gelenk.trajectory.problem.problem import SegmentLimits
-
-POLYNOMIALS: Final = {"cubic": 2, "quintic": 3, "septic": 4}
-"""Number of derivatives given at each end, counting the position as one."""
 
 _SAMPLES = 600
 _LEAST_SAMPLES = 4
@@ -35,14 +30,6 @@ _SEARCH = 5
 """Rounds of the search for a shape."""
 _FIRST_STEP = 2.0
 """First step of the search for acceleration and jerk, as a power of two."""
-
-
-def polynomial(name: str, geometry: LimitedPath) -> PiecewisePolynomial:
-    """Return the cubic, quintic or septic s(t) from rest to rest, lasting 1 s."""
-    count = POLYNOMIALS[name]
-    rows = np.zeros((2, count, 1))
-    rows[0, 0], rows[1, 0] = geometry.ends
-    return between(rows[0], rows[1], 1.0)
 
 
 def trapezoid(geometry: LimitedPath) -> PiecewisePolynomial:

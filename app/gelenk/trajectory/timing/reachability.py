@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gelenk.errors import InvalidField
 from gelenk.robot.arrays import Array
 
 _NO_WEIGHT = 1e-12
@@ -85,62 +84,39 @@ def _highest(upper: Array, lower: Array, x: Array) -> Array:
     return x
 
 
-def controllable(course: Stages, caps: Array, end: tuple[float, float]) -> tuple[Array, Array]:
-    """Return the least and the largest x at each node from which the end can be reached; shape (N + 1,) each.
+def controllable(course: Stages, caps: Array) -> Array:
+    """Return the largest x at each node from which the end can be reached; shape (N + 1,).
 
     Args:
         course: Constraints of the intervals.
         caps: Further upper bound of x at each node; shape (N + 1,).
-        end: Least and largest x allowed at the end.
-
-    Raises:
-        InvalidField: The end cannot be reached, which is possible only if it is not at rest.
     """
-    count = len(course.lengths)
-    least, most = np.zeros(count + 1), np.minimum(np.append(course.highest, np.inf), caps)
-    least[-1], most[-1] = end[0], min(end[1], caps[-1])
+    most: Array = np.minimum(np.append(course.highest, np.inf), caps)
     halves = 0.5 / course.lengths
     climb = course.lower[1] + halves[:, None]
     with np.errstate(divide="ignore"):
         gains = np.where(climb > 0.0, 1.0 / climb, np.inf)
     offsets = course.lower[0]
-    for i in range(count - 1, -1, -1):
+    for i in range(len(course.lengths) - 1, -1, -1):
         # No faster than the motion can brake to the largest x of the next node.
         most[i] = min(most[i], ((most[i + 1] * halves[i] - offsets[i]) * gains[i]).min())
         if course.kept[i] > 0.0:
             most[i] = min(most[i], most[i + 1] / course.kept[i])
-        if least[i + 1] > 0.0:
-            least[i], most[i] = _at_least(course, i, least[i + 1], most[i])
-        if not least[i] <= most[i]:
-            raise InvalidField("end_velocity", "cannot be reached along this path under these limits")
-    return least, most
+    return most
 
 
-def _at_least(course: Stages, i: int, next_least: float, most: float) -> tuple[float, float]:
-    """Return bounds of x in interval `i` for which x at its end is at least `next_least`."""
-    half = 0.5 / course.lengths[i]
-    need = next_least * half - course.upper[0, i]
-    climb = course.upper[1, i] + half
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bounds = need / climb
-    least = bounds[climb > 0.0].max(initial=0.0)
-    return float(least), float(min(most, bounds[climb < 0.0].min(initial=np.inf)))
-
-
-def fastest(course: Stages, least: Array, most: Array, start: float) -> Array:
+def fastest(course: Stages, most: Array, start: float) -> Array:
     """Return x at each node for the largest u in every interval that keeps x within bounds; shape (N + 1,).
 
     Args:
         course: Constraints of the intervals.
-        least: Least x at each node; shape (N + 1,).
         most: Largest x at each node; shape (N + 1,).
-        start: x at the first node, within its bounds.
+        start: Largest x at the first node.
     """
-    x = start
+    x = min(start, most[0])
     found = [x]
-    bounds = zip(2.0 * course.lengths, *course.upper, least[1:], most[1:], strict=True)
-    for twice, offsets, slopes, lower, upper in bounds:
+    for twice, offsets, slopes, upper in zip(2.0 * course.lengths, *course.upper, most[1:], strict=True):
         u = (offsets + slopes * x).min()
-        x = max(min(x + twice * u, upper), lower)
+        x = max(min(x + twice * u, upper), 0.0)
         found.append(x)
     return np.array(found)

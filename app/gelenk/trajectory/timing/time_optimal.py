@@ -19,6 +19,7 @@ import numpy as np
 
 from gelenk.errors import InvalidField, TooLarge
 from gelenk.robot.arrays import Array, Flags
+from gelenk.trajectory.laws.time_scaling import LARGEST, check_limits
 from gelenk.trajectory.motion.intervals import composed, cut, rows
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial
 from gelenk.trajectory.timing.reachability import controllable, fastest, stages
@@ -29,9 +30,6 @@ Rows: TypeAlias = Callable[[Array], tuple[Array, Array]]
 INTERVALS = 200
 LARGEST_PATH = 100_000
 """Largest number of intervals times joints in the first run; the second run may double it."""
-SMALLEST, LARGEST = 1e-9, 1e9
-"""Range of a limit; `LARGEST` also bounds the coordinates and travels of a path."""
-
 MARGIN = 1e-9
 """Fraction of each limit that is reserved for rounding errors."""
 _LEAST_INTERVALS = 4
@@ -75,16 +73,14 @@ class _Task:
         path: q(s).
         limits: Limits of velocity and acceleration, less the margin; shape (2, n).
         is_corner: Whether the motion has to stop at each break; shape (M + 1,).
-        start: Least and largest ṡ² at the start.
-        end: Least and largest ṡ² at the end.
+        most_at_ends: Largest ṡ² at the start and the end: 0, or ∞ where q' = 0, so that the joints rest at any ṡ.
         rows: Further constraints, if any.
     """
 
     path: PiecewisePolynomial
     limits: Array
     is_corner: Flags
-    start: tuple[float, float]
-    end: tuple[float, float]
+    most_at_ends: tuple[float, float]
     rows: Rows | None
 
 
@@ -93,12 +89,10 @@ def time_optimal(
     velocity: Array,
     acceleration: Array,
     *,
-    start_velocity: float = 0.0,
-    end_velocity: float = 0.0,
     intervals: int = INTERVALS,
     further: Rows | None = None,
 ) -> TimeOptimal:
-    """Plan the fastest motion along a path; the limits are kept everywhere.
+    """Plan the fastest motion along a path from rest to rest; the limits are kept everywhere.
 
     The motion stops at corners, where q' jumps. Where q'' jumps, the acceleration may jump too.
 
@@ -106,8 +100,6 @@ def time_optimal(
         path: q(s), without jumps.
         velocity: Velocity limit of each joint; shape (n,), [rad/s or m/s].
         acceleration: Acceleration limit of each joint; shape (n,), [rad/s² or m/s²].
-        start_velocity: ṡ ≥ 0 at the start of the path.
-        end_velocity: ṡ ≥ 0 at its end.
         intervals: Approximate number of intervals, at least four per piece of the path. More come nearer to the
             optimum: 200 are within 1.5 % of it along splines through up to 20 knots.
         further: Further constraints on u = s̈ and x = ṡ² at the start of each interval, for the path scaled to
@@ -117,33 +109,24 @@ def time_optimal(
         The motion, starting at time 0; along a path of zero length (≤ 1e-13), one piece whose two breaks coincide.
 
     Raises:
-        InvalidField: A limit is out of range, the path jumps or stands still, or a velocity at one of its ends is not
-            feasible.
+        InvalidField: A limit is out of range, or the path jumps or stands still.
         TooLarge: The path has too many pieces.
     """
-    _check_limits(velocity, acceleration)
+    check_limits((velocity, acceleration))
     travels = _travels(path)
     if travels.max(initial=0.0) <= _NO_LENGTH:
         law = PiecewisePolynomial(np.zeros(2), path.breaks[None, -1:, None])
         return TimeOptimal(law, PiecewisePolynomial(np.zeros(2), path.at(path.breaks[-1:])[None]))
-    task = _task(path, velocity, acceleration, (start_velocity, end_velocity), further)
+    task = _task(path, travels.max(axis=1), np.stack((velocity, acceleration)) * (1.0 - MARGIN), further)
     nodes = _nodes(task, travels, intervals // 2)
-    x = _squared_speeds(task, nodes, path.duration)
+    x = _squared_speeds(task, nodes)
     more = np.sort(np.concatenate((_switches(nodes, x), _between(task, nodes, _time_law(nodes, x), intervals))))
     nodes = np.union1d(nodes, more[np.diff(more, prepend=-1.0) > _STILL])
-    law = _time_law(nodes, _squared_speeds(task, nodes, path.duration))
+    law = _time_law(nodes, _squared_speeds(task, nodes))
     motion = PiecewisePolynomial(law.breaks, composed(cut(task.path, nodes), law.coefficients[:, 1:]))
     c = law.coefficients * path.duration
     c[:, 0] += path.breaks[0]
     return TimeOptimal(PiecewisePolynomial(law.breaks, c), motion)
-
-
-def _check_limits(velocity: Array, acceleration: Array) -> None:
-    for name, values in (("velocity", velocity), ("acceleration", acceleration)):
-        wrong = ~((values >= SMALLEST) & (values <= LARGEST))
-        if wrong.any():
-            reason = f"must be a number from {SMALLEST:g} to {LARGEST:g}"
-            raise InvalidField(f"limits/joint_{name}/{int(np.argmax(wrong))}", reason)
 
 
 def _travels(path: PiecewisePolynomial) -> Array:
@@ -156,13 +139,10 @@ def _travels(path: PiecewisePolynomial) -> Array:
     return travels
 
 
-def _task(
-    path: PiecewisePolynomial, velocity: Array, acceleration: Array, ends: tuple[float, float], further: Rows | None
-) -> _Task:
+def _task(path: PiecewisePolynomial, travels: Array, limits: Array, further: Rows | None) -> _Task:
     length = path.duration
     powers = length ** np.arange(path.coefficients.shape[1])[:, None]
     unit = PiecewisePolynomial((path.breaks - path.breaks[0]) / length, path.coefficients * powers)
-    travels = _travels(path).max(axis=1)
     if (travels <= _STILL * travels.max()).any():
         i = int(np.argmin(travels))
         raise InvalidField(
@@ -174,34 +154,14 @@ def _task(
     before, after = _at_ends(unit.derivative())
     steepest = np.abs(np.concatenate((before, after))).max()
     is_corner = np.abs(after[:-1] - before[1:]).max(axis=1, initial=0.0) > _CORNER * steepest
-    limits = np.stack((velocity, acceleration)) * (1.0 - MARGIN)
-    start, end = (
-        _speeds(field, speed, length, np.abs(slope), velocity, float(_STILL * steepest))
-        for field, speed, slope in zip(("start_velocity", "end_velocity"), ends, (before[0], after[-1]), strict=True)
-    )
-    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), start, end, further)
+    start, end = (np.inf if np.abs(slope).max() <= _STILL * steepest else 0.0 for slope in (before[0], after[-1]))
+    return _Task(unit, limits, np.concatenate(([False], is_corner, [False])), (start, end), further)
 
 
 def _at_ends(path: PiecewisePolynomial) -> tuple[Array, Array]:
     """Return values at the start and at the end of each piece; shape (M, n) each."""
     powers = np.diff(path.breaks)[:, None] ** np.arange(path.coefficients.shape[1])
     return path.coefficients[:, 0], np.einsum("mk,mkj->mj", powers, path.coefficients)
-
-
-def _speeds(
-    field: str, speed: float, length: float, slope: Array, velocity: Array, smallest: float
-) -> tuple[float, float]:
-    """Return the least and the largest ṡ² at an end of the path scaled to length 1."""
-    with np.errstate(divide="ignore"):
-        most = float((velocity / slope).min())
-    if not 0.0 <= speed <= most * length * (1.0 + MARGIN):
-        raise InvalidField(
-            field, f"must be a number from 0 to {most * length:g}, where a joint's velocity is at its limit"
-        )
-    if speed == 0.0 and slope.max() <= smallest:
-        return 0.0, np.inf  # Where q' = 0, the joints are at rest at any ṡ.
-    squared = min(speed / length, most * (1.0 - 2.0 * MARGIN)) ** 2
-    return squared, squared
 
 
 def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
@@ -220,7 +180,7 @@ def _nodes(task: _Task, travels: Array, intervals: int) -> Array:
     return np.union1d(nodes, near)
 
 
-def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
+def _squared_speeds(task: _Task, nodes: Array) -> Array:
     """Return x = ṡ² of the fastest motion at each node; shape (N + 1,)."""
     lengths = np.diff(nodes)
     stops = np.append(task.path.breaks[task.is_corner], 1.0)
@@ -232,13 +192,8 @@ def _squared_speeds(task: _Task, nodes: Array, length: float) -> Array:
         alpha, beta = np.hstack((alpha, more[0])), np.hstack((beta, more[1]))
     course = stages(lengths, alpha, beta, kept)
     caps = np.where(np.isin(nodes, stops[:-1]), 0.0, np.inf)
-    least, most = controllable(course, caps, task.end)
-    if task.start[0] > most[0] * (1.0 + 4.0 * MARGIN):
-        reason = f"must be at most {np.sqrt(most[0]) * length:g} along this path under these limits"
-        raise InvalidField("start_velocity", reason)
-    if task.start[1] < least[0] * (1.0 - 4.0 * MARGIN):
-        raise InvalidField("end_velocity", "cannot be reached from the velocity at the start under these limits")
-    return fastest(course, least, most, max(min(task.start[1], most[0]), least[0]))
+    caps[-1] = task.most_at_ends[1]
+    return fastest(course, controllable(course, caps), task.most_at_ends[0])
 
 
 def _switches(nodes: Array, x: Array) -> Array:

@@ -12,24 +12,24 @@ Jerk limits apply to the laws with continuous acceleration: `quintic`, `septic`,
 """
 
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from gelenk.errors import InvalidField
 from gelenk.trajectory.audit.words import Law
+from gelenk.trajectory.laws.laws import LAWS, POLYNOMIALS
 from gelenk.trajectory.motion.composition import in_time
 from gelenk.trajectory.motion.polynomial import PiecewisePolynomial, joined
-from gelenk.trajectory.paths.path_geometry import LimitedPath, TipMotion, Zone, geometry_of
-from gelenk.trajectory.paths.paths import Path
-from gelenk.trajectory.problem.problem import SegmentLimits
+from gelenk.trajectory.motion.time_laws import rest_to_rest
+from gelenk.trajectory.paths.path_geometry import LimitedPath
+from gelenk.trajectory.problem.parts import standing
 from gelenk.trajectory.timing.chain_laws import chain_law
-from gelenk.trajectory.timing.path_laws import POLYNOMIALS, polynomial, s_curve, trapezoid
+from gelenk.trajectory.timing.path_laws import s_curve, trapezoid
 from gelenk.trajectory.timing.path_peaks import peaks_of
 from gelenk.trajectory.timing.time_optimal import time_optimal
 from gelenk.trajectory.timing.tip_constraints import tip_rows
 
-_SMOOTH: Final = frozenset({"quintic", "septic", "jerk_limited"})
 _ONE_LAW: Final = (
     "one law runs through all blended lines: a corner, or the line with the lowest limits of the tip, makes it slow "
     "everywhere, `trapezoidal` and `time_optimal` only there"
@@ -59,18 +59,7 @@ class Timed:
     notes: tuple[str, ...] = ()
 
 
-def timed(
-    path: Path | None,
-    joints: PiecewisePolynomial,
-    law: Law,
-    limits: SegmentLimits,
-    *,
-    duration: float | None = None,
-    slow_down: bool = False,
-    tip_motion: TipMotion | None = None,
-    zones: tuple[Zone, ...] = (),
-    corners: tuple[tuple[float, float], ...] = (),
-) -> Timed:
+def timed(geometry: LimitedPath, law: Law, *, duration: float | None = None, slow_down: bool = False) -> Timed:
     """Plan the fastest motion with a law, slowed down uniformly if a longer duration is requested.
 
     The motion stops where q' jumps. Where q'' jumps, the acceleration jumps with any law, and a jerk limit holds only
@@ -81,27 +70,17 @@ def timed(
     places at which they are checked. If the trapezoidal law takes no longer, it is used, because it has fewer pieces.
 
     Args:
-        path: Path of the tip, for its limits and the places where it bends; None for a path of the joints alone.
-        joints: q(s) from s = 0, possibly ending before the path does.
+        geometry: The path of the joints, possibly ending before the path of the tip does, and the limits.
         law: Time law.
-        limits: Limits of joints and tip.
         duration: Requested duration, [s]; the shortest within the limits if None.
         slow_down: Whether the motion may slow down locally where the joints require it; the time-optimal law then
             replaces `law`.
-        tip_motion: Function from the joints' motion to the tip's (`tip_through`), to which the tip limits then apply;
-            by default they apply to the motion along `path`, from which joints that follow it within a tolerance differ
-            slightly. With neither, the tip has no limits.
-        zones: Parts of the path on which the tip has its own limits.
-        corners: s at the beginning and the end of each blend of lines.
 
     Raises:
         InvalidField: The duration is shorter than the limits allow, or limits and path differ too much in magnitude.
     """
-    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
-    chosen: Law = "time_optimal" if slow_down else law
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        parts = [] if geometry.stands_still else [_fastest(part, chosen) for part in geometry.parts()]
-    found = _in_a_row(parts) if parts else _standing(joints)
+        found = _whole(geometry, "time_optimal" if slow_down else law)
     if not np.isfinite(found.motion.coefficients).all():
         raise InvalidField("limits", "these limits and this path are too many powers of ten apart")
     if slow_down and law != "time_optimal":
@@ -110,59 +89,71 @@ def timed(
     return found if duration is None else _lasting(found, duration)
 
 
-def compared(
-    path: Path | None,
-    joints: PiecewisePolynomial,
-    law: Law,
-    limits: SegmentLimits,
-    *,
-    tip_motion: TipMotion | None = None,
-    zones: tuple[Zone, ...] = (),
-    corners: tuple[tuple[float, float], ...] = (),
-) -> tuple[float, float, float, float]:
-    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path.
+class Timings(NamedTuple):
+    """Durations of one path with two time laws.
 
-    Args:
-        path: See `timed`.
-        joints: See `timed`.
-        law: Law that is scaled.
-        limits: Limits of joints and tip.
-        tip_motion: See `timed`.
-        zones: See `timed`.
-        corners: See `timed`.
-
-    Returns:
-        The duration of the law, [s]; k_vel and k_acc that the velocity and acceleration limits of joints and tip
-        require if it lasts 1 s; the time-optimal duration, [s]. Unless jerk binds, the first is max{k_vel, √k_acc}.
+    Attributes:
+        uniform_duration: Of the law, scaled so that it just keeps the limits: the larger of k_vel and √k_acc times
+            1 s, unless jerk requires more, [s].
+        velocity_factor: k_vel of the law lasting 1 s: its largest ratio of a velocity to its limit.
+        acceleration_factor: k_acc likewise.
+        time_optimal_duration: Of the fastest motion along the same path, [s].
     """
-    uniform = timed(path, joints, law, limits, tip_motion=tip_motion, zones=zones, corners=corners)
-    optimal = timed(path, joints, "time_optimal", limits, tip_motion=tip_motion, zones=zones, corners=corners)
-    lasting = uniform.motion.duration
-    if lasting == 0.0:
-        return 0.0, 0.0, 0.0, 0.0
-    geometry = geometry_of(path, joints, limits, tip_motion, zones, corners)
+
+    uniform_duration: float
+    velocity_factor: float
+    acceleration_factor: float
+    time_optimal_duration: float
+
+
+def compared(geometry: LimitedPath, law: Law) -> Timings:
+    """Compare a law, scaled uniformly until some limit is just reached, with the time-optimal one on the same path."""
+    uniform, optimal = timed(geometry, law), timed(geometry, "time_optimal")
+    duration = uniform.motion.duration
+    if duration == 0.0:
+        return Timings(0.0, 0.0, 0.0, 0.0)
     peaks = peaks_of(geometry, uniform.motion, uniform.law, with_jerk=False)
-    return lasting, peaks.of_order(1) * lasting, peaks.of_order(2) * lasting**2, optimal.motion.duration
+    return Timings(duration, peaks.of_order(1) * duration, peaks.of_order(2) * duration**2, optimal.motion.duration)
+
+
+def _whole(geometry: LimitedPath, law: Law) -> Timed:
+    """Time the parts of a path, with a stop between each two."""
+    if geometry.stands_still:
+        end = geometry.joints.breaks[-1:]
+        return Timed(standing(geometry.joints.at(end)[0]), standing(end), 2, True, "nothing moves")
+    parts = [_fastest(part, law) for part in geometry.parts()]
+    if len(parts) == 1:
+        return parts[0]
+    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
+    notes = dict.fromkeys(note for part in parts for note in part.notes)
+    return Timed(
+        joined([part.motion for part in parts]),
+        joined([part.law for part in parts]),
+        min(part.continuous for part in parts),
+        all(part.has_bounded_jerk for part in parts),
+        parts[0].binding,
+        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
+    )
 
 
 def _fastest(geometry: LimitedPath, law: Law) -> Timed:
     if law == "time_optimal":
         return _time_optimal(geometry)
     single = _along(geometry, law, _shape(geometry, law))
-    chained = None if law == "trapezoidal" else chain_law(geometry, POLYNOMIALS.get(law))
+    if LAWS[law].adapts_to_corners or not geometry.corners:
+        return single
+    chained = chain_law(geometry, LAWS[law].conditions)
     if chained is not None:
         each = _along(geometry, law, chained)
         if each.motion.duration < single.motion.duration:
             return each
-    if geometry.corners and law != "trapezoidal":
-        single = replace(single, notes=(*single.notes, _ONE_LAW))
-    return single
+    return replace(single, notes=(*single.notes, _ONE_LAW))
 
 
 def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed:
     """Time the path with a law's shape s(t), scaled to the least time."""
     motion = in_time(geometry.joints, along)
-    smooth = law in _SMOOTH
+    smooth = LAWS[law].keeps_jerk
     peaks = peaks_of(geometry, motion, along, with_jerk=smooth)
     bends = geometry.bends()
     jerk_holds = smooth and len(bends) == 0
@@ -178,7 +169,7 @@ def _along(geometry: LimitedPath, law: Law, along: PiecewisePolynomial) -> Timed
 def _shape(geometry: LimitedPath, law: Law) -> PiecewisePolynomial:
     """Return a law's s(t) with an arbitrary duration."""
     if law in POLYNOMIALS:
-        return polynomial(law, geometry)
+        return rest_to_rest(*geometry.ends, POLYNOMIALS[law])
     return trapezoid(geometry) if law == "trapezoidal" else s_curve(geometry)
 
 
@@ -199,29 +190,6 @@ def _scaled(timing: Timed, factor: float) -> Timed:
     return replace(timing, motion=timing.motion.scaled(factor), law=timing.law.scaled(factor))
 
 
-def _in_a_row(parts: list[Timed]) -> Timed:
-    """Join motions with a stop between each two."""
-    if len(parts) == 1:
-        return parts[0]
-    stops = ", ".join(f"{part.law.at(part.law.breaks[-1:])[0, 0]:.4g}" for part in parts[:-1])
-    notes = dict.fromkeys(note for part in parts for note in part.notes)
-    return Timed(
-        joined([part.motion for part in parts]),
-        joined([part.law for part in parts]),
-        min(part.continuous for part in parts),
-        all(part.has_bounded_jerk for part in parts),
-        parts[0].binding,
-        (f"the direction jumps at s = {stops}: the motion stops there", *notes),
-    )
-
-
-def _standing(joints: PiecewisePolynomial) -> Timed:
-    """Return a motion of zero duration at the end of the path."""
-    end = joints.breaks[-1:]
-    motion = PiecewisePolynomial(np.zeros(2), joints.at(end)[None])
-    return Timed(motion, PiecewisePolynomial(np.zeros(2), end[None, :, None].copy()), 2, True, "nothing moves")
-
-
 def _lasting(fastest: Timed, duration: float) -> Timed:
     """Slow a motion down to a given duration.
 
@@ -232,15 +200,7 @@ def _lasting(fastest: Timed, duration: float) -> Timed:
     if duration < least * (1.0 - _ROUNDING):
         raise InvalidField("duration", f"must be at least {least:.10g} s: {fastest.binding}")
     if least == 0.0:
-        ends = np.array([0.0, duration])
-        motion, law = (PiecewisePolynomial(ends, one.coefficients) for one in (fastest.motion, fastest.law))
-        return replace(fastest, motion=motion, law=law)
-    slowed = _scaled(fastest, max(1.0, duration / least))
-    return replace(slowed, motion=_ending(slowed.motion, duration), law=_ending(slowed.law, duration))
-
-
-def _ending(motion: PiecewisePolynomial, duration: float) -> PiecewisePolynomial:
-    """Set the last break to exactly `duration`."""
-    breaks = motion.breaks.copy()
-    breaks[-1] = duration
-    return PiecewisePolynomial(breaks, motion.coefficients)
+        motion, law = (standing(one.coefficients[0, 0], duration) for one in (fastest.motion, fastest.law))
+    else:
+        motion, law = fastest.motion.lasting(duration), fastest.law.lasting(duration)
+    return replace(fastest, motion=motion, law=law)

@@ -1,0 +1,80 @@
+"""Results of planning that are part of an answer as they are, without the code that computes them."""
+
+from dataclasses import dataclass
+
+from gelenk.robot.result import Result
+from gelenk.trajectory.audit.words import Law, StopReason
+
+
+@dataclass(frozen=True, slots=True)
+class Damping(Result):
+    """How far the tip left its path because its joints were damped.
+
+    Attributes:
+        distance: At most, [m].
+        angle: At most, [rad].
+    """
+
+    distance: float
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class SegmentBlend(Result):
+    """How a line was blended into the next.
+
+    Attributes:
+        radius: Distance from the corner at which the motion leaves the line, [m].
+        start_time: When it begins, [s].
+        end_time: When it ends, [s].
+        acceleration: Limit of the tip's in it, [m/s²]; null where `blend_radius` was given, and only the limits of the
+            lines count.
+    """
+
+    radius: float
+    start_time: float
+    end_time: float
+    acceleration: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class PlanningFailure(Result):
+    """Why a trajectory ends early.
+
+    Attributes:
+        reason: Why the motion ends before its goal.
+        segment: Index of the segment that could not be completed, from 0.
+        time: Where the motion ends, [s].
+        position: Tip position in the base frame where it could not go on, [m].
+        joint: The joint at its limit.
+        detail: An explanation in one sentence, with numbers.
+    """
+
+    reason: StopReason
+    segment: int
+    time: float
+    position: tuple[float, ...]
+    joint: str | None
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class TimingComparison(Result):
+    """Two timings of one path.
+
+    Attributes:
+        segments: Indices of the segments, from 0; several if they are blended.
+        law: The law that is scaled uniformly.
+        uniform_duration: The law, scaled so that some limit is just reached, [s].
+        velocity_factor: k_vel, the largest ratio of a velocity to its limit if the law lasts 1 s; no unit.
+        acceleration_factor: k_acc, likewise of accelerations; no unit. The law's duration is the larger one of k_vel
+            and √k_acc in seconds, longer where the limits of jerk ask for it.
+        time_optimal_duration: Of the fastest motion along the same path, [s].
+    """
+
+    segments: tuple[int, ...]
+    law: Law
+    uniform_duration: float
+    velocity_factor: float
+    acceleration_factor: float
+    time_optimal_duration: float
