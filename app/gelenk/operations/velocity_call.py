@@ -7,7 +7,7 @@ import numpy as np
 
 from gelenk.contract.velocity import NullSpace, VelocityRequest
 from gelenk.errors import InvalidArray, InvalidField, counted, quoted
-from gelenk.ik.search.null_space import Objective
+from gelenk.ik.search.problem import Objective
 from gelenk.ik.search.task import Task
 from gelenk.ik.search.words import DIRECTIONS
 from gelenk.kinematics.velocity.inverse_velocity import descent

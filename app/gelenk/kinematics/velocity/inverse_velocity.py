@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gelenk.errors import CertificationFailed
-from gelenk.ik.search.null_space import Objective, objective_gradients
+from gelenk.ik.search.null_space import objective_gradients
+from gelenk.ik.search.problem import Objective
 from gelenk.kinematics.judge.judge import TOLERANCE
 from gelenk.kinematics.velocity.jacobian import Reference, jacobians
 from gelenk.kinematics.velocity.judge import motion_scales
